@@ -1,0 +1,53 @@
+# Compile options of every target of the project, and the two helpers that declare libraries and tests.
+
+set(ROLLGAIT_SANITIZE "" CACHE STRING "Sanitizers to build with, for example address,undefined")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+
+add_library(rollgait_options INTERFACE)
+target_compile_options(rollgait_options INTERFACE -Wall -Wextra -Wshadow -Werror)
+target_include_directories(rollgait_options INTERFACE "${PROJECT_SOURCE_DIR}")
+if(ROLLGAIT_SANITIZE)
+  target_compile_options(rollgait_options INTERFACE
+    "-fsanitize=${ROLLGAIT_SANITIZE}" -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(rollgait_options INTERFACE "-fsanitize=${ROLLGAIT_SANITIZE}")
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  # A read of an uninitialised matrix entry shows up as NaN.
+  target_compile_definitions(rollgait_options INTERFACE EIGEN_INITIALIZE_MATRICES_BY_NAN)
+endif()
+
+# rollgait_library(NAME base SOURCES a.cc DEPS rollgait::math PRIVATE_DEPS ipopt)
+# declares the static library rollgait_<NAME> with the alias rollgait::<NAME>.
+function(rollgait_library)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  add_library(rollgait_${ARG_NAME} STATIC ${ARG_SOURCES})
+  add_library(rollgait::${ARG_NAME} ALIAS rollgait_${ARG_NAME})
+  target_link_libraries(rollgait_${ARG_NAME} PUBLIC ${ARG_DEPS} PRIVATE rollgait_options ${ARG_PRIVATE_DEPS})
+  target_include_directories(rollgait_${ARG_NAME} PUBLIC "${PROJECT_SOURCE_DIR}")
+endfunction()
+
+# rollgait_test(core/base/dual_test.cc DEPS rollgait::base LABELS unit)
+# declares one GoogleTest program per source file; the path below tests/ is its name.
+function(rollgait_test SOURCE)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPS;LABELS" ${ARGN})
+  file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}/tests" "${CMAKE_CURRENT_SOURCE_DIR}/${SOURCE}")
+  string(REGEX REPLACE "\\.cc$" "" name "${path}")
+  string(REPLACE "/" "." target "${name}")
+  add_executable(${target} ${SOURCE})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  target_link_libraries(${target} PRIVATE rollgait_options ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
+  add_test(NAME ${target} COMMAND ${target})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 600)
+  endif()
+  set_tests_properties(${target} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

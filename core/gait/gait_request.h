@@ -1,0 +1,123 @@
+#ifndef ROLLGAIT_CORE_GAIT_GAIT_REQUEST_H_
+#define ROLLGAIT_CORE_GAIT_GAIT_REQUEST_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/models/catalog.h"
+#include "core/trajectory/trajectory.h"
+
+namespace rollgait {
+
+// A gait request as it comes in: any numbers. Field for field rollgait.v1.SolveSpec, which documents meaning, unit, default
+// and range. An empty optional asks for the default.
+struct GaitRequest {
+  struct Range {
+    double min = 0, max = 0;
+  };
+  struct Phase {
+    std::vector<std::string> contacts;
+    std::optional<int> intervals;
+    std::optional<double> min_duration, max_duration;  // s
+  };
+  struct SquaredTorque {
+    std::map<std::string, double> joint_weights;
+  };
+  struct SquaredTorqueRate {
+    std::map<std::string, double> joint_weights;
+  };
+  struct MechanicalWork {
+    std::optional<double> smoothing;  // W
+  };
+  struct Time {};
+  struct Tracking {
+    struct Channel {
+      std::string joint;
+      std::vector<double> positions;
+      std::optional<double> weight;
+    };
+    std::vector<Channel> channels;
+  };
+  struct CostTerm {
+    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking> term;
+    std::optional<double> weight;
+  };
+  enum class Normalization { kPerDistance, kPerTime, kNone };
+  enum class AccuracyLevel { kDraft, kStandard, kFine };
+
+  BodyRequest body;
+  double slope = 0;  // rad
+  struct Motion {
+    std::optional<double> speed, step_length, step_duration;  // m/s, m, s
+    bool free_speed = false;
+  } motion;
+  Cycle cycle = Cycle::kHalf;
+  std::optional<std::vector<Phase>> phases;
+  std::vector<CostTerm> costs;
+  Normalization normalization = Normalization::kPerDistance;
+  struct GroundContact {
+    std::optional<double> friction_coefficient, min_normal_force_bw, swing_clearance;
+    std::optional<Range> touch_down_point, lift_off_point;
+  } ground_contact;
+  struct Limits {
+    std::map<std::string, Range> joint_position;
+    std::map<std::string, double> joint_velocity;
+    std::map<std::string, Range> joint_effort;
+  } limits;
+  struct Discretization {
+    Scheme scheme = Scheme::kRadau2;
+    std::optional<int> single_support_intervals, double_support_intervals;
+  } discretization;
+  struct Accuracy {
+    AccuracyLevel level = AccuracyLevel::kStandard;
+    std::optional<double> kkt_tolerance, max_gap, max_slip;
+    std::optional<int> max_refinements;
+  } accuracy;
+  struct SolverLimits {
+    std::optional<int> max_iterations;
+    std::optional<double> max_wall_time;  // s
+  } solver_limits;
+  std::optional<double> gravity;  // m/s²
+};
+
+// A request that has been checked and completed: every default filled in, every name resolved, the scene built.
+// Made only by CheckRequest. Immutable value.
+struct GaitSpec {
+  struct Phase {
+    std::vector<int> contacts;  // indices into scene.contacts
+    int intervals;
+    double min_duration, max_duration;
+  };
+  struct CostTerm {
+    decltype(GaitRequest::CostTerm::term) term;  // optionals inside are filled
+    double weight;
+  };
+  Scene scene;  // limits of the request already applied to its joints
+  double slope;
+  Vector3 gravity;  // world axes, m/s²
+  std::optional<double> speed, step_length, step_duration;  // prescribed ones
+  GaitRequest::Range speed_range, step_length_range, step_duration_range;
+  Cycle cycle;
+  std::vector<Phase> phases;
+  std::vector<CostTerm> costs;
+  GaitRequest::Normalization normalization;
+  double friction_coefficient, min_normal_force_bw, swing_clearance;
+  std::optional<GaitRequest::Range> touch_down_point, lift_off_point;
+  Scheme scheme;
+  double kkt_tolerance, max_gap, max_slip;
+  int max_refinements;
+  int max_iterations;
+  double max_wall_time;
+};
+
+// Checks every field before any work starts. Violations name the fields as in the proto, relative to the spec.
+Result<GaitSpec> CheckRequest(const GaitRequest& request);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_GAIT_REQUEST_H_

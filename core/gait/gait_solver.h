@@ -1,0 +1,64 @@
+#ifndef ROLLGAIT_CORE_GAIT_GAIT_SOLVER_H_
+#define ROLLGAIT_CORE_GAIT_GAIT_SOLVER_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gait/gait_request.h"
+#include "core/nlp/result.h"
+#include "core/trajectory/trajectory.h"
+#include "core/validation/report.h"
+
+namespace rollgait {
+
+// One term of the cost at the solution; see rollgait.v1.CostValue.
+struct CostValue {
+  std::string name;
+  double weight = 0;
+  double value = 0;
+  std::string unit;
+  double contribution = 0;
+};
+
+struct UnmetConstraint {
+  std::string name;
+  int phase = 0;
+  double time = 0;       // s
+  double violation = 0;  // in unit
+  std::string unit;
+};
+
+struct MeshStatistics {
+  std::vector<int> intervals;
+  int unknowns = 0, constraints = 0, jacobian_nonzeros = 0, hessian_nonzeros = 0, iterations = 0;
+  double wall_time = 0, evaluation_time = 0, objective = 0, kkt_error = 0, max_gap = 0, max_slip = 0;
+};
+
+// What a solve gives back, whatever its termination.
+struct GaitSolution {
+  Termination termination = Termination::kNumericalDifficulty;
+  std::string message;
+  std::optional<Trajectory> trajectory;      // present if the last iterate is finite
+  std::optional<AccuracyReport> accuracy;    // present with the trajectory
+  bool within_requested_accuracy = false;
+  double objective = 0;
+  double kkt_error = 0;
+  double constraint_violation = 0;
+  std::vector<CostValue> costs;
+  std::vector<UnmetConstraint> unmet_constraints;
+  std::vector<MeshStatistics> meshes;
+  double speed = 0, step_length = 0;  // m/s, m
+  double wall_time = 0;               // s
+};
+
+// Turns a checked request into a trajectory with an accuracy report. Blocks; one solve at a time in a process (MUMPS).
+class GaitSolver {
+ public:
+  virtual ~GaitSolver() = default;
+  virtual GaitSolution Solve(const GaitSpec& spec, const SolveControl& control) = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_GAIT_SOLVER_H_

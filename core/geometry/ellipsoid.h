@@ -1,0 +1,38 @@
+#ifndef ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_
+#define ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_
+
+#include "core/base/types.h"
+
+namespace rollgait {
+
+// Ellipsoid in its own principal axes. Every member works in those axes and takes a unit outward normal `nu`.
+// Notation and formulas: h = support function, x = ∇h, S = ∇²h, T = D S, Q = D² S (docs/notation.md).
+// Immutable; any thread may share it. Contract: semi-axes finite and > 0.
+class Ellipsoid {
+ public:
+  explicit Ellipsoid(const Vector3& semi_axes);
+
+  const Vector3& semi_axes() const { return semi_axes_; }
+
+  // h(ν) = ‖Dν‖, m: distance from the centre to the tangent plane with normal ν.
+  double Support(const Vector3& nu) const;
+  // x(ν) = ∇h, m: the point of the surface with outward normal ν. Source: eq. (2.10) with n = −ν.
+  Vector3 SupportPoint(const Vector3& nu) const;
+  // S(ν) = ∇²h, m: inverse Weingarten map, symmetric, Sν = 0. Stable form [ν]ᵀ C [ν] / s³: every entry keeps full
+  // relative accuracy for any axis ratio.
+  Matrix3 SupportHessian(const Vector3& nu) const;
+  // T(ν)[u] = D S(ν)[u], m.
+  Matrix3 SupportThird(const Vector3& nu, const Vector3& u) const;
+  // Q(ν)[u, w] = D² S(ν)[u, w], m.
+  Matrix3 SupportFourth(const Vector3& nu, const Vector3& u, const Vector3& w) const;
+
+ private:
+  Vector3 semi_axes_;
+  Vector3 squared_;     // b_i = a_i²
+  Vector3 cofactors_;   // products of the other two squares, of the axes divided by the largest
+  double scale_;        // largest semi-axis
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_

@@ -1,0 +1,72 @@
+#ifndef ROLLGAIT_CORE_MULTIBODY_MODEL_H_
+#define ROLLGAIT_CORE_MULTIBODY_MODEL_H_
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/types.h"
+
+namespace rollgait {
+
+enum class JointType { kRevolute, kPrismatic };
+
+// A joint with one degree of freedom and the link it moves. See rollgait.v1.Joint for the meaning of each field.
+struct Joint {
+  std::string name;
+  JointType type = JointType::kRevolute;
+  int parent = -1;                                 // index of a joint before this one; -1 is the world
+  Vector3 p_PJ = Vector3::Zero();                  // m, origin of the joint frame in the parent's link frame
+  Matrix3 R_PJ = Matrix3::Identity();              // joint frame -> parent's link frame
+  Vector3 axis = Vector3::UnitZ();                 // unit, in the joint frame
+  double position_min = -kInfinity;                // rad or m
+  double position_max = kInfinity;
+  double velocity_max = kInfinity;                 // rad/s or m/s
+  bool actuated = false;
+  double effort_min = 0;                           // N m or N
+  double effort_max = 0;
+
+  std::string link;
+  double mass = 0;                                 // kg, >= 0
+  Vector3 center_of_mass = Vector3::Zero();        // m, link frame
+  Matrix3 inertia = Matrix3::Zero();               // kg m², about the centre of mass, link axes
+
+  int mirror_joint = -1;                           // whose value this joint takes in the mirror image (-1: itself)
+  double mirror_sign = 1;
+};
+
+// An immutable kinematic tree of joints with one degree of freedom, parents first; nq = nv = number of joints.
+// A floating base is a chain of such joints (its chart and range are the model's); any thread may share it.
+class Model {
+ public:
+  // Refuses: a parent that does not precede its joint, an axis that is not unit, non-finite numbers, negative mass, an
+  // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
+  // a leaf without mass, empty or repeated names, ranges with min > max, a mirror that is not an involution.
+  // Violations name "joints[i].field".
+  static Result<Model> Create(std::vector<Joint> joints);
+
+  int size() const { return static_cast<int>(joints_.size()); }
+  const std::vector<Joint>& joints() const { return joints_; }
+  const Joint& joint(int i) const { return joints_[i]; }
+  int parent(int i) const { return joints_[i].parent; }
+  // Indices of the actuated joints, ascending.
+  const std::vector<int>& actuated() const { return actuated_; }
+  // True if a == b or a lies on the path from b to the world.
+  bool IsAncestor(int a, int b) const { return ancestor_[static_cast<size_t>(b) * joints_.size() + a] != 0; }
+  // True if one of the two is an ancestor of the other.
+  bool Related(int a, int b) const { return IsAncestor(a, b) || IsAncestor(b, a); }
+  double total_mass() const { return total_mass_; }
+  // Index of a joint by name, -1 if there is none.
+  int Find(const std::string& name) const;
+
+ private:
+  explicit Model(std::vector<Joint> joints);
+  std::vector<Joint> joints_;
+  std::vector<int> actuated_;
+  std::vector<char> ancestor_;
+  double total_mass_ = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_MULTIBODY_MODEL_H_

@@ -1,0 +1,64 @@
+#ifndef ROLLGAIT_CORE_NLP_RESULT_H_
+#define ROLLGAIT_CORE_NLP_RESULT_H_
+
+#include <functional>
+#include <string>
+
+#include "core/base/stop.h"
+#include "core/base/types.h"
+
+namespace rollgait {
+
+// Why an iterative solve ended. Mirrors rollgait.v1.Termination.
+enum class Termination {
+  kOptimal,
+  kAcceptable,
+  kInfeasible,
+  kIterationLimit,
+  kTimeLimit,
+  kNumericalDifficulty,
+  kCancelled,
+};
+
+// One iteration in Ipopt's terms; see rollgait.v1.Iteration.
+struct IterationInfo {
+  int index = 0;
+  double objective = 0;
+  double primal_infeasibility = 0;
+  double dual_infeasibility = 0;
+  double barrier_parameter = 0;
+  double step_norm = 0;
+  double regularization = 0;
+  double primal_step = 0;
+  double dual_step = 0;
+  int line_search_trials = 0;
+  bool restoration = false;
+  double elapsed_s = 0;
+  int mesh = 0;
+};
+
+// How a running solve is watched and stopped. Both may be empty. The observer is called in the solving thread.
+struct SolveControl {
+  std::function<void(const IterationInfo&)> observer;
+  const StopFlag* stop = nullptr;
+};
+
+// The outcome of one NLP: the last (or best feasible) iterate, scaled as the NLP was given.
+struct NlpResult {
+  Termination termination = Termination::kNumericalDifficulty;
+  std::string message;
+  VectorX x;
+  VectorX constraint_multipliers;
+  VectorX lower_bound_multipliers;
+  VectorX upper_bound_multipliers;
+  double objective = 0;
+  double kkt_error = 0;
+  double constraint_violation = 0;
+  int iterations = 0;
+  double wall_time_s = 0;
+  double evaluation_time_s = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_RESULT_H_

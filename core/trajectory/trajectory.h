@@ -1,0 +1,45 @@
+#ifndef ROLLGAIT_CORE_TRAJECTORY_TRAJECTORY_H_
+#define ROLLGAIT_CORE_TRAJECTORY_TRAJECTORY_H_
+
+#include <string>
+#include <vector>
+
+#include "core/base/types.h"
+
+namespace rollgait {
+
+enum class Scheme { kRadau2, kRadau3, kHermiteSimpson };
+enum class Cycle { kHalf, kFull };
+
+// One phase. Matrices hold one COLUMN per time (joint order of the model, N + 1 nodes, N·s collocation points).
+struct TrajectoryPhase {
+  std::vector<int> contacts;   // indices into Scene::contacts, order of the force blocks
+  double start = 0;            // s
+  double duration = 0;         // s
+  std::vector<double> node_times;
+  MatrixX node_positions;      // nq × (N+1)
+  MatrixX node_velocities;     // nq × (N+1)
+  std::vector<double> point_times;
+  MatrixX point_positions;     // nq × N·s
+  MatrixX point_velocities;
+  MatrixX point_accelerations;
+  MatrixX point_efforts;       // n_actuated × N·s
+  MatrixX point_forces;        // 3·n_contacts × N·s, N, world axes, on the body
+};
+
+// An optimised motion over a half or a full cycle. Within an interval of length h from node (q₀, v₀), with θ = (t − t_k)/h:
+// the acceleration is the polynomial of degree s − 1 through the interval's points, v(t) and q(t) are its integrals, and
+// efforts and forces are the polynomials of degree s − 1 through theirs. Immutable by convention.
+struct Trajectory {
+  Scheme scheme = Scheme::kRadau2;
+  int points_per_interval = 2;
+  std::vector<double> point_fractions;  // c₁ … c_s of the scheme
+  Cycle cycle = Cycle::kHalf;
+  double duration = 0;      // s
+  double displacement = 0;  // m, along x
+  std::vector<TrajectoryPhase> phases;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_TRAJECTORY_TRAJECTORY_H_

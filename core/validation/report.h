@@ -1,0 +1,40 @@
+#ifndef ROLLGAIT_CORE_VALIDATION_REPORT_H_
+#define ROLLGAIT_CORE_VALIDATION_REPORT_H_
+
+#include "core/models/scene.h"
+#include "core/trajectory/trajectory.h"
+
+namespace rollgait {
+
+// See rollgait.v1.AccuracyReport for the meaning of each field. The solver's own figures (KKT error) are not here.
+struct AccuracyReport {
+  double max_position_defect = 0;
+  int max_position_defect_joint = 0;
+  double max_position_defect_time = 0;
+  double max_velocity_defect = 0;
+  int max_velocity_defect_joint = 0;
+  double max_velocity_defect_time = 0;
+  double max_gap = 0;
+  double max_slip = 0;
+  double min_normal_force = 0;
+  double max_friction_ratio = 0;
+  double min_swing_clearance = 0;
+  double periodicity_error = 0;
+  double energy_balance_error = 0;
+  double energy_balance_error_relative = 0;
+  double momentum_balance_error = 0;
+  double integrator_tolerance = 0;
+};
+
+struct ValidationOptions {
+  Vector3 gravity{0, 0, -9.81};         // m/s², world axes (fixed to the slope)
+  double integrator_tolerance = 1e-10;  // relative and absolute
+  int samples_per_interval = 10;        // between nodes, for gap, slip, forces
+};
+
+// Judges a trajectory of a scene by re-integration and dense sampling.
+AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const ValidationOptions& options);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_VALIDATION_REPORT_H_
