@@ -1,0 +1,45 @@
+#ifndef ROLLGAIT_SERVER_BASE_DATA_DIR_H_
+#define ROLLGAIT_SERVER_BASE_DATA_DIR_H_
+
+#include <string>
+
+namespace rollgait::server {
+
+// What lies in the data directory, and who may touch it.
+//
+//   rollgait.db            SQLite store (WAL), shared by rollgaitd and its agents
+//   rollgaitd.lock         flock of the one rollgaitd that serves this directory
+//   rollgaitd.sock         notifications to rollgaitd: a solve has new events (notify.h)
+//   agent.sock             notifications to the newest agent: a solve was created or is to be cancelled
+//   agents/<owner>.lock    flock held by a living agent; `owner` is the owner of its leases (letters, digits, '-')
+//
+// Life of an agent. rollgaitd starts `rollgait-agent --data-dir DIR --slots N [--solver PATH]` with standard input
+// being the read end of a pipe that only rollgaitd can write to (nobody ever does).
+//   SIGTERM              the agent stops its solvers, gives their solves back to the queue (GiveBack, kStopping) and
+//   exits 0
+//                        within 5 s; after 10 s rollgaitd kills it.
+//   end of standard input  rollgaitd has died. The agent claims nothing more, finishes what runs (events and leases go
+//   on),
+//                        then removes its lock file and exits. So kill -9 of rollgaitd loses no work and no agent stays
+//                        behind.
+//   next start           the new agent binds agent.sock at once (the old name is replaced) and works beside an agent
+//   that is
+//                        still finishing; together they keep to N solves because it claims only while Counts().running
+//                        < N. For every owner of LeaseOwners() whose lock file it can lock, that agent is dead:
+//                        ReclaimOwner.
+struct DataDir {
+  std::string path;
+
+  std::string Database() const { return path + "/rollgait.db"; }
+  std::string ServerLock() const { return path + "/rollgaitd.lock"; }
+  std::string AgentsDir() const { return path + "/agents"; }
+  std::string AgentLock(const std::string& owner) const { return AgentsDir() + "/" + owner + ".lock"; }
+};
+
+// Names of the notification sockets, relative to the data directory.
+inline constexpr char kServerSocket[] = "rollgaitd.sock";
+inline constexpr char kAgentSocket[] = "agent.sock";
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_BASE_DATA_DIR_H_

@@ -1,0 +1,68 @@
+#ifndef ROLLGAIT_SERVER_BASE_NOTIFY_H_
+#define ROLLGAIT_SERVER_BASE_NOTIFY_H_
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/base/outcome.h"
+
+namespace rollgait::server {
+
+// Hints between rollgaitd and its agent: short texts (the id of a solve) as datagrams on Unix sockets in the data
+// directory. A hint says "look into the store now"; it may be lost (no receiver, full buffer), so whoever waits for one
+// also looks into the store every kNotifyPollMillis by itself.
+inline constexpr int kNotifyPollMillis = 200;
+
+// Longest text of one hint in bytes; longer ones are cut.
+inline constexpr size_t kNotifyMaxBytes = 128;
+
+// Receiving end. One thread uses it; movable. Removes its socket file on destruction only if the file is still its own.
+class NotifyReceiver {
+ public:
+  // Binds `directory`/`name`, replacing a socket file that is left of a dead process (or of one that is to be
+  // succeeded). Works for directories of any path length. kUnavailable with the reason if the directory cannot be used.
+  static Outcome<NotifyReceiver> Create(const std::string& directory, const std::string& name);
+  NotifyReceiver(NotifyReceiver&& other) noexcept;
+  NotifyReceiver& operator=(NotifyReceiver&& other) noexcept;
+  ~NotifyReceiver();
+
+  // To poll for reading.
+  int fd() const { return fd_; }
+  // Everything received so far, oldest first, equal texts once. Never blocks.
+  std::vector<std::string> Drain();
+
+ private:
+  NotifyReceiver(int fd, std::string path, unsigned long inode) : fd_(fd), path_(std::move(path)), inode_(inode) {}
+  void Close();
+
+  int fd_ = -1;
+  std::string path_;
+  unsigned long inode_ = 0;
+};
+
+// Sending end. Any number of threads may share it. Immutable.
+class NotifySender {
+ public:
+  // Sends to whoever has bound `directory`/`name` at the time of Send. kUnavailable if the directory cannot be opened.
+  static Outcome<NotifySender> Create(const std::string& directory, const std::string& name);
+  NotifySender(NotifySender&& other) noexcept;
+  NotifySender& operator=(NotifySender&& other) noexcept;
+  ~NotifySender();
+
+  // Sends a hint. Never blocks, never fails: see above. False if nobody took it.
+  bool Send(std::string_view text) const;
+
+ private:
+  NotifySender(int fd, int directory_fd, std::string name)
+      : fd_(fd), directory_fd_(directory_fd), name_(std::move(name)) {}
+  void Close();
+
+  int fd_ = -1;
+  int directory_fd_ = -1;
+  std::string name_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_BASE_NOTIFY_H_

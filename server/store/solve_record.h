@@ -1,0 +1,113 @@
+#ifndef ROLLGAIT_SERVER_STORE_SOLVE_RECORD_H_
+#define ROLLGAIT_SERVER_STORE_SOLVE_RECORD_H_
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollgait::server {
+
+// The numbers of rollgait.v1.SolveState.
+enum class SolveState { kQueued = 1, kRunning = 2, kSucceeded = 3, kFailed = 4, kCancelled = 5 };
+
+inline bool IsTerminal(SolveState state) { return state >= SolveState::kSucceeded; }
+
+// One solve as it is stored. Blobs are serialized protobuf.
+struct SolveRecord {
+  std::string id;         // "solves/{id}" without the prefix
+  std::string spec;       // v1::SolveSpec
+  std::string solve_key;  // equal keys: equal answers; empty: equal to nothing
+  SolveState state = SolveState::kQueued;
+  int64_t create_time_us = 0, start_time_us = 0, end_time_us = 0;  // wall clock, µs since 1970; 0: not yet
+  int attempts = 0;                                                // how often it was claimed
+  int crashes = 0;                                                 // how often its solver process died
+  bool cancel_requested = false;
+  bool from_cache = false;
+  int64_t last_sequence = 0;  // number of its newest event
+  std::string result;         // v1::SolveResult; empty unless kSucceeded
+  std::string error;          // v1::SolveError; empty unless kFailed or kCancelled
+};
+
+struct NewSolve {
+  std::string id;          // unique, chosen by the caller
+  std::string request_id;  // empty: none
+  std::string spec;
+  std::string solve_key;
+  int max_queued = 1000;  // refuse with kResourceExhausted if so many are queued already
+};
+
+struct CreatedSolve {
+  SolveRecord record;
+  bool created = true;  // false: the request_id was known and this is the solve made for it
+};
+
+struct ListQuery {
+  int page_size = 50;
+  std::string page_token;  // from the previous page; empty: first page
+  std::optional<SolveState> state;
+};
+
+struct SolvePage {
+  std::vector<SolveRecord> records;  // newest first; `result` is left empty
+  std::string next_page_token;       // empty: last page
+};
+
+enum class EventKind { kStateChange = 1, kIteration = 2, kFinished = 3 };
+
+// One event. `payload` is a serialized v1::SolveEvent with its time, without sequence. For kFinished the field
+// `finished` is not in the payload either: whoever reads builds it from the record.
+struct StoredEvent {
+  int64_t sequence = 0;  // 1, 2, 3 … within a solve, over all attempts; assigned by the store
+  EventKind kind = EventKind::kIteration;
+  std::string payload;
+};
+
+struct EventPage {
+  std::vector<StoredEvent> events;  // in order, dense
+  int64_t last_sequence = 0;        // newest event of the solve, on this page or not
+  SolveState state = SolveState::kQueued;
+};
+
+// The right to write to a running solve. A new claim has a larger epoch, and writes under an older one change nothing.
+struct Lease {
+  std::string solve_id;
+  std::string owner;
+  int64_t epoch = 0;
+};
+
+struct ClaimedSolve {
+  Lease lease;
+  SolveRecord record;
+};
+
+struct LeaseState {
+  bool cancel_requested = false;
+  int64_t last_sequence = 0;
+};
+
+// How a run ended.
+struct SolveEnd {
+  SolveState state = SolveState::kSucceeded;  // terminal
+  std::string result;                         // v1::SolveResult if kSucceeded
+  std::string error;                          // v1::SolveError else
+  bool reusable = false;                      // may answer equal requests (termination is OPTIMAL)
+};
+
+enum class GiveBackReason {
+  kStopping,  // the agent stops: back to the queue
+  kCrashed,   // the solver process died: back to the queue, the third time kFailed with KIND_CRASH
+};
+
+struct SolveCounts {
+  int queued = 0, running = 0;
+};
+
+inline constexpr int kMaxCrashes = 3;
+inline constexpr std::chrono::milliseconds kLeaseDuration{15'000};
+inline constexpr std::chrono::milliseconds kLeaseRenewal{5'000};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_STORE_SOLVE_RECORD_H_

@@ -1,0 +1,67 @@
+#ifndef ROLLGAIT_SERVER_STORE_SOLVE_STORE_H_
+#define ROLLGAIT_SERVER_STORE_SOLVE_STORE_H_
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/base/outcome.h"
+#include "server/store/solve_record.h"
+
+namespace rollgait::server {
+
+// Where solves live. Every call is one transaction and durable when it returns; any number of threads and processes may
+// call. Every call may also fail with kUnavailable or kInternal. Implementations pass tests/server/store/.
+//
+// Single flight: a queued solve is not claimed while a solve of the same key runs; when that one ends with a reusable
+// result, the queued ones of its key end with it (from_cache).
+class SolveStore {
+ public:
+  virtual ~SolveStore() = default;
+
+  // Inserts a queued solve and its first event (QUEUED); or, if a reusable result of the same key is held, a solve that
+  // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec. kResourceExhausted: queue is full.
+  virtual Outcome<CreatedSolve> Create(const NewSolve& solve) = 0;
+  // kNotFound.
+  virtual Outcome<SolveRecord> Get(const std::string& id) = 0;
+  // kInvalidArgument: page_token is not one of ours or belongs to another query.
+  virtual Outcome<SolvePage> List(const ListQuery& query) = 0;
+  // Removes a solve, its events, and its result unless another solve shares it. kNotFound, kFailedPrecondition: not
+  // terminal.
+  virtual Outcome<Done> Delete(const std::string& id) = 0;
+  // Queued: ends it at once as kCancelled. Running: sets the flag. Terminal: nothing. Returns the solve. kNotFound.
+  virtual Outcome<SolveRecord> RequestCancel(const std::string& id) = 0;
+  // Events with a larger number, at most max_events. kNotFound, kOutOfRange: after_sequence is beyond the newest or
+  // negative.
+  virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
+  virtual Outcome<SolveCounts> Counts() = 0;
+
+  // For agents.
+
+  // Takes the oldest queued solve that may run: attempts + 1, RUNNING and its event. nullopt: none.
+  virtual Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner,
+                                                         std::chrono::milliseconds duration) = 0;
+  // Prolongs from now on. kLeaseLost.
+  virtual Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) = 0;
+  // Appends in order; the `sequence` of the events given is ignored. kLeaseLost: nothing was written.
+  virtual Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) = 0;
+  // Appends `events`, then writes result or error, state and the terminal event, all in one transaction. kLeaseLost.
+  virtual Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) = 0;
+  // Gives a solve up. Returns the state it is in now: kQueued, kFailed (too many crashes), kCancelled (that was asked
+  // for). kLeaseLost.
+  virtual Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) = 0;
+  // Solves of this owner that are to be cancelled.
+  virtual Outcome<std::vector<std::string>> CancelRequests(const std::string& owner) = 0;
+  // Owners that hold leases now, expired or not.
+  virtual Outcome<std::vector<std::string>> LeaseOwners() = 0;
+  // Puts the running solves whose lease has expired (or is of an earlier boot) back into the queue (or ends them, if
+  // they were to be cancelled). Not counted as a crash. Returns their ids.
+  virtual Outcome<std::vector<std::string>> ReclaimExpired() = 0;
+  // The same for all running solves of an owner that is known to be dead.
+  virtual Outcome<std::vector<std::string>> ReclaimOwner(const std::string& owner) = 0;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_STORE_SOLVE_STORE_H_
