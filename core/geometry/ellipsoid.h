@@ -27,10 +27,14 @@ class Ellipsoid {
   Matrix3 SupportFourth(const Vector3& nu, const Vector3& u, const Vector3& w) const;
 
  private:
+  // The same quantities of the ellipsoid divided by its largest semi-axis; s = h(nu), x = x(nu) of that ellipsoid.
+  Matrix3 UnitHessian(const Vector3& nu, double s) const;
+  static Matrix3 UnitThird(const Vector3& x, const Matrix3& hessian, double s, const Vector3& u);
+
   Vector3 semi_axes_;
-  Vector3 squared_;     // b_i = a_i²
-  Vector3 cofactors_;   // products of the other two squares, of the axes divided by the largest
-  double scale_;        // largest semi-axis
+  double scale_;       // m, largest semi-axis
+  Vector3 unit_axes_;  // semi-axes / scale
+  Vector3 cofactors_;  // products of the squares of the other two unit axes
 };
 
 }  // namespace rollgait

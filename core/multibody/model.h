@@ -31,7 +31,8 @@ struct Joint {
   Vector3 center_of_mass = Vector3::Zero();        // m, link frame
   Matrix3 inertia = Matrix3::Zero();               // kg m², about the centre of mass, link axes
 
-  int mirror_joint = -1;                           // whose value this joint takes in the mirror image (-1: itself)
+  // Whose value this joint takes in the left/right mirror image. -1: itself; Model::Create puts the own index there.
+  int mirror_joint = -1;
   double mirror_sign = 1;
 };
 
@@ -41,7 +42,8 @@ class Model {
  public:
   // Refuses: a parent that does not precede its joint, an axis that is not unit, non-finite numbers, negative mass, an
   // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
-  // a leaf without mass, empty or repeated names, ranges with min > max, a mirror that is not an involution.
+  // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a joint
+  // that is not actuated, a mirror that is not an involution.
   // Violations name "joints[i].field".
   static Result<Model> Create(std::vector<Joint> joints);
 
