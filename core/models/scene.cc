@@ -1,0 +1,12 @@
+#include "core/models/scene.h"
+
+namespace rollgait {
+
+int Scene::FindContact(const std::string& contact_name) const {
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].name == contact_name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,173 @@
+#include "core/models/segment_table.h"
+
+#include <array>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/base/check.h"
+
+namespace rollgait {
+namespace {
+
+// One row of the table, as printed, for the right side. Mass in % of body mass; centre of mass and radii of gyration in %
+// of the segment length, in X anterior, Y up, Z right; a negative product radius stands for a negative tensor entry.
+struct Row {
+  Segment segment;
+  double length_mm;
+  double mass;
+  double com[3];
+  double radii[6];  // xx, yy, zz, xy, xz, yz
+};
+
+using Rows = std::array<Row, 9>;
+
+// Dumas, Cheze, Verriest 2007, J Biomech 40:543-553, head and neck from its corrigendum (40:1651); feet as corrected in
+// Dumas, Wojtusch 2018 (ankle to the middle of the metatarsal heads 1 and 5). Lengths of the Young 1983 sample.
+constexpr Rows kFemale = {{
+    {Segment::kHeadNeck, 243, 6.7, {1.6, 57.5, 0.1}, {29, 23, 30, -4, 1, 0}},
+    {Segment::kTorso, 429, 30.4, {-1.6, -43.6, -0.6}, {29, 27, 29, 22, 5, -5}},
+    {Segment::kPelvis, 107, 14.6, {-0.9, -23.2, 0.2}, {91, 100, 79, -34, -1, -1}},
+    {Segment::kUpperArm, 243, 2.2, {-7.3, -45.4, -2.8}, {33, 17, 33, 3, -5, 14}},
+    {Segment::kForearm, 247, 1.3, {2.1, -41.1, 1.9}, {26, 14, 25, 10, 4, -13}},
+    {Segment::kHand, 71, 0.5, {7.7, -76.8, 4.8}, {63, 43, 58, 29, 23, -28}},
+    {Segment::kThigh, 379, 14.6, {-7.7, -37.7, 0.9}, {31, 19, 32, 7, -2, -7}},
+    {Segment::kShank, 388, 4.5, {-4.9, -40.4, 3.1}, {28, 10, 28, 2, 1, 6}},
+    {Segment::kFoot, 117, 1.0, {38.2, -30.9, 5.5}, {24, 51, 50, -15, 9, -5}},
+}};
+// The same for the McConville 1980 sample.
+constexpr Rows kMale = {{
+    {Segment::kHeadNeck, 277, 6.7, {2.0, 53.6, 0.1}, {28, 21, 30, -7, -2, 3}},
+    {Segment::kTorso, 477, 33.3, {-3.6, -42.0, -0.2}, {27, 25, 28, 18, 2, -4}},
+    {Segment::kPelvis, 94, 14.2, {2.8, -28.0, -0.6}, {101, 106, 95, -25, -12, -8}},
+    {Segment::kUpperArm, 271, 2.4, {1.7, -45.2, -2.6}, {31, 14, 32, 6, 5, 2}},
+    {Segment::kForearm, 283, 1.7, {1.0, -41.7, 1.4}, {28, 11, 27, 3, 2, -8}},
+    {Segment::kHand, 80, 0.6, {8.2, -83.9, 7.4}, {61, 38, 56, 22, 15, -20}},
+    {Segment::kThigh, 432, 12.3, {-4.1, -42.9, 3.3}, {29, 15, 30, 7, -2, -7}},
+    {Segment::kShank, 433, 4.8, {-4.8, -41.0, 0.7}, {28, 10, 28, -4, -2, 5}},
+    {Segment::kFoot, 139, 1.2, {50.2, -19.9, 3.4}, {22, 49, 48, 17, -11, 0}},
+}};
+
+// What else is known of the two samples, mm.
+struct Sample {
+  double stature, hip_forward, hip_down, half_hip_width, foot_length;
+};
+constexpr Sample kFemaleSample = {1610, 54, 93, 88, 238};
+constexpr Sample kMaleSample = {1774, 56, 75, 81, 271};
+
+// Heel behind the ankle as a fraction of the foot length. The table gives the foot's centre of mass from the ankle and,
+// in its alternative row, from the heel along the same axis: 48.3 mm (0.178) male, 60.9 mm (0.256) female. The mean is used.
+constexpr double kHeelFraction = 0.217;
+// Height and half distance of the shoulder joints as fractions of stature (Drillis and Contini, after Winter 2009).
+constexpr double kShoulderHeight = 0.818;
+constexpr double kHalfShoulderWidth = 0.129;
+
+const Rows& RowsOf(Sex sex) { return sex == Sex::kFemale ? kFemale : kMale; }
+const Sample& SampleOf(Sex sex) { return sex == Sex::kFemale ? kFemaleSample : kMaleSample; }
+
+const Row& RowOf(Sex sex, Segment segment) {
+  const Row& row = RowsOf(sex)[static_cast<size_t>(segment)];
+  ROLLGAIT_CHECK(row.segment == segment);
+  return row;
+}
+
+bool IsMidline(Segment segment) {
+  return segment == Segment::kHeadNeck || segment == Segment::kTorso || segment == Segment::kPelvis;
+}
+
+// Sum of the mass column over the whole body: 99.9 female, 100.2 male, by rounding in the paper.
+double MassSum(Sex sex) {
+  double sum = 0;
+  for (const Row& row : RowsOf(sex)) sum += row.mass * (IsMidline(row.segment) ? 1 : 2);
+  return sum;
+}
+
+// Nearest tensor (Frobenius norm) with I1 + I2 >= I3 and the same principal axes. The female torso of the table misses it.
+Matrix3 NearestRealisable(const Matrix3& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(inertia);
+  Vector3 moments = solver.eigenvalues();  // ascending
+  const double excess = moments(2) - moments(0) - moments(1);
+  if (excess <= 0) return inertia;
+  moments += Vector3(excess, excess, -excess) / 3;
+  return solver.eigenvectors() * moments.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+SegmentTable::SegmentTable(Sex sex, double stature, double mass)
+    : sex_(sex), length_scale_(stature / DefaultStature(sex)), stature_(stature), mass_(mass) {
+  ROLLGAIT_CHECK(std::isfinite(stature) && stature > 0 && std::isfinite(mass) && mass > 0);
+}
+
+double SegmentTable::Scaled(double length_mm) const { return length_mm * 1e-3 * length_scale_; }
+
+RigidBody SegmentTable::Body(Segment segment, Side side) const {
+  ROLLGAIT_CHECK(IsMidline(segment) == (side == Side::kMidline));
+  const Row& row = RowOf(sex_, segment);
+  const double mass = mass_ * row.mass / MassSum(sex_);
+  // Mirroring changes the sign of everything odd in Z; a body symmetric about the sagittal plane has none of it.
+  const double z_sign = side == Side::kRight ? 1 : side == Side::kLeft ? -1 : 0;
+  const double length = Length(segment);
+  const Vector3 com = Vector3(row.com[0], row.com[1], z_sign * row.com[2]) / 100 * length;
+  const auto entry = [&](int i) { return mass * length * length * row.radii[i] * std::abs(row.radii[i]) / 1e4; };
+  Matrix3 inertia;
+  inertia << entry(0), entry(3), z_sign * entry(4),  //
+      entry(3), entry(1), z_sign * entry(5),         //
+      z_sign * entry(4), z_sign * entry(5), entry(2);
+  Matrix3 from_table;  // X anterior, Y up, Z right -> x forward, y left, z up
+  from_table << 1, 0, 0,  //
+      0, 0, -1,           //
+      0, 1, 0;
+  return {mass, from_table * com, from_table * NearestRealisable(inertia) * from_table.transpose()};
+}
+
+double SegmentTable::Length(Segment segment) const { return Scaled(RowOf(sex_, segment).length_mm); }
+
+Vector3 SegmentTable::LumbarToHips() const {
+  return Vector3(Scaled(SampleOf(sex_).hip_forward), 0, -Scaled(SampleOf(sex_).hip_down));
+}
+
+double SegmentTable::HalfHipWidth() const { return Scaled(SampleOf(sex_).half_hip_width); }
+
+Vector3 SegmentTable::CervicalToShoulder(Side side) const {
+  ROLLGAIT_CHECK(side != Side::kMidline);
+  const double cervical_height = stature_ - Length(Segment::kHeadNeck);
+  return Vector3(0, (side == Side::kLeft ? 1 : -1) * kHalfShoulderWidth * stature_,
+                 kShoulderHeight * stature_ - cervical_height);
+}
+
+double SegmentTable::AnkleHeight() const {
+  return stature_ - Length(Segment::kHeadNeck) - Length(Segment::kTorso) + LumbarToHips().z() -
+         Length(Segment::kThigh) - Length(Segment::kShank);
+}
+
+double SegmentTable::LegLength() const { return Length(Segment::kThigh) + Length(Segment::kShank) + AnkleHeight(); }
+
+double SegmentTable::FootLength() const { return Scaled(SampleOf(sex_).foot_length); }
+
+double SegmentTable::HeelToAnkle() const { return kHeelFraction * FootLength(); }
+
+std::vector<std::string> SegmentTable::Sources() {
+  return {
+      "Segment masses, centres of mass and inertias: Dumas, Cheze, Verriest 2007, J Biomech 40:543-553 (2007 table and "
+      "corrigendum 40:1651); feet: Dumas, Wojtusch 2018; read in OpenMA (BSD-3) and HuMoD (BSD-3).",
+      "Masses are renormalised: the printed percentages add up to 99.9 (female) and 100.2 (male).",
+      "The female torso tensor of the table is that of no rigid body (I1 + I2 < I3); the nearest realisable tensor with "
+      "the same axes is used. The sign of the female upper arm's yz product is disputed (OpenMA's is used).",
+      "Segment lengths: means of the Young 1983 (female, 1.610 m) and McConville 1980 (male, 1.774 m) samples in Dumas "
+      "2007, quoted from memory of the paper and not checked against a second source; proportional to stature.",
+      "Joint centres of the pelvis from the lumbar joint: OpenMA lyonwholebodymodel.cpp (BSD-3). Ankle height: stature "
+      "minus the other lengths (0.080 m male, 0.078 m female).",
+      "Left segments mirror the right ones; head, torso and pelvis are made symmetric about the sagittal plane.",
+      "Shoulder joints: 0.818 of stature high, 0.129 to the side (Drillis and Contini, after Winter 2009; from memory), in "
+      "the fore-aft position of the cervical joint.",
+      "Heel behind the ankle: 0.217 of the foot length, mean of both sexes' foot centre of mass measured from the ankle "
+      "and from the heel (Dumas 2007).",
+  };
+}
+
+double DefaultStature(Sex sex) { return SampleOf(sex).stature * 1e-3; }
+
+double DefaultMass(Sex sex) { return sex == Sex::kFemale ? 62 : 75; }
+
+}  // namespace rollgait

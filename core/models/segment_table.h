@@ -1,0 +1,67 @@
+#ifndef ROLLGAIT_CORE_MODELS_SEGMENT_TABLE_H_
+#define ROLLGAIT_CORE_MODELS_SEGMENT_TABLE_H_
+
+#include <string>
+#include <vector>
+
+#include "core/models/rigid_body.h"
+#include "core/models/scene.h"
+
+namespace rollgait {
+
+enum class Segment { kHeadNeck, kTorso, kPelvis, kUpperArm, kForearm, kHand, kThigh, kShank, kFoot };
+enum class Side { kMidline, kLeft, kRight };
+
+// The body segments of a person by sex, stature and mass: lengths, joint centres and mass properties. Axes of every
+// segment in the upright reference posture (arms and legs straight down): x forward, y left, z up; the table's are
+// X anterior, Y up, Z right. Lengths are proportional to stature, masses to body mass, inertias to mass · stature².
+// Immutable value.
+class SegmentTable {
+ public:
+  // Contract: stature (m) and mass (kg) finite and > 0.
+  SegmentTable(Sex sex, double stature, double mass);
+
+  // Mass properties about the segment's proximal joint centre: head and neck, torso: cervical; pelvis: lumbar; upper arm:
+  // shoulder; forearm: elbow; hand: wrist; thigh: hip; shank: knee; foot: ankle. The masses of the whole body (limbs
+  // counted twice) add up to the body mass. Head, torso and pelvis are made symmetric about the sagittal plane.
+  // Contract: kMidline for these three, kLeft or kRight for the others.
+  RigidBody Body(Segment segment, Side side) const;
+
+  // Distance in m from the proximal joint centre to the distal one (head: to the vertex; hand: to the middle of the
+  // metacarpal heads 2 and 5; foot: to the middle of the metatarsal heads 1 and 5; pelvis: to the middle of the hips).
+  double Length(Segment segment) const;
+
+  // m. From the lumbar joint to the middle of the hip joints.
+  Vector3 LumbarToHips() const;
+  // m. Half the distance of the hip joint centres.
+  double HalfHipWidth() const;
+  // m. From the cervical joint to the left (y > 0) or right shoulder joint.
+  Vector3 CervicalToShoulder(Side side) const;
+  // m. Ankle joint above the sole in the reference posture: what the other lengths leave of the stature.
+  double AnkleHeight() const;
+  // m. Hip joint above the sole with straight leg.
+  double LegLength() const;
+  // m. Heel to tip of the second toe.
+  double FootLength() const;
+  // m. Heel behind the ankle joint, along the foot.
+  double HeelToAnkle() const;
+
+  // Where the numbers come from and what was changed, one line each.
+  static std::vector<std::string> Sources();
+
+ private:
+  double Scaled(double length_mm) const;
+
+  Sex sex_;
+  double length_scale_;  // stature / mean stature of the table
+  double stature_;       // m
+  double mass_;          // kg
+};
+
+// Mean stature of the table's sample, m, and the body mass that a request without one gets, kg.
+double DefaultStature(Sex sex);
+double DefaultMass(Sex sex);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_MODELS_SEGMENT_TABLE_H_
