@@ -1,0 +1,94 @@
+#include <set>
+
+#include "core/gait/request_check.h"
+
+namespace rollgait {
+namespace {
+
+const NumberLimits kWeightLimits{0, kMaxWeight};
+
+using Weights = std::map<std::string, double>;
+
+// The weights of all actuated joints: those given, 1 for the rest.
+Weights CheckWeights(const std::string& path, const Weights& weights, const Scene* scene, RequestCheck& check) {
+  Weights completed;
+  if (scene != nullptr) {
+    for (int joint : scene->model.actuated()) completed[scene->model.joint(joint).name] = 1;
+  }
+  for (const auto& [joint, weight] : weights) {
+    const std::string field = Keyed(path, joint);
+    check.Number(field, weight, 1, kWeightLimits);
+    if (scene == nullptr || check.Joint(field, joint, *scene, true) >= 0) completed[joint] = weight;
+  }
+  return completed;
+}
+
+// Checks one term and fills its optionals.
+struct TermCheck {
+  std::string path;
+  const Scene* scene;
+  RequestCheck& check;
+
+  void operator()(GaitRequest::SquaredTorque& term) const {
+    term.joint_weights = CheckWeights(path + ".squared_torque.joint_weights", term.joint_weights, scene, check);
+  }
+
+  void operator()(GaitRequest::SquaredTorqueRate& term) const {
+    term.joint_weights = CheckWeights(path + ".squared_torque_rate.joint_weights", term.joint_weights, scene, check);
+  }
+
+  void operator()(GaitRequest::MechanicalWork& term) const {
+    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 1, {0.01, 1000, "W"});
+  }
+
+  void operator()(GaitRequest::Time&) const {}
+
+  void operator()(GaitRequest::Tracking& term) const {
+    const std::string channels = path + ".tracking.channels";
+    if (term.channels.empty()) check.Add(channels, "no channel; give at least one joint with its positions");
+    std::set<std::string> seen;
+    for (size_t i = 0; i < term.channels.size(); ++i) {
+      const std::string field = Indexed(channels, i);
+      CheckChannel(field, term.channels[i]);
+      if (!seen.insert(term.channels[i].joint).second) {
+        check.Add(field + ".joint", "joint " + Quoted(term.channels[i].joint) + " is tracked twice; give one channel a joint");
+      }
+    }
+  }
+
+  void CheckChannel(const std::string& field, GaitRequest::Tracking::Channel& channel) const {
+    if (scene != nullptr) check.Joint(field + ".joint", channel.joint, *scene, false);
+    channel.weight = check.Number(field + ".weight", channel.weight, 1, kWeightLimits);
+    const size_t count = channel.positions.size();
+    if (count < 2 || count > static_cast<size_t>(kMaxTrackedPositions)) {
+      check.Add(field + ".positions", std::to_string(count) + " positions; give 2 to " +
+                                          std::to_string(kMaxTrackedPositions) + ", equally spaced over the cycle");
+      return;
+    }
+    for (size_t i = 0; i < count; ++i) {
+      check.Number(Indexed(field + ".positions", i), channel.positions[i], 0,
+                   {-kMaxPosition, kMaxPosition, "rad or m"});
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
+  std::vector<GaitRequest::CostTerm> terms = request.costs;
+  if (terms.empty()) terms.push_back({GaitRequest::SquaredTorque{}, std::nullopt});
+  if (terms.size() > static_cast<size_t>(kMaxCostTerms)) {
+    check.Add("costs", std::to_string(terms.size()) + " terms; at most " + std::to_string(kMaxCostTerms) + " are accepted");
+    return {};
+  }
+  std::vector<GaitSpec::CostTerm> checked;
+  for (size_t i = 0; i < terms.size(); ++i) {
+    const std::string path = Indexed("costs", i);
+    const double weight = check.Number(path + ".weight", terms[i].weight, 1, kWeightLimits);
+    std::visit(TermCheck{path, scene, check}, terms[i].term);
+    checked.push_back({std::move(terms[i].term), weight});
+  }
+  return checked;
+}
+
+}  // namespace rollgait
