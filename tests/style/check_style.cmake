@@ -1,0 +1,78 @@
+# Checks what the style guide counts: line budgets, assertions in tests, no unfinished work, no address of one machine.
+#   cmake -DROOT=<repository> -P tests/style/check_style.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(HEADER_LINES 150)
+set(SOURCE_LINES 350)
+# Files that may be longer: path, lines, reason.
+set(LONGER)
+
+# Directories of one developer's machine and hosts of package registries. Brackets keep a pattern from matching itself.
+set(MACHINE_PATTERN "(^|[^A-Za-z0-9_./-])/(wor[k]|roo[t]|hom[e]|User[s])/|/bash[_]jobs")
+set(HOST_PATTERN "deb[.]debian[.]org|snapshot[.]debian[.]org|pypi[.]org|npmjs[.]org|proxy[.]golang[.]org|crates[.]io|ghcr[.]io|quay[.]io|gcr[.]io|pkg[.]dev")
+set(UNFINISHED_PATTERN "(^|[^A-Za-z])(TOD[O]|FIXM[E]|XX[X])([^A-Za-z]|$)")
+
+set(errors "")
+
+# Every file a person wrote, wherever git is absent too; build trees and pictures excepted.
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/*")
+list(FILTER files EXCLUDE REGEX "^(build|[.]git)/|[.](png|jpg|svg|ico)$")
+
+foreach(file ${files})
+  set(path "${ROOT}/${file}")
+  foreach(rule MACHINE HOST UNFINISHED)
+    file(STRINGS "${path}" found LIMIT_COUNT 1 REGEX "${${rule}_PATTERN}")
+    if(NOT "${found}" STREQUAL "")
+      string(STRIP "${found}" found)
+      if(rule STREQUAL "MACHINE")
+        list(APPEND errors "${file}: a directory of one machine: ${found}")
+      elseif(rule STREQUAL "HOST")
+        list(APPEND errors "${file}: a host of a package registry: ${found}")
+      else()
+        list(APPEND errors "${file}: unfinished work: ${found}")
+      endif()
+    endif()
+  endforeach()
+
+  if(NOT file MATCHES "[.](h|cc)$")
+    continue()
+  endif()
+  file(READ "${path}" text)
+  string(REGEX MATCHALL "\n" newlines "${text}")
+  list(LENGTH newlines lines)
+  set(budget ${SOURCE_LINES})
+  if(file MATCHES "[.]h$")
+    set(budget ${HEADER_LINES})
+  endif()
+  list(FIND LONGER "${file}" place)
+  if(NOT place EQUAL -1)
+    math(EXPR place "${place} + 1")
+    list(GET LONGER ${place} budget)
+  endif()
+  if(lines GREATER budget)
+    list(APPEND errors "${file}: ${lines} lines, the budget is ${budget}: split it")
+  endif()
+
+  # A test case that cannot fail is no test. Helpers that assert are called Expect..., Check... or Assert... .
+  if(file MATCHES "^tests/.*_test[.]cc$")
+    string(REGEX REPLACE "[][;\\]" " " text "${text}")
+    string(REGEX REPLACE "\n(TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\\(" "\n;\\1(" cases "${text}")
+    list(POP_FRONT cases before)
+    if(NOT cases)
+      list(APPEND errors "${file}: holds no test case")
+    endif()
+    foreach(case ${cases})
+      if(NOT case MATCHES "(EXPECT|ASSERT)_[A-Z]+|ADD_FAILURE|FAIL\\(|(Expect|Check|Assert)[A-Za-z0-9]*[(<]")
+        string(REGEX MATCH "^[A-Z_]+[(][^)]*[)]" name "${case}")
+        list(APPEND errors "${file}: ${name} asserts nothing")
+      endif()
+    endforeach()
+  endif()
+endforeach()
+
+if(errors)
+  list(JOIN errors "\n  " text)
+  message(FATAL_ERROR "The style guide is not kept:\n  ${text}")
+endif()
+list(LENGTH files count)
+message(STATUS "${count} files keep to the style guide's budgets.")
