@@ -1,0 +1,154 @@
+#include "core/contact/constrained_dynamics.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/base/check.h"
+
+namespace rollgait {
+namespace {
+
+// Columns of A are scaled to unit norm, so a remainder this small is what rounding leaves of a dependent column.
+constexpr double kRankTolerance = 1e-10;
+
+}  // namespace
+
+void ConstrainedSolver::Factorise() {
+  const int n = static_cast<int>(a_.rows()), m = static_cast<int>(a_.cols());
+  q_.resize(n, m);
+  r_.setZero(m, m);
+  pivots_.resize(m);
+  for (int j = 0; j < m; ++j) pivots_[j] = j;
+  rank_ = 0;
+  for (int k = 0; k < m && k < n; ++k) {
+    // Columns k … m−1 of a_ (in pivot order) hold what is left of them orthogonal to q_0 … q_{k−1}.
+    int best = k;
+    double best_norm = -1;
+    for (int j = k; j < m; ++j) {
+      const double norm = a_.col(pivots_[j]).norm();
+      if (norm > best_norm) best = j, best_norm = norm;
+    }
+    if (!(best_norm > kRankTolerance)) return;
+    std::swap(pivots_[k], pivots_[best]);
+    r_.col(k).swap(r_.col(best));
+    // A second pass makes q_k orthogonal to rounding level ("twice is enough").
+    q_.col(k) = a_.col(pivots_[k]);
+    for (int i = 0; i < k; ++i) {
+      const double d = q_.col(i).dot(q_.col(k));
+      r_(i, k) += d;
+      q_.col(k) -= d * q_.col(i);
+    }
+    const double norm = q_.col(k).norm();
+    if (!(norm > kRankTolerance)) return;
+    q_.col(k) /= norm;
+    r_(k, k) = norm;
+    rank_ = k + 1;
+    for (int j = k + 1; j < m; ++j) {
+      const double d = q_.col(k).dot(a_.col(pivots_[j]));
+      r_(k, j) = d;
+      a_.col(pivots_[j]) -= d * q_.col(k);
+    }
+  }
+}
+
+void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian,
+                              const VectorX& right_side, ConstrainedSolution* solution) {
+  const int m = static_cast<int>(jacobian.rows());
+  ROLLGAIT_CHECK(jacobian.cols() == mass.cols() && force.size() == mass.rows() && right_side.size() == m);
+  cholesky_.compute(mass);
+  // In y = Lᵀ a:  y = L⁻¹ f + A λ  with A = L⁻¹ Jᵀ, and the constraint is  Aᵀ y = r.
+  free_ = force;
+  cholesky_.matrixL().solveInPlace(free_);
+  a_ = jacobian.transpose();
+  cholesky_.matrixL().solveInPlace(a_);
+  right_ = right_side;
+  right_.noalias() -= a_.transpose() * free_;
+  scale_.resize(m);
+  for (int j = 0; j < m; ++j) {
+    const double norm = a_.col(j).norm();
+    scale_[j] = norm > 0 ? 1 / norm : 1.0;
+    a_.col(j) *= scale_[j];
+    right_[j] *= scale_[j];
+  }
+  Factorise();
+
+  // A P = Q R. With y = L⁻¹ f + Q z:  Rᵀ z = right side, of which the first `rank` rows decide.
+  z_.resize(rank_);
+  for (int i = 0; i < rank_; ++i) {
+    double sum = right_[pivots_[i]];
+    for (int k = 0; k < i; ++k) sum -= r_(k, i) * z_[k];
+    z_[i] = sum / r_(i, i);
+  }
+  free_.noalias() += q_.leftCols(rank_) * z_;
+  solution->acceleration = free_;
+  cholesky_.matrixU().solveInPlace(solution->acceleration);
+
+  // Forces: R λ = z, square if no row is redundant, else its solution of least norm λ = Rᵀ (R Rᵀ)⁻¹ z.
+  forces_.setZero(m);
+  if (rank_ < m) {
+    gram_.noalias() = r_.topRows(rank_) * r_.topRows(rank_).transpose();
+    if (rank_ > 0) forces_.noalias() = r_.topRows(rank_).transpose() * gram_.llt().solve(z_);
+  } else {
+    for (int i = m - 1; i >= 0; --i) {
+      double sum = z_[i];
+      for (int k = i + 1; k < m; ++k) sum -= r_(i, k) * forces_[k];
+      forces_[i] = sum / r_(i, i);
+    }
+  }
+  solution->forces.resize(m);
+  for (int i = 0; i < m; ++i) solution->forces[pivots_[i]] = forces_[i] * scale_[pivots_[i]];
+  solution->rank = rank_;
+  solution->redundant = rank_ < m;
+  solution->residual = 0;
+  for (int i = 0; i < m; ++i) {
+    const double residual = std::abs(jacobian.row(i).dot(solution->acceleration) - right_side[i]);
+    if (!(residual <= solution->residual)) solution->residual = residual;
+  }
+}
+
+ConstrainedDynamics::ConstrainedDynamics(const BodyDynamics& dynamics, std::vector<ContactSurface> surfaces,
+                                         Baumgarte baumgarte)
+    : dynamics_(dynamics), surfaces_(std::move(surfaces)), baumgarte_(baumgarte), contacts_(surfaces_.size()) {
+  int rows = 0;
+  for (const ContactSurface& surface : surfaces_) {
+    first_row_.push_back(rows);
+    rows += static_cast<int>(surface.directions.size());
+  }
+  jacobian_.setZero(rows, dynamics_.size());
+  right_side_.setZero(rows);
+}
+
+const ConstrainedSolution& ConstrainedDynamics::Evaluate(const VectorX& q, const VectorX& v, const VectorX& tau,
+                                                         const Vector3& gravity) {
+  dynamics_.ComputeState(q, v, &state_);
+  dynamics_.MassMatrix(state_, &workspace_, &mass_);
+  dynamics_.BiasForce(state_, gravity, &workspace_, &bias_);
+  force_ = tau - bias_;
+  for (size_t k = 0; k < surfaces_.size(); ++k) {
+    const ContactSurface& surface = surfaces_[k];
+    const RollingContact contact = ComputeRollingContact(surface, state_);
+    contacts_[k] = contact;
+    RollingJacobian(dynamics_, surface, state_, contact.p_WP, first_row_[k], &jacobian_);
+    for (size_t i = 0; i < surface.directions.size(); ++i) {
+      const int axis = surface.directions[i];
+      const double correction =
+          axis == 2 ? 2 * baumgarte_.damping * baumgarte_.frequency * contact.slip.z() +
+                          baumgarte_.frequency * baumgarte_.frequency * contact.gap
+                    : baumgarte_.slip_rate * contact.slip[axis];
+      right_side_[first_row_[k] + static_cast<int>(i)] = -contact.drift[axis] - correction;
+    }
+  }
+  solver_.Solve(mass_, force_, jacobian_, right_side_, &solution_);
+  return solution_;
+}
+
+Vector3 ConstrainedDynamics::Force(int k) const {
+  Vector3 force = Vector3::Zero();
+  const ContactSurface& surface = surfaces_[k];
+  for (size_t i = 0; i < surface.directions.size(); ++i) {
+    force[surface.directions[i]] = solution_.forces[first_row_[k] + static_cast<int>(i)];
+  }
+  return force;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,89 @@
+#ifndef ROLLGAIT_CORE_CONTACT_CONSTRAINED_DYNAMICS_H_
+#define ROLLGAIT_CORE_CONTACT_CONSTRAINED_DYNAMICS_H_
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "core/base/types.h"
+#include "core/contact/contact_surface.h"
+#include "core/contact/rolling_kinematics.h"
+#include "core/multibody/body_dynamics.h"
+
+namespace rollgait {
+
+// The solution of   M a − Jᵀ λ = f,   J a = r   (docs/notation.md; source: eqs (3.8)–(3.10) with the factor ½).
+struct ConstrainedSolution {
+  VectorX acceleration;       // n
+  VectorX forces;             // rows of J; on the body that carries the surface
+  int rank = 0;               // of J, in the metric of M⁻¹
+  // True if rank < rows. The acceleration is still the right one. The forces are not unique: of all that give this
+  // acceleration, those of least norm are returned (each row scaled to unit effective mobility).
+  bool redundant = false;
+  // max |J a − r|, m/s². Rounding level, unless redundant rows contradict each other.
+  double residual = 0;
+};
+
+// Solves that system for one size of M. Allocates only when n or the number of rows grows.
+class ConstrainedSolver {
+ public:
+  // Contract: `mass` is symmetric positive definite, J has as many columns. J may have no rows.
+  void Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const VectorX& right_side,
+             ConstrainedSolution* solution);
+
+ private:
+  // Orthonormal basis of the columns of A = L⁻¹ Jᵀ by pivoted Gram–Schmidt with reorthogonalisation.
+  void Factorise();
+
+  Eigen::LLT<MatrixX> cholesky_;
+  MatrixX a_;                // n × rows, columns scaled to unit norm
+  MatrixX q_;                // n × rank
+  MatrixX r_;                // rank × rows, columns in the order of pivots_
+  MatrixX gram_;
+  VectorX scale_, free_, right_, z_, forces_;
+  std::vector<int> pivots_;
+  int rank_ = 0;
+};
+
+// Correction of drift, per contact: n·ẇ = −2ζΩ φ̇ − Ω² φ and t·ẇ = −κ t·w instead of ẇ = 0. All zero: off.
+struct Baumgarte {
+  double frequency = 0;  // Ω, 1/s
+  double damping = 0;    // ζ
+  double slip_rate = 0;  // κ, 1/s
+};
+
+// Forward dynamics of a tree on rolling contacts that are held at acceleration level, ẇ = 0: gap and slip of the initial
+// state are carried on (the gap's acceleration is zero, too), not corrected, unless Baumgarte terms are given.
+// Bilateral: forces may pull, and friction has no limit. Not thread-safe: one object a thread.
+class ConstrainedDynamics {
+ public:
+  // `surfaces` are the active contacts. Copies what it needs of them and of the dynamics' model.
+  ConstrainedDynamics(const BodyDynamics& dynamics, std::vector<ContactSurface> surfaces, Baumgarte baumgarte = {});
+
+  // Evaluates at (q, v) with the generalized forces τ (n, N m or N; zero for joints that are not actuated).
+  // The result is valid until the next call. `forces` has a row per direction of each surface.
+  const ConstrainedSolution& Evaluate(const VectorX& q, const VectorX& v, const VectorX& tau, const Vector3& gravity);
+
+  // Of the last Evaluate.
+  const BodyDynamics::State& state() const { return state_; }
+  const RollingContact& contact(int k) const { return contacts_[k]; }
+  // Force of the ground on surface k, N, world axes; zero in directions that the contact does not transmit.
+  Vector3 Force(int k) const;
+
+ private:
+  BodyDynamics dynamics_;
+  std::vector<ContactSurface> surfaces_;
+  std::vector<int> first_row_;
+  Baumgarte baumgarte_;
+  BodyDynamics::State state_;
+  BodyDynamics::Workspace workspace_;
+  std::vector<RollingContact> contacts_;
+  MatrixX mass_, jacobian_;
+  VectorX bias_, force_, right_side_;
+  ConstrainedSolver solver_;
+  ConstrainedSolution solution_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_CONTACT_CONSTRAINED_DYNAMICS_H_
