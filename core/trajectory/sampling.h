@@ -14,11 +14,31 @@ struct MotionSample {
   VectorX forces;        // 3 · active contacts
 };
 
+// The polynomials of one interval by the rule that Trajectory states, ready to be evaluated often.
+// Immutable value; it does not refer to the trajectory after construction.
+class IntervalPolynomials {
+ public:
+  // Contract: phase and interval in range, point_fractions distinct.
+  IntervalPolynomials(const Trajectory& trajectory, int phase, int interval);
+
+  double start() const { return start_; }    // s
+  double length() const { return length_; }  // s
+  // At fraction θ ∈ [0, 1] of the interval. No allocation if the vectors already have their size.
+  void Evaluate(double theta, MotionSample* sample) const;
+  void EvaluateEfforts(double theta, VectorX* efforts) const;
+
+ private:
+  double start_, length_;
+  VectorX position_, velocity_;  // at the node
+  // Coefficients of 1, θ, …, θ^(s−1), one column each.
+  MatrixX acceleration_, efforts_, forces_;
+};
+
 // Evaluates the trajectory in interval `interval` of phase `phase` at fraction θ ∈ [0, 1] of the interval, by the rule that
 // Trajectory states. Contract: indices in range.
 MotionSample Sample(const Trajectory& trajectory, int phase, int interval, double theta);
 
-// Efforts alone, for integrators that call it often.
+// Efforts alone.
 VectorX SampleEfforts(const Trajectory& trajectory, int phase, int interval, double theta);
 
 }  // namespace rollgait
