@@ -1,0 +1,236 @@
+#include "core/nlp/ipopt_solver.h"
+
+#include <IpIpoptApplication.hpp>
+#include <IpIpoptCalculatedQuantities.hpp>
+#include <IpIpoptData.hpp>
+#include <IpTNLP.hpp>
+#include <IpoptConfig.h>
+#include <algorithm>
+#include <chrono>
+
+namespace rollgait {
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+using Clock = std::chrono::steady_clock;
+
+double Seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+// Adds the time of its own life to a total.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double* total) : total_(total), start_(Clock::now()) {}
+  ~Stopwatch() { *total_ += Seconds(Clock::now() - start_); }
+
+ private:
+  double* total_;
+  Clock::time_point start_;
+};
+
+class Adapter : public Ipopt::TNLP {
+ public:
+  Adapter(NlpProblem& problem, const NlpStart& start, const IpoptOptions& options, const SolveControl& control,
+          NlpResult* result)
+      : problem_(problem), start_(start), options_(options), control_(control), result_(result), begin_(Clock::now()) {}
+
+  bool out_of_time() const { return out_of_time_; }
+
+  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_h, IndexStyleEnum& style) override {
+    n = problem_.variables();
+    m = problem_.constraints();
+    nnz_jac = problem_.jacobian_pattern().size();
+    nnz_h = problem_.hessian_pattern().size();
+    style = C_STYLE;
+    return true;
+  }
+
+  bool get_bounds_info(Index n, Number* lower, Number* upper, Index m, Number* g_lower, Number* g_upper) override {
+    std::copy_n(problem_.lower_bounds().data(), n, lower);
+    std::copy_n(problem_.upper_bounds().data(), n, upper);
+    std::copy_n(problem_.constraint_lower().data(), m, g_lower);
+    std::copy_n(problem_.constraint_upper().data(), m, g_upper);
+    return true;
+  }
+
+  bool get_starting_point(Index n, bool, Number* x, bool init_z, Number* z_lower, Number* z_upper, Index m,
+                          bool init_lambda, Number* lambda) override {
+    std::copy_n(start_.x.data(), n, x);
+    if (init_z) {
+      std::copy_n(start_.lower_bound_multipliers.data(), n, z_lower);
+      std::copy_n(start_.upper_bound_multipliers.data(), n, z_upper);
+    }
+    if (init_lambda) std::copy_n(start_.constraint_multipliers.data(), m, lambda);
+    return true;
+  }
+
+  bool eval_f(Index, const Number* x, bool, Number& value) override {
+    const Stopwatch watch(&result_->evaluation_time_s);
+    return problem_.Objective(x, &value);
+  }
+  bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
+    const Stopwatch watch(&result_->evaluation_time_s);
+    return problem_.Gradient(x, gradient);
+  }
+  bool eval_g(Index, const Number* x, bool, Index, Number* g) override {
+    const Stopwatch watch(&result_->evaluation_time_s);
+    return problem_.Constraints(x, g);
+  }
+  bool eval_jac_g(Index, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
+    if (values == nullptr) {
+      std::copy(problem_.jacobian_pattern().rows.begin(), problem_.jacobian_pattern().rows.end(), rows);
+      std::copy(problem_.jacobian_pattern().columns.begin(), problem_.jacobian_pattern().columns.end(), columns);
+      return true;
+    }
+    const Stopwatch watch(&result_->evaluation_time_s);
+    return problem_.Jacobian(x, values);
+  }
+  bool eval_h(Index, const Number* x, bool, Number sigma, Index, const Number* lambda, bool, Index, Index* rows,
+              Index* columns, Number* values) override {
+    if (values == nullptr) {
+      std::copy(problem_.hessian_pattern().rows.begin(), problem_.hessian_pattern().rows.end(), rows);
+      std::copy(problem_.hessian_pattern().columns.begin(), problem_.hessian_pattern().columns.end(), columns);
+      return true;
+    }
+    const Stopwatch watch(&result_->evaluation_time_s);
+    return problem_.Hessian(x, sigma, lambda, values);
+  }
+
+  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number objective, Number primal, Number dual,
+                             Number mu, Number step_norm, Number regularization, Number dual_step, Number primal_step,
+                             Index trials, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    const double elapsed = Seconds(Clock::now() - begin_);
+    if (control_.observer) {
+      IterationInfo info;
+      info.index = iteration;
+      info.objective = objective;
+      info.primal_infeasibility = primal;
+      info.dual_infeasibility = dual;
+      info.barrier_parameter = mu;
+      info.step_norm = step_norm;
+      info.regularization = regularization;
+      info.primal_step = primal_step;
+      info.dual_step = dual_step;
+      info.line_search_trials = trials;
+      info.restoration = mode == Ipopt::RestorationPhaseMode;
+      info.elapsed_s = elapsed;
+      info.mesh = options_.mesh;
+      control_.observer(info);
+    }
+    if (elapsed > options_.max_wall_time_s) {
+      out_of_time_ = true;
+      return false;
+    }
+    return control_.stop == nullptr || !control_.stop->requested();
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number* z_lower, const Number* z_upper,
+                         Index m, const Number*, const Number* lambda, Number objective, const Ipopt::IpoptData* data,
+                         Ipopt::IpoptCalculatedQuantities* quantities) override {
+    result_->x = Eigen::Map<const VectorX>(x, n);
+    result_->lower_bound_multipliers = Eigen::Map<const VectorX>(z_lower, n);
+    result_->upper_bound_multipliers = Eigen::Map<const VectorX>(z_upper, n);
+    result_->constraint_multipliers = Eigen::Map<const VectorX>(lambda, m);
+    result_->objective = objective;
+    result_->iterations = data->iter_count();
+    result_->kkt_error = quantities->curr_nlp_error();
+    result_->constraint_violation = quantities->curr_nlp_constraint_violation(Ipopt::NORM_MAX);
+  }
+
+ private:
+  NlpProblem& problem_;
+  const NlpStart& start_;
+  const IpoptOptions& options_;
+  const SolveControl& control_;
+  NlpResult* result_;
+  Clock::time_point begin_;
+  bool out_of_time_ = false;
+};
+
+void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const IpoptOptions& options) {
+  auto& o = *app.Options();
+  o.SetIntegerValue("print_level", 0);
+  o.SetStringValue("sb", "yes");
+  o.SetNumericValue("tol", options.tolerance);
+  o.SetNumericValue("constr_viol_tol", options.tolerance);
+  o.SetNumericValue("dual_inf_tol", std::max(options.tolerance, 1e-4));
+  o.SetNumericValue("compl_inf_tol", std::max(options.tolerance, 1e-6));
+  // "Acceptable" is decided here, not by a weaker tolerance that ends a solve early.
+  o.SetIntegerValue("acceptable_iter", 0);
+  o.SetIntegerValue("max_iter", options.max_iterations);
+  o.SetStringValue("linear_solver", "mumps");
+  // Approximate minimum degree, set explicitly: the automatic choice may take SCOTCH, whose runs differ from one another.
+  o.SetIntegerValue("mumps_pivot_order", 0);
+  o.SetIntegerValue("mumps_mem_percent", 200);
+  // The transcription scales unknowns, rows and objective itself.
+  o.SetStringValue("nlp_scaling_method", "none");
+  o.SetStringValue("fixed_variable_treatment", "make_parameter");
+  o.SetNumericValue("mu_init", options.initial_barrier);
+  if (start.constraint_multipliers.size() > 0) {
+    o.SetStringValue("warm_start_init_point", "yes");
+    for (const char* name : {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push",
+                             "warm_start_slack_bound_frac", "warm_start_mult_bound_push"}) {
+      o.SetNumericValue(name, options.initial_barrier);
+    }
+  }
+}
+
+Termination Interpret(Ipopt::ApplicationReturnStatus status, const Adapter& adapter, const SolveControl& control,
+                      const IpoptOptions& options, NlpResult* result) {
+  switch (status) {
+    case Ipopt::Solve_Succeeded:
+      result->message = "The optimality conditions hold to the requested tolerance.";
+      return Termination::kOptimal;
+    case Ipopt::User_Requested_Stop:
+      if (adapter.out_of_time()) {
+        result->message = "The time limit was reached; raise solver_limits.max_wall_time_s or use a coarser mesh.";
+        return Termination::kTimeLimit;
+      }
+      result->message = "The solve was cancelled.";
+      return Termination::kCancelled;
+    case Ipopt::Infeasible_Problem_Detected:
+      result->message = "No motion near the last iterate meets all constraints; unmet_constraints names the worst.";
+      return Termination::kInfeasible;
+    case Ipopt::Maximum_Iterations_Exceeded:
+      result->message = "The iteration limit was reached before convergence.";
+      return Termination::kIterationLimit;
+    default:
+      break;
+  }
+  if (control.stop != nullptr && control.stop->requested()) {
+    result->message = "The solve was cancelled.";
+    return Termination::kCancelled;
+  }
+  if (result->x.size() > 0 && result->kkt_error <= 100 * options.tolerance) {
+    result->message = "No further progress; the optimality conditions hold to 100 times the requested tolerance.";
+    return Termination::kAcceptable;
+  }
+  if (status == Ipopt::Restoration_Failed && result->constraint_violation > 100 * options.tolerance) {
+    result->message = "The constraints could not be met from the last iterate; unmet_constraints names the worst.";
+    return Termination::kInfeasible;
+  }
+  result->message = "The solver stopped with Ipopt status " + std::to_string(static_cast<int>(status)) + ".";
+  return Termination::kNumericalDifficulty;
+}
+
+}  // namespace
+
+NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const IpoptOptions& options,
+                         const SolveControl& control) {
+  NlpResult result;
+  const auto begin = Clock::now();
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> app = new Ipopt::IpoptApplication(false);
+  app->RethrowNonIpoptException(true);
+  SetOptions(*app, start, options);
+  Ipopt::ApplicationReturnStatus status = app->Initialize("");
+  Adapter* adapter = new Adapter(problem, start, options, control, &result);
+  const Ipopt::SmartPtr<Ipopt::TNLP> keep = adapter;
+  if (status == Ipopt::Solve_Succeeded) status = app->OptimizeTNLP(keep);
+  result.termination = Interpret(status, *adapter, control, options, &result);
+  result.wall_time_s = Seconds(Clock::now() - begin);
+  return result;
+}
+
+std::string IpoptVersion() { return std::string("Ipopt ") + IPOPT_VERSION; }
+
+}  // namespace rollgait

@@ -1,0 +1,47 @@
+#ifndef ROLLGAIT_CORE_NLP_PROBLEM_H_
+#define ROLLGAIT_CORE_NLP_PROBLEM_H_
+
+#include <vector>
+
+#include "core/base/types.h"
+
+namespace rollgait {
+
+// Row and column of every entry of a sparse matrix, in the order in which values are delivered. Entries that occur twice add.
+struct SparsityPattern {
+  std::vector<int> rows;
+  std::vector<int> columns;
+  int size() const { return static_cast<int>(rows.size()); }
+  void Add(int row, int column) {
+    rows.push_back(row);
+    columns.push_back(column);
+  }
+};
+
+//   minimise f(x)  subject to  g_l ≤ g(x) ≤ g_u,  x_l ≤ x ≤ x_u.
+// Sizes, bounds and patterns are fixed for the life of the object. Evaluations allocate nothing and return false where a value
+// is not finite. ±1e19 and beyond means "no bound".
+class NlpProblem {
+ public:
+  virtual ~NlpProblem() = default;
+
+  virtual int variables() const = 0;
+  virtual int constraints() const = 0;
+  virtual const VectorX& lower_bounds() const = 0;        // variables()
+  virtual const VectorX& upper_bounds() const = 0;
+  virtual const VectorX& constraint_lower() const = 0;    // constraints()
+  virtual const VectorX& constraint_upper() const = 0;
+  virtual const SparsityPattern& jacobian_pattern() const = 0;
+  // Lower triangle of the Hessian of the Lagrangian  σ f + λᵀ g.
+  virtual const SparsityPattern& hessian_pattern() const = 0;
+
+  virtual bool Objective(const double* x, double* value) = 0;
+  virtual bool Gradient(const double* x, double* gradient) = 0;
+  virtual bool Constraints(const double* x, double* g) = 0;
+  virtual bool Jacobian(const double* x, double* values) = 0;
+  virtual bool Hessian(const double* x, double sigma, const double* lambda, double* values) = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_PROBLEM_H_
