@@ -1,0 +1,116 @@
+#include "server/store/sqlite_rows.h"
+
+#include "rollgait/v1/solve.pb.h"
+
+namespace rollgait::server {
+namespace {
+
+v1::SolveEvent EventAt(int64_t now_us) {
+  v1::SolveEvent event;
+  event.mutable_time()->set_seconds(now_us / 1'000'000);
+  event.mutable_time()->set_nanos(static_cast<int32_t>(now_us % 1'000'000) * 1000);
+  return event;
+}
+
+void DropLease(SolveRow& row) {
+  row.owner.clear();
+  row.lease_boot_id.clear();
+  row.lease_end_ns = 0;
+}
+
+}  // namespace
+
+SolveRow ReadSolve(const Query& query) {
+  SolveRow row;
+  SolveRecord& record = row.record;
+  row.number = query.Int(0);
+  record.id = query.Bytes(1);
+  record.spec = query.Bytes(2);
+  record.solve_key = query.Bytes(3);
+  record.state = static_cast<SolveState>(query.Int(4));
+  record.create_time_us = query.Int(5);
+  record.start_time_us = query.Int(6);
+  record.end_time_us = query.Int(7);
+  record.attempts = static_cast<int>(query.Int(8));
+  record.crashes = static_cast<int>(query.Int(9));
+  record.cancel_requested = query.Int(10) != 0;
+  record.from_cache = query.Int(11) != 0;
+  record.last_sequence = query.Int(12);
+  row.result_id = query.Int(13);
+  record.error = query.Bytes(14);
+  row.owner = query.Bytes(15);
+  row.epoch = query.Int(16);
+  row.lease_boot_id = query.Bytes(17);
+  row.lease_end_ns = query.Int(18);
+  return row;
+}
+
+std::optional<SolveRow> FindSolve(SqliteConnection& connection, const std::string& id) {
+  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ?", id);
+  if (!query.Step()) return std::nullopt;
+  return ReadSolve(query);
+}
+
+void SaveSolve(SqliteConnection& connection, const SolveRow& row) {
+  const SolveRecord& record = row.record;
+  Query(connection,
+        "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
+        "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
+        "owner = NULLIF(?, ''), epoch = ?, lease_boot_id = ?, lease_end_ns = ? WHERE number = ?",
+        static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
+        record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error}, row.owner,
+        row.epoch, row.lease_boot_id, row.lease_end_ns, row.number)
+      .Run();
+}
+
+void AppendEvent(SqliteConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
+  Query(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", row.number,
+        ++row.record.last_sequence, static_cast<int>(kind), Blob{payload})
+      .Run();
+}
+
+void ChangeState(SqliteConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
+                 int64_t now_us) {
+  row.record.state = state;
+  v1::SolveEvent event = EventAt(now_us);
+  event.mutable_state_change()->set_state(static_cast<v1::SolveState>(state));
+  event.mutable_state_change()->set_attempt(row.record.attempts);
+  event.mutable_state_change()->set_detail(detail);
+  AppendEvent(connection, row, EventKind::kStateChange, event.SerializeAsString());
+}
+
+void EndSolve(SqliteConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
+              const std::string& error, int64_t now_us) {
+  row.record.state = state;
+  row.record.end_time_us = now_us;
+  row.record.error = error;
+  row.result_id = result_id;
+  DropLease(row);
+  AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
+  SaveSolve(connection, row);
+}
+
+void RequeueSolve(SqliteConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us) {
+  if (row.record.cancel_requested) {
+    EndSolve(connection, row, SolveState::kCancelled, 0, CancelledError(), now_us);
+    return;
+  }
+  DropLease(row);
+  ChangeState(connection, row, SolveState::kQueued, detail, now_us);
+  SaveSolve(connection, row);
+}
+
+int64_t FindReusableResult(SqliteConnection& connection, const std::string& solve_key) {
+  if (solve_key.empty()) return 0;
+  Query query(connection, "SELECT id FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1", solve_key);
+  return query.Step() ? query.Int(0) : 0;
+}
+
+std::string CancelledError() {
+  v1::SolveError error;
+  error.set_kind(v1::SolveError::KIND_CANCELLED);
+  error.set_message("cancelled on request");
+  return error.SerializeAsString();
+}
+
+}  // namespace rollgait::server
