@@ -1,0 +1,113 @@
+#include "core/models/catalog.h"
+
+#include <limits>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rollgait {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+BodyRequest Planar() {
+  BodyRequest request;
+  request.model = "planar";
+  return request;
+}
+
+TEST(CatalogTest, EveryEntryBuildsAsListed) {
+  std::set<std::string> names;
+  for (const CatalogEntry& entry : ListCatalog()) {
+    EXPECT_TRUE(names.insert(entry.name).second);
+    EXPECT_FALSE(entry.description.empty());
+    for (const Sex sex : {Sex::kFemale, Sex::kMale}) {
+      BodyRequest request;
+      request.model = entry.name;
+      request.sex = sex;
+      const Result<Scene> scene = BuildScene(request);
+      ASSERT_TRUE(scene.ok()) << entry.name;
+      EXPECT_EQ(scene.value().name, entry.name);
+      EXPECT_EQ(scene.value().selection.model, entry.name);
+      EXPECT_EQ(scene.value().model.size(), entry.degrees_of_freedom);
+      EXPECT_EQ(scene.value().model.actuated().size(), static_cast<size_t>(entry.actuated_joints));
+      ASSERT_EQ(scene.value().contacts.size(), entry.contacts.size());
+      for (const std::string& contact : entry.contacts) EXPECT_GE(scene.value().FindContact(contact), 0);
+    }
+  }
+  EXPECT_EQ(names.count("planar"), 1u);
+}
+
+TEST(CatalogTest, PlanarHumanIsListedWithItsContacts) {
+  const CatalogEntry entry = ListCatalog().front();
+  EXPECT_EQ(entry.name, "planar");
+  EXPECT_EQ(entry.degrees_of_freedom, 9);
+  EXPECT_EQ(entry.actuated_joints, 6);
+  EXPECT_THAT(entry.contacts, ElementsAre("left_foot", "right_foot"));
+}
+
+TEST(CatalogTest, DefaultsDependOnSex) {
+  BodyRequest request = Planar();
+  const Result<Scene> male = BuildScene(request);
+  ASSERT_TRUE(male.ok());
+  EXPECT_EQ(male.value().selection.stature, 1.774);
+  EXPECT_EQ(male.value().selection.mass, 75);
+  request.sex = Sex::kFemale;
+  const Result<Scene> female = BuildScene(request);
+  ASSERT_TRUE(female.ok());
+  EXPECT_EQ(female.value().selection.sex, Sex::kFemale);
+  EXPECT_EQ(female.value().selection.stature, 1.610);
+  EXPECT_EQ(female.value().selection.mass, 62);
+}
+
+TEST(CatalogTest, LimitsAreInclusive) {
+  for (const auto& [stature, mass] : {std::pair{1.0, 20.0}, {2.3, 250.0}}) {
+    BodyRequest request = Planar();
+    request.stature = stature;
+    request.mass = mass;
+    EXPECT_TRUE(BuildScene(request).ok());
+  }
+}
+
+TEST(CatalogTest, RefusesAnUnknownModelAndListsTheKnownOnes) {
+  for (const char* name : {"", "biped", "planar ", "Planar"}) {
+    BodyRequest request = Planar();
+    request.model = name;
+    const Result<Scene> scene = BuildScene(request);
+    ASSERT_FALSE(scene.ok()) << name;
+    ASSERT_EQ(scene.violations().size(), 1u);
+    EXPECT_EQ(scene.violations()[0].field, "name");
+    EXPECT_THAT(scene.violations()[0].message, HasSubstr("\"planar\""));
+  }
+}
+
+TEST(CatalogTest, RefusesBodiesOutOfRangeWithValueAndLimits) {
+  BodyRequest request;
+  request.model = "biped";
+  request.stature = 2.31;
+  request.mass = 19.9;
+  const Result<Scene> scene = BuildScene(request);
+  ASSERT_FALSE(scene.ok());
+  ASSERT_EQ(scene.violations().size(), 3u);
+  EXPECT_EQ(scene.violations()[1].field, "stature_m");
+  EXPECT_THAT(scene.violations()[1].message, AllOf(HasSubstr("2.31 m"), HasSubstr("between 1 and 2.3 m")));
+  EXPECT_EQ(scene.violations()[2].field, "body_mass_kg");
+  EXPECT_THAT(scene.violations()[2].message, AllOf(HasSubstr("19.9 kg"), HasSubstr("between 20 and 250 kg")));
+}
+
+TEST(CatalogTest, RefusesNumbersThatAreNotFinite) {
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
+    BodyRequest request = Planar();
+    request.stature = value;
+    EXPECT_FALSE(BuildScene(request).ok());
+    request = Planar();
+    request.mass = value;
+    EXPECT_FALSE(BuildScene(request).ok());
+  }
+}
+
+}  // namespace
+}  // namespace rollgait
