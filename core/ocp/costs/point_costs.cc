@@ -1,0 +1,75 @@
+#include "core/ocp/costs/point_costs.h"
+
+#include <cmath>
+
+namespace rollgait {
+
+SquaredTorqueCost::SquaredTorqueCost(VectorX weights, const PointLayout& layout, double effort_size)
+    : weights_(std::move(weights)), layout_(layout), effort_size_(effort_size) {}
+double SquaredTorqueCost::Typical() const { return weights_.sum() * effort_size_ * effort_size_ / 20; }
+Entries SquaredTorqueCost::HessianPattern() const {
+  Entries entries;
+  for (int j = 0; j < layout_.efforts; ++j) entries.emplace_back(layout_.tau() + j, layout_.tau() + j);
+  return entries;
+}
+double SquaredTorqueCost::Value(const PointContext& at) {
+  double sum = 0;
+  for (int j = 0; j < layout_.efforts; ++j) sum += weights_(j) * at.z[layout_.tau() + j] * at.z[layout_.tau() + j];
+  return sum;
+}
+void SquaredTorqueCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {
+  for (int j = 0; j < layout_.efforts; ++j) {
+    gradient(layout_.tau() + j) += 2 * weight * weights_(j) * at.z[layout_.tau() + j];
+  }
+}
+void SquaredTorqueCost::AddHessian(const PointContext&, double weight, Eigen::Ref<MatrixX> hessian) {
+  for (int j = 0; j < layout_.efforts; ++j) {
+    hessian(layout_.tau() + j, layout_.tau() + j) += 2 * weight * weights_(j);
+  }
+}
+
+MechanicalWorkCost::MechanicalWorkCost(double smoothing, std::vector<int> actuated, const PointLayout& layout,
+                                       double typical)
+    : smoothing_(smoothing), actuated_(std::move(actuated)), layout_(layout), typical_(typical) {}
+Entries MechanicalWorkCost::HessianPattern() const {
+  Entries entries;
+  for (int j = 0; j < layout_.efforts; ++j) {
+    const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];
+    entries.emplace_back(tau, tau);
+    entries.emplace_back(v, tau);
+    entries.emplace_back(v, v);
+  }
+  return entries;
+}
+double MechanicalWorkCost::Value(const PointContext& at) {
+  double sum = 0;
+  for (int j = 0; j < layout_.efforts; ++j) {
+    const double power = at.z[layout_.tau() + j] * at.z[layout_.v() + actuated_[j]];
+    // √(p² + ε²) − ε without cancellation.
+    sum += power * power / (std::sqrt(power * power + smoothing_ * smoothing_) + smoothing_);
+  }
+  return sum;
+}
+void MechanicalWorkCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {
+  for (int j = 0; j < layout_.efforts; ++j) {
+    const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];
+    const double power = at.z[tau] * at.z[v];
+    const double slope = weight * power / std::sqrt(power * power + smoothing_ * smoothing_);
+    gradient(tau) += slope * at.z[v];
+    gradient(v) += slope * at.z[tau];
+  }
+}
+void MechanicalWorkCost::AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) {
+  for (int j = 0; j < layout_.efforts; ++j) {
+    const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];
+    const double power = at.z[tau] * at.z[v];
+    const double root = std::sqrt(power * power + smoothing_ * smoothing_);
+    const double slope = weight * power / root;
+    const double curvature = weight * smoothing_ * smoothing_ / (root * root * root);
+    hessian(tau, tau) += curvature * at.z[v] * at.z[v];
+    hessian(v, v) += curvature * at.z[tau] * at.z[tau];
+    hessian(v, tau) += curvature * at.z[v] * at.z[tau] + slope;
+  }
+}
+
+}  // namespace rollgait

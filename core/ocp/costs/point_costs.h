@@ -1,0 +1,59 @@
+#ifndef ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
+#define ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
+
+#include "core/ocp/point_function.h"
+
+namespace rollgait {
+
+// Σ w_j τ_j², N² m².  Source: section 4.2 of the paper.
+class SquaredTorqueCost : public PointCost {
+ public:
+  SquaredTorqueCost(VectorX weights, const PointLayout& layout, double effort_size);
+  std::string Name() const override { return "squared torque"; }
+  std::string Unit() const override { return "N² m² s"; }
+  double Typical() const override;
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  VectorX weights_;
+  PointLayout layout_;
+  double effort_size_;
+};
+
+// Σ ( √((τ_j v_j)² + ε²) − ε ), W: mechanical power of the joints, made smooth by ε.
+class MechanicalWorkCost : public PointCost {
+ public:
+  MechanicalWorkCost(double smoothing, std::vector<int> actuated, const PointLayout& layout, double typical);
+  std::string Name() const override { return "mechanical work"; }
+  std::string Unit() const override { return "J"; }
+  double Typical() const override { return typical_; }
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  double smoothing_;
+  std::vector<int> actuated_;
+  PointLayout layout_;
+  double typical_;
+};
+
+// 1: the integral is the duration, s.
+class TimeCost : public PointCost {
+ public:
+  std::string Name() const override { return "time"; }
+  std::string Unit() const override { return "s"; }
+  double Typical() const override { return 1; }
+  Entries HessianPattern() const override { return {}; }
+  double Value(const PointContext&) override { return 1; }
+  void AddGradient(const PointContext&, double, Eigen::Ref<VectorX>) override {}
+  void AddHessian(const PointContext&, double, Eigen::Ref<MatrixX>) override {}
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_

@@ -1,0 +1,94 @@
+#include "core/ocp/problem.h"
+
+#include <algorithm>
+
+#include "core/ocp/constraints/contact_point.h"
+#include "core/ocp/constraints/dynamics.h"
+#include "core/ocp/constraints/friction.h"
+#include "core/ocp/constraints/rolling.h"
+
+namespace rollgait {
+namespace {
+
+bool Contains(const std::vector<int>& values, int value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+}  // namespace
+
+std::vector<int> OptimalControlProblem::PreviousActive(int phase) const {
+  if (phase > 0) return phases[phase - 1].active;
+  std::vector<int> previous = phases.back().active;
+  if (mirrored) {
+    for (int& contact : previous) contact = contacts[contact].mirror_contact;
+  }
+  return previous;
+}
+
+std::vector<ActiveContact> OptimalControlProblem::ActiveContacts(int phase) const {
+  std::vector<ActiveContact> active;
+  int offset = 0;
+  for (int contact : phases[phase].active) {
+    active.push_back({contact, offset, contacts[contact].directions});
+    offset += static_cast<int>(contacts[contact].directions.size());
+  }
+  return active;
+}
+
+PointLayout OptimalControlProblem::Layout(int phase) const {
+  PointLayout layout;
+  layout.n = model.size();
+  layout.efforts = static_cast<int>(model.actuated().size());
+  for (int contact : phases[phase].active) layout.forces += static_cast<int>(contacts[contact].directions.size());
+  return layout;
+}
+
+std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(int phase, bool at_node) const {
+  std::vector<std::unique_ptr<PointConstraint>> constraints;
+  const PointLayout layout = Layout(phase);
+  const auto active = ActiveContacts(phase);
+  constraints.push_back(
+      std::make_unique<DynamicsConstraint>(model, contacts, active, layout, force_size(), effort_size()));
+  for (const ActiveContact& contact : active) {
+    if (at_node) {
+      constraints.push_back(std::make_unique<RollingAccelerationConstraint>(model, contacts, contact.contact, layout));
+    } else {
+      constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, contacts, contact.contact, layout));
+    }
+    constraints.push_back(std::make_unique<FrictionConstraint>(contacts[contact.contact].name, contact, layout,
+                                                               friction_coefficient, force_size()));
+  }
+  // At a node that belongs to the interval before as well, the gap is bounded there.
+  for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
+    if (Contains(phases[phase].active, c)) continue;
+    constraints.push_back(std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance,
+                                                          swing_clearance));
+  }
+  return constraints;
+}
+
+std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::EntryConstraints(int phase) const {
+  std::vector<std::unique_ptr<PointConstraint>> constraints;
+  PointLayout layout;
+  layout.n = model.size();
+  const std::vector<int> previous = PreviousActive(phase);
+  for (int contact : phases[phase].active) {
+    if (Contains(previous, contact)) continue;
+    constraints.push_back(
+        std::make_unique<GapConstraint>(model, contacts, contact, layout, GapConstraint::Kind::kTouching, 0));
+    constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, contacts, contact, layout));
+    if (touch_down_point) {
+      constraints.push_back(std::make_unique<SurfacePointConstraint>(model, contacts, contact, layout,
+                                                                     touch_down_point->min, touch_down_point->max));
+    }
+  }
+  for (int contact : previous) {
+    if (lift_off_point && !Contains(phases[phase].active, contact)) {
+      constraints.push_back(std::make_unique<SurfacePointConstraint>(model, contacts, contact, layout,
+                                                                     lift_off_point->min, lift_off_point->max));
+    }
+  }
+  return constraints;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,77 @@
+#ifndef ROLLGAIT_CORE_OCP_PROBLEM_H_
+#define ROLLGAIT_CORE_OCP_PROBLEM_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/ocp/point_function.h"
+
+namespace rollgait {
+
+struct Interval {
+  double min = -kInfinity;
+  double max = kInfinity;
+};
+
+// One phase: the contacts that roll without slipping in it, and bounds on its free duration.
+struct PhaseDescription {
+  std::vector<int> active;
+  Interval duration;  // s
+};
+
+// One cost term: an integrand, or the squared rate of the efforts (which no single instant knows).
+struct CostDescription {
+  std::unique_ptr<PointCost> integrand;   // null for the effort rate
+  VectorX effort_rate_weights;            // per actuated joint, for the effort rate
+  double effort_rate_typical = 1;         // its order of magnitude, for scaling
+  double weight = 1;
+};
+
+// What the sum of the cost integrals is divided by.
+enum class CostDenominator { kDistance, kTime, kNothing };
+
+// The multi-phase periodic problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit.
+// World axes: x along the ground, z its normal; all contacts are with the plane z = 0.
+struct OptimalControlProblem {
+  explicit OptimalControlProblem(Model tree) : model(std::move(tree)) {}
+
+  Model model;
+  std::vector<ContactSurface> contacts;
+  Vector3 gravity{0, 0, -9.81};
+  std::vector<PhaseDescription> phases;
+  // The end is the left/right mirror image of the start (half cycle), or the start itself (full cycle), moved along x.
+  bool mirrored = true;
+  int forward_joint = 0;  // prismatic joint along x that carries the displacement
+
+  std::vector<CostDescription> costs;
+  CostDenominator denominator = CostDenominator::kDistance;
+
+  double friction_coefficient = 0.8;
+  double min_normal_force = 0;   // N
+  double swing_clearance = 0.01; // m
+  std::optional<Interval> touch_down_point, lift_off_point;
+
+  Interval displacement;         // m over all phases
+  Interval duration;             // s over all phases
+  Interval speed;                // m/s; equal bounds prescribe it
+
+  double force_size() const { return model.total_mass() * gravity.norm(); }
+  double effort_size() const { return 0.15 * force_size(); }  // N m: about 100 for an adult
+
+  // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored.
+  std::vector<int> PreviousActive(int phase) const;
+  std::vector<ActiveContact> ActiveContacts(int phase) const;
+  PointLayout Layout(int phase) const;
+
+  // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
+  // (first point of a Lobatto scheme).
+  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node) const;
+  // Rows at the first node of a phase: new contacts touch and are at rest; prescribed contact points.
+  std::vector<std::unique_ptr<PointConstraint>> EntryConstraints(int phase) const;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_OCP_PROBLEM_H_

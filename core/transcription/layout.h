@@ -1,0 +1,51 @@
+#ifndef ROLLGAIT_CORE_TRANSCRIPTION_LAYOUT_H_
+#define ROLLGAIT_CORE_TRANSCRIPTION_LAYOUT_H_
+
+#include <vector>
+
+#include "core/math/collocation.h"
+#include "core/ocp/problem.h"
+
+namespace rollgait {
+
+// Number of equal intervals in every phase.
+struct Mesh {
+  std::vector<int> intervals;
+  int total() const;
+};
+
+// The only place that knows where unknowns sit in the decision vector. Stage order:
+//   node 0, interior of interval 0, node 1, interior of interval 1, … , node N, durations T_0 … T_P−1, displacement D.
+// A node is (q, v); the interior of an interval is the accelerations of its first s − 2 points, then (τ, f) point by point.
+class DecisionLayout {
+ public:
+  DecisionLayout(const OptimalControlProblem& problem, const Mesh& mesh, int points);
+
+  int size() const { return displacement_ + 1; }
+  int intervals() const { return static_cast<int>(phase_of_.size()); }
+  int phases() const { return static_cast<int>(first_interval_.size()) - 1; }
+  int points() const { return points_; }
+  int phase(int interval) const { return phase_of_[interval]; }
+  int first_interval(int phase) const { return first_interval_[phase]; }
+  int intervals_in(int phase) const { return first_interval_[phase + 1] - first_interval_[phase]; }
+
+  int node(int k) const { return node_[k]; }
+  int interior(int interval) const { return node_[interval] + 2 * n_; }
+  int interior_size(int phase) const { return (points_ - 2) * n_ + points_ * per_point_[phase]; }
+  int free_acceleration(int interval, int point) const { return interior(interval) + point * n_; }
+  int efforts(int interval, int point) const {
+    return interior(interval) + (points_ - 2) * n_ + point * per_point_[phase_of_[interval]];
+  }
+  int forces(int interval, int point) const { return efforts(interval, point) + efforts_; }
+  int duration(int phase) const { return durations_ + phase; }
+  int displacement() const { return displacement_; }
+
+ private:
+  int n_, efforts_, points_;
+  std::vector<int> phase_of_, first_interval_, per_point_, node_;
+  int durations_, displacement_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_TRANSCRIPTION_LAYOUT_H_
