@@ -1,0 +1,31 @@
+#ifndef ROLLGAIT_CORE_VALIDATION_RESIMULATION_H_
+#define ROLLGAIT_CORE_VALIDATION_RESIMULATION_H_
+
+#include "core/models/scene.h"
+#include "core/multibody/body_dynamics.h"
+#include "core/trajectory/trajectory.h"
+#include "core/validation/residuals.h"
+
+namespace rollgait {
+
+// A largest difference, and where it occurs.
+struct Defect {
+  double value = 0;  // rad or m, rad/s or m/s; infinite if the interval could not be integrated
+  int joint = 0;
+  double time = 0;   // s, end of the interval
+};
+
+struct Resimulation {
+  Defect position, velocity;
+};
+
+// Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held rolling
+// at acceleration level, and compares the end with the next node; at the end of a phase also with the first node of the
+// next phase, and at the end of the trajectory also with PeriodicEnd. Adds the contact forces at every accepted step to
+// `forces`. `tolerance` > 0 is relative and absolute.
+Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
+                        const Vector3& gravity, double tolerance, ForceExtremes* forces);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_VALIDATION_RESIMULATION_H_

@@ -1,0 +1,60 @@
+#include "core/base/check.h"
+#include "core/multibody/body_dynamics.h"
+#include "core/validation/report.h"
+#include "core/validation/residuals.h"
+#include "core/validation/resimulation.h"
+
+namespace rollgait {
+namespace {
+
+void CheckShapes(const Scene& scene, const Trajectory& trajectory) {
+  const int n = scene.model.size();
+  const int s = trajectory.points_per_interval;
+  ROLLGAIT_CHECK(!trajectory.phases.empty() && s >= 1);
+  ROLLGAIT_CHECK(static_cast<int>(trajectory.point_fractions.size()) == s);
+  for (const TrajectoryPhase& phase : trajectory.phases) {
+    const int nodes = static_cast<int>(phase.node_times.size());
+    ROLLGAIT_CHECK(nodes >= 2);
+    ROLLGAIT_CHECK(phase.node_positions.rows() == n && phase.node_positions.cols() == nodes);
+    ROLLGAIT_CHECK(phase.node_velocities.rows() == n && phase.node_velocities.cols() == nodes);
+    ROLLGAIT_CHECK(phase.point_accelerations.rows() == n && phase.point_accelerations.cols() == (nodes - 1) * s);
+    ROLLGAIT_CHECK(phase.point_efforts.rows() == static_cast<int>(scene.model.actuated().size()));
+    ROLLGAIT_CHECK(phase.point_forces.rows() == 3 * static_cast<int>(phase.contacts.size()));
+    for (int k = 0; k + 1 < nodes; ++k) ROLLGAIT_CHECK(phase.node_times[k] < phase.node_times[k + 1]);
+    for (int c : phase.contacts) ROLLGAIT_CHECK(c >= 0 && c < static_cast<int>(scene.contacts.size()));
+  }
+}
+
+}  // namespace
+
+AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const ValidationOptions& options) {
+  CheckShapes(scene, trajectory);
+  const BodyDynamics dynamics(scene.model);
+  ForceExtremes forces(dynamics.total_mass() * options.gravity.norm());
+  const Resimulation motion =
+      Resimulate(scene, dynamics, trajectory, options.gravity, options.integrator_tolerance, &forces);
+  const ContactResiduals contacts =
+      MeasureContacts(scene, dynamics, trajectory, options.samples_per_interval, &forces);
+  const BalanceErrors balance = MeasureBalances(dynamics, scene.model, trajectory, options.gravity);
+
+  AccuracyReport report;
+  report.max_position_defect = motion.position.value;
+  report.max_position_defect_joint = motion.position.joint;
+  report.max_position_defect_time = motion.position.time;
+  report.max_velocity_defect = motion.velocity.value;
+  report.max_velocity_defect_joint = motion.velocity.joint;
+  report.max_velocity_defect_time = motion.velocity.time;
+  report.max_gap = contacts.max_gap;
+  report.max_slip = contacts.max_slip;
+  report.min_normal_force = forces.min_normal();
+  report.max_friction_ratio = forces.max_friction_ratio();
+  report.min_swing_clearance = contacts.min_swing_clearance;
+  report.periodicity_error = PeriodicityError(scene.model, trajectory);
+  report.energy_balance_error = balance.energy;
+  report.energy_balance_error_relative = balance.energy_relative;
+  report.momentum_balance_error = balance.momentum;
+  report.integrator_tolerance = options.integrator_tolerance;
+  return report;
+}
+
+}  // namespace rollgait
