@@ -26,8 +26,8 @@ std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, R
     const std::string field = Keyed("limits.joint_effort", name);
     check.Range(field, range, {-kMaxEffort, kMaxEffort, "N m or N"}, false);
     if (range.min > 0 || range.max < 0) {
-      check.Add(field, "[" + FormatNumber(range.min) + ", " + FormatNumber(range.max) +
-                           "] does not contain 0; give min <= 0 <= max");
+      check.Add(field, "the range " + FormatNumber(range.min) + " to " + FormatNumber(range.max) +
+                           " does not contain 0; give min <= 0 <= max");
     }
     if (const int joint = find(field, name, true); joint >= 0) {
       joints[joint].effort_min = range.min;

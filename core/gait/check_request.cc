@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kDefaultSpeed = 1.3;  // m/s
 
-std::optional<Scene> CheckBody(const BodyRequest& body, RequestCheck& check) {
+std::optional<Scene> CheckBody(BodyRequest body, RequestCheck& check) {
+  body.model = Printable(body.model);  // it comes back in a message if it is unknown
   Result<Scene> scene = BuildScene(body);
   if (scene.ok()) return std::move(scene).value();
   for (const Violation& violation : scene.violations()) check.Add("model." + violation.field, violation.message);
@@ -45,7 +46,7 @@ std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, RequestChe
 void CheckFroude(double speed, const GaitRequest::Motion& motion, const Scene& scene, double gravity,
                  RequestCheck& check) {
   const double froude = speed * speed / (gravity * scene.leg_length);
-  if (!(froude > 1)) return;
+  if (!(gravity > 0) || !(froude > 1)) return;  // without gravity, gravity was refused already
   const bool derived = motion.step_length && motion.step_duration;
   check.Add(derived ? "motion" : "motion.speed_m_s",
             FormatNumber(speed) + " m/s" + (derived || motion.speed ? "" : " (the default)") + " has Froude number v²/(g L) = " +

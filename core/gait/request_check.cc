@@ -8,9 +8,9 @@ namespace rollgait {
 namespace {
 
 std::string Describe(const NumberLimits& limits) {
-  std::string text = limits.above_min ? "(" : "[";
+  std::string text(1, limits.above_min ? '(' : '[');
   text += FormatNumber(limits.min) + ", " + FormatNumber(limits.max) + "]";
-  if (limits.unit[0] != '\0') text += std::string(" ") + limits.unit;
+  if (limits.unit[0] != '\0') text.append(" ").append(limits.unit);
   return text;
 }
 
@@ -28,16 +28,17 @@ std::string FormatNumber(double value) {
   return text;
 }
 
-std::string Quoted(const std::string& name) {
+std::string Printable(const std::string& name) {
   constexpr size_t kMaxLength = 40;
-  std::string text = "\"";
-  for (size_t i = 0; i < name.size() && i < kMaxLength; ++i) {
-    const char c = name[i];
-    text += (c >= ' ' && c <= '~' && c != '"' && c != '\\') ? c : '?';
+  std::string text = name.substr(0, kMaxLength);
+  for (char& c : text) {
+    if (c < ' ' || c > '~' || c == '"' || c == '\\') c = '?';
   }
   if (name.size() > kMaxLength) text += "...";
-  return text + "\"";
+  return text;
 }
+
+std::string Quoted(const std::string& name) { return std::string("\"").append(Printable(name)).append("\""); }
 
 std::string Indexed(const std::string& path, size_t index) { return path + "[" + std::to_string(index) + "]"; }
 

@@ -53,8 +53,10 @@ class RequestCheck {
   size_t left_out_ = 0;
 };
 
-// A number as it is written in messages, and a client's name in quotes: printable ASCII, at most 40 characters.
+// A number as it is written in messages; a client's name made fit for one (printable ASCII, cut after 40 characters), and
+// the same in quotes.
 std::string FormatNumber(double value);
+std::string Printable(const std::string& name);
 std::string Quoted(const std::string& name);
 // "path[3]" and "path["key"]".
 std::string Indexed(const std::string& path, size_t index);
