@@ -1,0 +1,27 @@
+#ifndef ROLLGAIT_TESTS_SERVER_STORE_SOLVE_STORE_CONFORMANCE_H_
+#define ROLLGAIT_TESTS_SERVER_STORE_SOLVE_STORE_CONFORMANCE_H_
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/store/solve_store.h"
+#include "tests/server/store/fake_clock.h"
+
+namespace rollgait::server {
+
+// One kind of store. A new kind joins the suite with one INSTANTIATE_TEST_SUITE_P line in its own test file.
+struct StoreKind {
+  std::string name;
+  // Opens the store that lies in `directory`; called twice for one directory it gives two objects on the same solves.
+  std::function<std::unique_ptr<SolveStore>(const std::string& directory, const Clock& clock)> open;
+};
+
+// The cases are in solve_store_conformance.cc.
+class SolveStoreConformance : public testing::TestWithParam<StoreKind> {};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_TESTS_SERVER_STORE_SOLVE_STORE_CONFORMANCE_H_
