@@ -51,7 +51,8 @@ struct TermCheck {
       const std::string field = Indexed(channels, i);
       CheckChannel(field, term.channels[i]);
       if (!seen.insert(term.channels[i].joint).second) {
-        check.Add(field + ".joint", "joint " + Quoted(term.channels[i].joint) + " is tracked twice; give one channel a joint");
+        check.Add(field + ".joint",
+                  "joint " + Quoted(term.channels[i].joint) + " is tracked twice; give one channel a joint");
       }
     }
   }
@@ -78,7 +79,8 @@ std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Sce
   std::vector<GaitRequest::CostTerm> terms = request.costs;
   if (terms.empty()) terms.push_back({GaitRequest::SquaredTorque{}, std::nullopt});
   if (terms.size() > static_cast<size_t>(kMaxCostTerms)) {
-    check.Add("costs", std::to_string(terms.size()) + " terms; at most " + std::to_string(kMaxCostTerms) + " are accepted");
+    check.Add("costs",
+              std::to_string(terms.size()) + " terms; at most " + std::to_string(kMaxCostTerms) + " are accepted");
     return {};
   }
   std::vector<GaitSpec::CostTerm> checked;

@@ -59,8 +59,9 @@ void CheckOrder(const std::vector<GaitSpec::Phase>& phases, Cycle cycle, const S
     std::vector<int> next = phases[last ? 0 : i + 1].contacts;
     if (last && cycle == Cycle::kHalf) next = Mirrored(std::move(next), scene);
     if (phases[i].contacts.empty() || Sorted(phases[i].contacts) != Sorted(std::move(next))) continue;
-    const std::string follower =
-        !last ? "phase " + std::to_string(i + 1) : cycle == Cycle::kHalf ? "the mirrored phase 0" : "phase 0";
+    const std::string follower = !last                   ? "phase " + std::to_string(i + 1)
+                                 : cycle == Cycle::kHalf ? "the mirrored phase 0"
+                                                         : "phase 0";
     check.Add(PhasePath(i) + ".contacts",
               "the same contacts as " + follower + ", which follows it; join the two or change the contacts of one");
   }
@@ -90,7 +91,8 @@ GaitSpec::Phase CheckPhase(const std::string& path, const GaitRequest::Phase& ph
 
 std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
   const GaitRequest::Discretization& mesh = request.discretization;
-  const int single = check.Integer("discretization.single_support_intervals", mesh.single_support_intervals, 16, 1, 1000);
+  const int single =
+      check.Integer("discretization.single_support_intervals", mesh.single_support_intervals, 16, 1, 1000);
   const int both = check.Integer("discretization.double_support_intervals", mesh.double_support_intervals,
                                  std::max(1, single / 2), 1, 1000);
   if (request.phases && request.phases->empty()) {
@@ -115,9 +117,9 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
     total += checked.back().intervals;
   }
   if (total > kMaxTotalIntervals) {
-    check.Add(request.phases ? kPath : "discretization",
-              std::to_string(total) + " mesh intervals in all phases together; at most " +
-                  std::to_string(kMaxTotalIntervals) + " are accepted");
+    check.Add(request.phases ? kPath : "discretization", std::to_string(total) +
+                                                             " mesh intervals in all phases together; at most " +
+                                                             std::to_string(kMaxTotalIntervals) + " are accepted");
   }
   if (scene != nullptr) CheckOrder(checked, request.cycle, *scene, check);
   return checked;

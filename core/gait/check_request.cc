@@ -26,8 +26,9 @@ std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, RequestChe
     return std::nullopt;
   }
   if (motion.free_speed && both) {
-    check.Add("motion.free_speed", "contradicts step_length_m and step_duration_s, which fix the speed together; "
-                                   "leave one of the three out");
+    check.Add("motion.free_speed",
+              "contradicts step_length_m and step_duration_s, which fix the speed together; "
+              "leave one of the three out");
     return std::nullopt;
   }
   if (motion.speed && both) {
@@ -49,9 +50,9 @@ void CheckFroude(double speed, const GaitRequest::Motion& motion, const Scene& s
   if (!(gravity > 0) || !(froude > 1)) return;  // without gravity, gravity was refused already
   const bool derived = motion.step_length && motion.step_duration;
   check.Add(derived ? "motion" : "motion.speed_m_s",
-            FormatNumber(speed) + " m/s" + (derived || motion.speed ? "" : " (the default)") + " has Froude number v²/(g L) = " +
-                FormatNumber(froude) + " with leg length " + FormatNumber(scene.leg_length) +
-                " m; walking is impossible above 1: give at most " +
+            FormatNumber(speed) + " m/s" + (derived || motion.speed ? "" : " (the default)") +
+                " has Froude number v²/(g L) = " + FormatNumber(froude) + " with leg length " +
+                FormatNumber(scene.leg_length) + " m; walking is impossible above 1: give at most " +
                 FormatNumber(std::sqrt(gravity * scene.leg_length)) + " m/s");
 }
 
@@ -116,7 +117,8 @@ CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double
   const std::optional<double> speed = ImpliedSpeed(motion, check);
   if (!check.ok()) return {};
   if (speed && *speed > 4) {
-    check.Add("motion", "step_length_m / step_duration_s is " + FormatNumber(*speed) + " m/s; at most 4 m/s is accepted");
+    check.Add("motion",
+              "step_length_m / step_duration_s is " + FormatNumber(*speed) + " m/s; at most 4 m/s is accepted");
   } else if (speed && scene != nullptr) {
     CheckFroude(*speed, motion, *scene, gravity, check);
   }
@@ -132,7 +134,8 @@ CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double
     checked.speed_range = {*speed, *speed};
     if (motion.step_duration) {
       widen(checked.step_length_range, *speed * *motion.step_duration);
-      check.Number("motion", *speed * *motion.step_duration, 0, {0, 2, "m of step length (speed times duration)", true});
+      check.Number("motion", *speed * *motion.step_duration, 0,
+                   {0, 2, "m of step length (speed times duration)", true});
     } else if (motion.step_length) {
       check.Number("motion", *motion.step_length / *speed, 0, {0.1, 5, "s of step duration (length divided by speed)"});
     }
@@ -160,7 +163,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
     }
   }
   if (!motion_check.ok()) {
-    for (Violation& violation : motion_check.Take()) check.Add(std::move(violation.field), std::move(violation.message));
+    for (Violation& violation : motion_check.Take())
+      check.Add(std::move(violation.field), std::move(violation.message));
   }
   std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, check);
 
@@ -168,9 +172,11 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
   const double friction =
       check.Number("ground_contact.friction_coefficient", ground.friction_coefficient, 0.8, {0, 5, "", true});
   const double min_force = check.Number("ground_contact.min_normal_force_bw", ground.min_normal_force_bw, 0, {0, 1});
-  const double clearance = check.Number("ground_contact.swing_clearance_m", ground.swing_clearance, 0.01, {0, 0.3, "m"});
+  const double clearance =
+      check.Number("ground_contact.swing_clearance_m", ground.swing_clearance, 0.01, {0, 0.3, "m"});
   const NumberLimits heel_to_toe{-1, 1};
-  if (ground.touch_down_point) check.Range("ground_contact.touch_down_point", *ground.touch_down_point, heel_to_toe, true);
+  if (ground.touch_down_point)
+    check.Range("ground_contact.touch_down_point", *ground.touch_down_point, heel_to_toe, true);
   if (ground.lift_off_point) check.Range("ground_contact.lift_off_point", *ground.lift_off_point, heel_to_toe, true);
 
   std::vector<Joint> joints = CheckLimits(request, known, check);

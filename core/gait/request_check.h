@@ -28,8 +28,8 @@ struct NumberLimits {
   bool above_min = false;
 };
 
-// Collects what is wrong with a request, in the order of the calls. At most kMaxViolations are kept, so that an answer fits
-// into the trailers of a call; the last one then tells how many more there are.
+// Collects what is wrong with a request, in the order of the calls. At most kMaxViolations are kept, so that an answer
+// fits into the trailers of a call; the last one then tells how many more there are.
 class RequestCheck {
  public:
   static constexpr size_t kMaxViolations = 20;
@@ -53,8 +53,8 @@ class RequestCheck {
   size_t left_out_ = 0;
 };
 
-// A number as it is written in messages; a client's name made fit for one (printable ASCII, cut after 40 characters), and
-// the same in quotes.
+// A number as it is written in messages; a client's name made fit for one (printable ASCII, cut after 40 characters),
+// and the same in quotes.
 std::string FormatNumber(double value);
 std::string Printable(const std::string& name);
 std::string Quoted(const std::string& name);

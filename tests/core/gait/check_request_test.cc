@@ -192,7 +192,8 @@ const BadCase kBadCases[] = {
     {"EmptyModel", [](GaitRequest& r) { r.body.model = ""; }, "model.name", "empty"},
     {"Giant", [](GaitRequest& r) { r.body.stature = 3; }, "model.stature_m", "3"},
     {"MassNan", [](GaitRequest& r) { r.body.mass = kNan; }, "model.body_mass_kg", "nan"},
-    {"TooSteep", [](GaitRequest& r) { r.slope = 0.79; }, "slope_rad", "0.79 is outside [-0.785398163, 0.785398163] rad"},
+    {"TooSteep", [](GaitRequest& r) { r.slope = 0.79; }, "slope_rad",
+     "0.79 is outside [-0.785398163, 0.785398163] rad"},
     {"SlopeNan", [](GaitRequest& r) { r.slope = kNan; }, "slope_rad", "not a finite number"},
     {"GravityInfinite", [](GaitRequest& r) { r.gravity = kInfinity; }, "gravity_m_s2", "not a finite number"},
     {"NoGravity", [](GaitRequest& r) { r.gravity = 0; }, "gravity_m_s2", "[0.1, 100]"},
@@ -246,15 +247,25 @@ const BadCase kBadCases[] = {
      },
      "motion.step_duration_s", "0.04 to 3 s"},
     {"NoPhases", [](GaitRequest& r) { r.phases.emplace(); }, "phases.phases", "no phase"},
-    {"NoContact", [](GaitRequest& r) { r.phases = {Contacts({}), Contacts({"left_foot"})}; },
+    {"NoContact",
+     [](GaitRequest& r) {
+       r.phases = {Contacts({}), Contacts({"left_foot"})};
+     },
      "phases.phases[0].contacts", "no contact"},
-    {"UnknownContact", [](GaitRequest& r) { r.phases = {Contacts({"left_foot", "hoof"})}; },
+    {"UnknownContact",
+     [](GaitRequest& r) {
+       r.phases = {Contacts({"left_foot", "hoof"})};
+     },
      "phases.phases[0].contacts[1]", "no contact \"hoof\""},
-    {"RepeatedContact", [](GaitRequest& r) { r.phases = {Contacts({"left_foot", "left_foot"})}; },
+    {"RepeatedContact",
+     [](GaitRequest& r) {
+       r.phases = {Contacts({"left_foot", "left_foot"})};
+     },
      "phases.phases[0].contacts[1]", "twice"},
     {"EqualConsecutivePhases",
      [](GaitRequest& r) {
-       r.phases = {Contacts({"left_foot", "right_foot"}), Contacts({"right_foot", "left_foot"}), Contacts({"left_foot"})};
+       r.phases = {Contacts({"left_foot", "right_foot"}), Contacts({"right_foot", "left_foot"}),
+                   Contacts({"left_foot"})};
      },
      "phases.phases[0].contacts", "phase 1"},
     {"EqualToTheMirroredFirst",
@@ -347,23 +358,47 @@ const BadCase kBadCases[] = {
      "ground_contact.min_normal_force_bw", "[0, 1]"},
     {"Clearance", [](GaitRequest& r) { r.ground_contact.swing_clearance = 0.5; }, "ground_contact.swing_clearance_m",
      "[0, 0.3] m"},
-    {"TouchDownBeyondTheHeel", [](GaitRequest& r) { r.ground_contact.touch_down_point = {-1.5, 0}; },
+    {"TouchDownBeyondTheHeel",
+     [](GaitRequest& r) {
+       r.ground_contact.touch_down_point = {-1.5, 0};
+     },
      "ground_contact.touch_down_point.min", "[-1, 1]"},
-    {"LiftOffInverted", [](GaitRequest& r) { r.ground_contact.lift_off_point = {0.5, 0.4}; },
+    {"LiftOffInverted",
+     [](GaitRequest& r) {
+       r.ground_contact.lift_off_point = {0.5, 0.4};
+     },
      "ground_contact.lift_off_point", "at most"},
-    {"PositionInverted", [](GaitRequest& r) { r.limits.joint_position["knee_l"] = {1, 0.5}; },
+    {"PositionInverted",
+     [](GaitRequest& r) {
+       r.limits.joint_position["knee_l"] = {1, 0.5};
+     },
      "limits.joint_position[\"knee_l\"]", "less than"},
-    {"PositionEmpty", [](GaitRequest& r) { r.limits.joint_position["knee_l"] = {0, 0}; },
+    {"PositionEmpty",
+     [](GaitRequest& r) {
+       r.limits.joint_position["knee_l"] = {0, 0};
+     },
      "limits.joint_position[\"knee_l\"]", "less than"},
-    {"PositionInfinite", [](GaitRequest& r) { r.limits.joint_position["knee_l"] = {-kInfinity, 0}; },
+    {"PositionInfinite",
+     [](GaitRequest& r) {
+       r.limits.joint_position["knee_l"] = {-kInfinity, 0};
+     },
      "limits.joint_position[\"knee_l\"].min", "finite"},
-    {"PositionUnknown", [](GaitRequest& r) { r.limits.joint_position["tail"] = {0, 1}; },
+    {"PositionUnknown",
+     [](GaitRequest& r) {
+       r.limits.joint_position["tail"] = {0, 1};
+     },
      "limits.joint_position[\"tail\"]", "hip_l"},
     {"VelocityZero", [](GaitRequest& r) { r.limits.joint_velocity["knee_l"] = 0; }, "limits.joint_velocity[\"knee_l\"]",
      "(0, 1000]"},
-    {"EffortWithoutZero", [](GaitRequest& r) { r.limits.joint_effort["knee_l"] = {1, 2}; },
+    {"EffortWithoutZero",
+     [](GaitRequest& r) {
+       r.limits.joint_effort["knee_l"] = {1, 2};
+     },
      "limits.joint_effort[\"knee_l\"]", "does not contain 0"},
-    {"EffortOfTheBase", [](GaitRequest& r) { r.limits.joint_effort["base_z"] = {-1, 2}; },
+    {"EffortOfTheBase",
+     [](GaitRequest& r) {
+       r.limits.joint_effort["base_z"] = {-1, 2};
+     },
      "limits.joint_effort[\"base_z\"]", "not actuated"},
     {"Tolerance", [](GaitRequest& r) { r.accuracy.kkt_tolerance = 0; }, "accuracy.kkt_tolerance", "[1e-12, 0.01]"},
     {"Gap", [](GaitRequest& r) { r.accuracy.max_gap = 1; }, "accuracy.max_gap_m", "[1e-09, 0.1] m"},
@@ -385,8 +420,8 @@ TEST(CheckRequest, CollectsEveryViolation) {
   request.motion.speed = -1;
   request.phases.emplace();
   request.accuracy.max_refinements = -1;
-  EXPECT_THAT(Fields(CheckRequest(request)), ElementsAre("model.name", "slope_rad", "phases.phases", "motion.speed_m_s",
-                                                         "accuracy.max_refinements"));
+  EXPECT_THAT(Fields(CheckRequest(request)),
+              ElementsAre("model.name", "slope_rad", "phases.phases", "motion.speed_m_s", "accuracy.max_refinements"));
 }
 
 TEST(CheckRequest, AMeshOfAMillionIsRefusedWhereverItIsAskedFor) {

@@ -1,0 +1,248 @@
+#include "server/convert/gait_request_convert.h"
+
+#include <utility>
+
+#include "server/convert/unknown_fields.h"
+
+namespace rollgait::server {
+namespace {
+
+// The optional field `name` of a message as a std::optional.
+#define ROLLGAIT_OPTIONAL(message, name) ((message).has_##name() ? std::optional((message).name()) : std::nullopt)
+
+class RequestDecoder {
+ public:
+  GaitRequest Decode(const v1::SolveSpec& spec);
+  BodyRequest DecodeSelection(const std::string& prefix, const v1::ModelSelection& selection);
+  Violations violations;
+
+ private:
+  void RefuseEnum(const std::string& field, int value) {
+    violations.push_back(
+        {field, "enum value " + std::to_string(value) + " is not known to this server; use a named one"});
+  }
+  Cycle DecodeCycle(v1::Cycle cycle);
+  GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization);
+  Scheme DecodeScheme(v1::Discretization::Scheme scheme);
+  GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
+  GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& cost);
+};
+
+GaitRequest::Range DecodeRange(const v1::Range& range) { return {range.min(), range.max()}; }
+
+std::map<std::string, double> DecodeWeights(const google::protobuf::Map<std::string, double>& weights) {
+  return {weights.begin(), weights.end()};
+}
+
+std::map<std::string, GaitRequest::Range> DecodeRanges(const google::protobuf::Map<std::string, v1::Range>& ranges) {
+  std::map<std::string, GaitRequest::Range> decoded;
+  for (const auto& [name, range] : ranges) decoded[name] = DecodeRange(range);
+  return decoded;
+}
+
+GaitRequest::Phase DecodePhase(const v1::Phase& phase) {
+  return {{phase.contacts().begin(), phase.contacts().end()},
+          ROLLGAIT_OPTIONAL(phase, intervals),
+          ROLLGAIT_OPTIONAL(phase, min_duration_s),
+          ROLLGAIT_OPTIONAL(phase, max_duration_s)};
+}
+
+GaitRequest::Tracking DecodeTracking(const v1::CostTerm::Tracking& tracking) {
+  GaitRequest::Tracking decoded;
+  for (const v1::CostTerm::Tracking::Channel& channel : tracking.channels()) {
+    decoded.channels.push_back({channel.joint(),
+                                {channel.positions().begin(), channel.positions().end()},
+                                ROLLGAIT_OPTIONAL(channel, weight)});
+  }
+  return decoded;
+}
+
+GaitRequest::GroundContact DecodeGround(const v1::GroundContact& ground) {
+  GaitRequest::GroundContact decoded;
+  decoded.friction_coefficient = ROLLGAIT_OPTIONAL(ground, friction_coefficient);
+  decoded.min_normal_force_bw = ROLLGAIT_OPTIONAL(ground, min_normal_force_bw);
+  decoded.swing_clearance = ROLLGAIT_OPTIONAL(ground, swing_clearance_m);
+  if (ground.has_touch_down_point()) decoded.touch_down_point = DecodeRange(ground.touch_down_point());
+  if (ground.has_lift_off_point()) decoded.lift_off_point = DecodeRange(ground.lift_off_point());
+  return decoded;
+}
+
+BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1::ModelSelection& selection) {
+  BodyRequest body;
+  body.model = selection.name();
+  body.stature = ROLLGAIT_OPTIONAL(selection, stature_m);
+  body.mass = ROLLGAIT_OPTIONAL(selection, body_mass_kg);
+  switch (selection.sex()) {
+    case v1::ModelSelection::SEX_UNSPECIFIED:
+    case v1::ModelSelection::SEX_MALE:
+      body.sex = Sex::kMale;
+      break;
+    case v1::ModelSelection::SEX_FEMALE:
+      body.sex = Sex::kFemale;
+      break;
+    default:
+      RefuseEnum(prefix + "sex", selection.sex());
+  }
+  return body;
+}
+
+Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle) {
+  switch (cycle) {
+    case v1::CYCLE_UNSPECIFIED:
+    case v1::CYCLE_HALF:
+      return Cycle::kHalf;
+    case v1::CYCLE_FULL:
+      return Cycle::kFull;
+    default:
+      RefuseEnum("cycle", cycle);
+      return Cycle::kHalf;
+  }
+}
+
+GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormalization normalization) {
+  switch (normalization) {
+    case v1::COST_NORMALIZATION_UNSPECIFIED:
+    case v1::COST_NORMALIZATION_PER_DISTANCE:
+      return GaitRequest::Normalization::kPerDistance;
+    case v1::COST_NORMALIZATION_PER_TIME:
+      return GaitRequest::Normalization::kPerTime;
+    case v1::COST_NORMALIZATION_NONE:
+      return GaitRequest::Normalization::kNone;
+    default:
+      RefuseEnum("cost_normalization", normalization);
+      return GaitRequest::Normalization::kPerDistance;
+  }
+}
+
+Scheme RequestDecoder::DecodeScheme(v1::Discretization::Scheme scheme) {
+  switch (scheme) {
+    case v1::Discretization::SCHEME_UNSPECIFIED:
+    case v1::Discretization::SCHEME_RADAU2:
+      return Scheme::kRadau2;
+    case v1::Discretization::SCHEME_RADAU3:
+      return Scheme::kRadau3;
+    case v1::Discretization::SCHEME_HERMITE_SIMPSON:
+      return Scheme::kHermiteSimpson;
+    default:
+      RefuseEnum("discretization.scheme", scheme);
+      return Scheme::kRadau2;
+  }
+}
+
+GaitRequest::AccuracyLevel RequestDecoder::DecodeLevel(v1::Accuracy::Level level) {
+  switch (level) {
+    case v1::Accuracy::LEVEL_DRAFT:
+      return GaitRequest::AccuracyLevel::kDraft;
+    case v1::Accuracy::LEVEL_UNSPECIFIED:
+    case v1::Accuracy::LEVEL_STANDARD:
+      return GaitRequest::AccuracyLevel::kStandard;
+    case v1::Accuracy::LEVEL_FINE:
+      return GaitRequest::AccuracyLevel::kFine;
+    default:
+      RefuseEnum("accuracy.level", level);
+      return GaitRequest::AccuracyLevel::kStandard;
+  }
+}
+
+GaitRequest::CostTerm RequestDecoder::DecodeCost(const std::string& field, const v1::CostTerm& cost) {
+  GaitRequest::CostTerm decoded;
+  decoded.weight = ROLLGAIT_OPTIONAL(cost, weight);
+  switch (cost.term_case()) {
+    case v1::CostTerm::kSquaredTorque:
+      decoded.term = GaitRequest::SquaredTorque{DecodeWeights(cost.squared_torque().joint_weights())};
+      break;
+    case v1::CostTerm::kSquaredTorqueRate:
+      decoded.term = GaitRequest::SquaredTorqueRate{DecodeWeights(cost.squared_torque_rate().joint_weights())};
+      break;
+    case v1::CostTerm::kMechanicalWork:
+      decoded.term = GaitRequest::MechanicalWork{ROLLGAIT_OPTIONAL(cost.mechanical_work(), smoothing_w)};
+      break;
+    case v1::CostTerm::kTime:
+      decoded.term = GaitRequest::Time{};
+      break;
+    case v1::CostTerm::kTracking:
+      decoded.term = DecodeTracking(cost.tracking());
+      break;
+    case v1::CostTerm::TERM_NOT_SET:
+      violations.push_back({field, "no term; set one, for example squared_torque"});
+  }
+  return decoded;
+}
+
+GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
+  GaitRequest request;
+  request.body = DecodeSelection("model.", spec.model());
+  request.slope = spec.slope_rad();
+  request.motion = {ROLLGAIT_OPTIONAL(spec.motion(), speed_m_s), ROLLGAIT_OPTIONAL(spec.motion(), step_length_m),
+                    ROLLGAIT_OPTIONAL(spec.motion(), step_duration_s), spec.motion().free_speed()};
+  request.cycle = DecodeCycle(spec.cycle());
+  if (spec.has_phases()) {
+    request.phases.emplace();
+    for (const v1::Phase& phase : spec.phases().phases()) request.phases->push_back(DecodePhase(phase));
+  }
+  for (int i = 0; i < spec.costs_size(); ++i) {
+    request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i)));
+  }
+  request.normalization = DecodeNormalization(spec.cost_normalization());
+  request.ground_contact = DecodeGround(spec.ground_contact());
+  request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeWeights(spec.limits().joint_velocity()),
+                    DecodeRanges(spec.limits().joint_effort())};
+  request.discretization = {DecodeScheme(spec.discretization().scheme()),
+                            ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
+                            ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};
+  const v1::Accuracy& accuracy = spec.accuracy();
+  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance),
+                      ROLLGAIT_OPTIONAL(accuracy, max_gap_m), ROLLGAIT_OPTIONAL(accuracy, max_slip_m_s),
+                      ROLLGAIT_OPTIONAL(accuracy, max_refinements)};
+  request.solver_limits = {ROLLGAIT_OPTIONAL(spec.solver_limits(), max_iterations),
+                           ROLLGAIT_OPTIONAL(spec.solver_limits(), max_wall_time_s)};
+  request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);
+  return request;
+}
+
+#undef ROLLGAIT_OPTIONAL
+
+// An answer has to fit into the trailers of a call; see RequestCheck.
+void Append(Violations violations, Violations* all) {
+  constexpr size_t kMaxViolations = 20;
+  for (Violation& violation : violations) {
+    if (all->size() < kMaxViolations) all->push_back(std::move(violation));
+  }
+}
+
+// Decodes as far as possible; `refused` gets what could not be.
+GaitRequest Decode(const v1::SolveSpec& spec, Violations* refused) {
+  RequestDecoder decoder;
+  GaitRequest request = decoder.Decode(spec);
+  Append(FindUnknownFields(spec), refused);
+  Append(std::move(decoder.violations), refused);
+  return request;
+}
+
+}  // namespace
+
+Result<GaitRequest> DecodeRequest(const v1::SolveSpec& spec) {
+  Violations refused;
+  GaitRequest request = Decode(spec, &refused);
+  if (!refused.empty()) return refused;
+  return request;
+}
+
+Result<GaitSpec> DecodeSpec(const v1::SolveSpec& spec) {
+  Violations refused;
+  Result<GaitSpec> checked = CheckRequest(Decode(spec, &refused));
+  if (refused.empty()) return checked;
+  if (!checked.ok()) Append(checked.violations(), &refused);
+  return refused;
+}
+
+Result<BodyRequest> DecodeBody(const v1::ModelSelection& selection) {
+  RequestDecoder decoder;
+  BodyRequest body = decoder.DecodeSelection("", selection);
+  Violations refused = FindUnknownFields(selection);
+  Append(std::move(decoder.violations), &refused);
+  if (!refused.empty()) return refused;
+  return body;
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,105 @@
+#include "server/convert/model_convert.h"
+
+#include <Eigen/Geometry>
+
+namespace rollgait::server {
+namespace {
+
+void EncodeVector(const Vector3& vector, v1::Vector3* encoded) {
+  encoded->set_x(vector.x());
+  encoded->set_y(vector.y());
+  encoded->set_z(vector.z());
+}
+
+void EncodeRotation(const Matrix3& rotation, v1::Quaternion* encoded) {
+  const Eigen::Quaterniond q(rotation);
+  encoded->set_w(q.w());
+  encoded->set_x(q.x());
+  encoded->set_y(q.y());
+  encoded->set_z(q.z());
+}
+
+v1::Joint::Type EncodeType(JointType type) {
+  switch (type) {
+    case JointType::kRevolute:
+      return v1::Joint::TYPE_REVOLUTE;
+    case JointType::kPrismatic:
+      return v1::Joint::TYPE_PRISMATIC;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
+void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
+  encoded->set_name(joint.name);
+  encoded->set_type(EncodeType(joint.type));
+  encoded->set_parent(joint.parent);
+  EncodeVector(joint.p_PJ, encoded->mutable_origin_m());
+  EncodeRotation(joint.R_PJ, encoded->mutable_orientation());
+  EncodeVector(joint.axis, encoded->mutable_axis());
+  encoded->set_position_min(joint.position_min);
+  encoded->set_position_max(joint.position_max);
+  encoded->set_velocity_max(joint.velocity_max);
+  encoded->set_actuated(joint.actuated);
+  encoded->set_effort_min(joint.effort_min);
+  encoded->set_effort_max(joint.effort_max);
+  encoded->set_link_name(joint.link);
+  encoded->set_mass_kg(joint.mass);
+  EncodeVector(joint.center_of_mass, encoded->mutable_center_of_mass_m());
+  const Matrix3& inertia = joint.inertia;
+  for (const double entry :
+       {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2), inertia(1, 2)}) {
+    encoded->add_inertia_kg_m2(entry);
+  }
+  encoded->set_mirror_joint(joint.mirror_joint < 0 ? index : joint.mirror_joint);
+  encoded->set_mirror_sign(joint.mirror_sign);
+}
+
+void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::ContactSurface* encoded) {
+  encoded->set_name(contact.name);
+  encoded->set_joint(contact.joint);
+  EncodeVector(contact.surface.semi_axes(), encoded->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m());
+  EncodeVector(contact.p_LE, encoded->mutable_center_m());
+  EncodeRotation(contact.R_LE, encoded->mutable_orientation());
+  encoded->set_mirror_contact(scene.contacts[contact.mirror_contact].name);
+  for (const int direction : contact.directions) {
+    EncodeVector(Vector3::Unit(direction), encoded->add_directions());
+  }
+}
+
+void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {
+  encoded->set_name(selection.model);
+  encoded->set_sex(selection.sex == Sex::kFemale ? v1::ModelSelection::SEX_FEMALE : v1::ModelSelection::SEX_MALE);
+  encoded->set_stature_m(selection.stature);
+  encoded->set_body_mass_kg(selection.mass);
+}
+
+}  // namespace
+
+v1::ModelSummary EncodeSummary(const CatalogEntry& entry) {
+  v1::ModelSummary summary;
+  summary.set_name(entry.name);
+  summary.set_description(entry.description);
+  summary.set_degrees_of_freedom(entry.degrees_of_freedom);
+  summary.set_actuated_joints(entry.actuated_joints);
+  for (const std::string& contact : entry.contacts) summary.add_contact_names(contact);
+  return summary;
+}
+
+v1::Model EncodeModel(const Scene& scene, double gravity) {
+  v1::Model model;
+  CatalogEntry entry{
+      scene.name, scene.description, scene.model.size(), static_cast<int>(scene.model.actuated().size()), {}};
+  for (const ContactSurface& contact : scene.contacts) entry.contacts.push_back(contact.name);
+  *model.mutable_summary() = EncodeSummary(entry);
+  EncodeSelection(scene.selection, model.mutable_selection());
+  for (int i = 0; i < scene.model.size(); ++i) EncodeJoint(scene.model.joint(i), i, model.add_joints());
+  for (const ContactSurface& contact : scene.contacts) EncodeContact(contact, scene, model.add_contacts());
+  model.set_gravity_m_s2(gravity);
+  model.set_total_mass_kg(scene.model.total_mass());
+  model.set_stature_m(scene.selection.stature);
+  model.set_leg_length_m(scene.leg_length);
+  for (const std::string& source : scene.sources) model.add_sources(source);
+  return model;
+}
+
+}  // namespace rollgait::server
