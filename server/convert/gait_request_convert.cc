@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "server/convert/unknown_fields.h"
-
 namespace rollgait::server {
 namespace {
 
@@ -214,7 +212,6 @@ void Append(Violations violations, Violations* all) {
 GaitRequest Decode(const v1::SolveSpec& spec, Violations* refused) {
   RequestDecoder decoder;
   GaitRequest request = decoder.Decode(spec);
-  Append(FindUnknownFields(spec), refused);
   Append(std::move(decoder.violations), refused);
   return request;
 }
@@ -239,9 +236,7 @@ Result<GaitSpec> DecodeSpec(const v1::SolveSpec& spec) {
 Result<BodyRequest> DecodeBody(const v1::ModelSelection& selection) {
   RequestDecoder decoder;
   BodyRequest body = decoder.DecodeSelection("", selection);
-  Violations refused = FindUnknownFields(selection);
-  Append(std::move(decoder.violations), &refused);
-  if (!refused.empty()) return refused;
+  if (!decoder.violations.empty()) return std::move(decoder.violations);
   return body;
 }
 

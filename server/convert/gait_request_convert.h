@@ -7,8 +7,8 @@
 
 namespace rollgait::server {
 
-// Translates field for field. Refuses what a GaitRequest cannot say: enum values without a name, a cost without a term,
-// fields that this version does not know (they would be ignored silently). Ranges are not checked.
+// Translates field for field. Refuses what a GaitRequest cannot say: enum values without a name, a cost without a term.
+// Ranges are not checked.
 Result<GaitRequest> DecodeRequest(const v1::SolveSpec& spec);
 
 // Translates and checks. The violations are those of both steps; their fields are paths relative to the spec.
