@@ -2,6 +2,7 @@
 #define ROLLGAIT_SERVER_STORE_SOLVE_RECORD_H_
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ struct CreatedSolve {
   SolveRecord record;
   bool created = true;  // false: the request_id was known and this is the solve made for it
 };
+
+// A page ends early when its specs and errors exceed this, so that it fits into one message.
+inline constexpr size_t kMaxPageBytes = 1 << 20;
 
 struct ListQuery {
   int page_size = 50;

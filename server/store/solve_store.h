@@ -32,8 +32,8 @@ class SolveStore {
   virtual Outcome<Done> Delete(const std::string& id) = 0;
   // Queued: ends it at once as kCancelled. Running: sets the flag. Terminal: nothing. Returns the solve. kNotFound.
   virtual Outcome<SolveRecord> RequestCancel(const std::string& id) = 0;
-  // Events with a larger number, at most max_events. kNotFound, kOutOfRange: after_sequence is beyond the newest or
-  // negative.
+  // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
+  // beyond the newest or negative.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
   virtual Outcome<SolveCounts> Counts() = 0;
 

@@ -139,13 +139,15 @@ Outcome<SolvePage> SqliteStore::List(const ListQuery& query) {
                all ? 0 : static_cast<int>(*query.state), before, limit);
     SolvePage page;
     int64_t last_number = 0;
+    size_t bytes = 0;
     while (rows.Step()) {
-      if (static_cast<int>(page.records.size()) == query.page_size) {
+      if (static_cast<int>(page.records.size()) == query.page_size || bytes > kMaxPageBytes) {
         page.next_page_token = MakePageToken(last_number, query.state);
         break;
       }
       SolveRow row = ReadSolve(rows);
       last_number = row.number;
+      bytes += row.record.spec.size() + row.record.error.size();
       page.records.push_back(std::move(row.record));
     }
     return page;

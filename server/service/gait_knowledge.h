@@ -1,0 +1,22 @@
+#ifndef ROLLGAIT_SERVER_SERVICE_GAIT_KNOWLEDGE_H_
+#define ROLLGAIT_SERVER_SERVICE_GAIT_KNOWLEDGE_H_
+
+#include <functional>
+
+#include "core/base/result.h"
+#include "rollgait/v1/gait_service.pb.h"
+
+namespace rollgait::server {
+
+// What the service asks of the physics, as messages; main.cc fills it from server/convert. Any thread may call.
+struct GaitKnowledge {
+  // The model that would walk; violations name fields relative to the spec.
+  std::function<Result<v1::Model>(const v1::SolveSpec&)> check_spec;
+  std::function<v1::ListModelsResponse()> list_models;
+  // The scaled model; violations name fields relative to the selection.
+  std::function<Result<v1::Model>(const v1::ModelSelection&)> get_model;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_SERVICE_GAIT_KNOWLEDGE_H_

@@ -1,0 +1,164 @@
+#include "server/service/request_check.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/unknown_field_set.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace rollgait::server {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+std::string NumberText(double value) {
+  if (std::isnan(value)) return "NaN";
+  return value > 0 ? "+infinity" : "-infinity";
+}
+
+// Walks one message tree and collects what is wrong.
+class Walker {
+ public:
+  Violations Take() { return std::move(violations_); }
+
+  // `path` ends with "." or is empty.
+  void Visit(const Message& message, const std::string& path) {
+    const Reflection& reflection = *message.GetReflection();
+    const auto& unknown = reflection.GetUnknownFields(message);
+    if (unknown.field_count() > 0) {
+      violations_.push_back({path + std::to_string(unknown.field(0).number()),
+                             "is a field number of " + std::string(message.GetDescriptor()->full_name()) +
+                                 " that this server does not know; use a client of the server's version"});
+    }
+    std::vector<const FieldDescriptor*> fields;
+    reflection.ListFields(message, &fields);
+    for (const FieldDescriptor* field : fields) VisitField(message, *field, path + std::string(field->name()));
+  }
+
+ private:
+  void VisitField(const Message& message, const FieldDescriptor& field, const std::string& path) {
+    const Reflection& reflection = *message.GetReflection();
+    if (field.is_map()) {
+      for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
+        const Message& entry = reflection.GetRepeatedMessage(message, &field, i);
+        const FieldDescriptor& key = *field.message_type()->map_key();
+        const FieldDescriptor& value = *field.message_type()->map_value();
+        const std::string name = entry.GetReflection()->GetString(entry, &key);
+        VisitValue(entry, value, -1, path + "[\"" + name + "\"]");
+      }
+    } else if (field.is_repeated()) {
+      for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
+        VisitValue(message, field, i, path + "[" + std::to_string(i) + "]");
+      }
+    } else {
+      VisitValue(message, field, -1, path);
+    }
+  }
+
+  // One value: element `index` of a repeated field, or a single field if the index is -1.
+  void VisitValue(const Message& message, const FieldDescriptor& field, int index, const std::string& path) {
+    const Reflection& reflection = *message.GetReflection();
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        CheckFinite(
+            index < 0 ? reflection.GetDouble(message, &field) : reflection.GetRepeatedDouble(message, &field, index),
+            path);
+        break;
+      case FieldDescriptor::CPPTYPE_FLOAT:
+        CheckFinite(
+            index < 0 ? reflection.GetFloat(message, &field) : reflection.GetRepeatedFloat(message, &field, index),
+            path);
+        break;
+      case FieldDescriptor::CPPTYPE_ENUM:
+        CheckEnum(field,
+                  index < 0 ? reflection.GetEnumValue(message, &field)
+                            : reflection.GetRepeatedEnumValue(message, &field, index),
+                  path);
+        break;
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        Visit(
+            index < 0 ? reflection.GetMessage(message, &field) : reflection.GetRepeatedMessage(message, &field, index),
+            path + ".");
+        break;
+      default:
+        break;
+    }
+  }
+
+  void CheckFinite(double value, const std::string& path) {
+    if (!std::isfinite(value)) violations_.push_back({path, "is " + NumberText(value) + ", must be a finite number"});
+  }
+
+  void CheckEnum(const FieldDescriptor& field, int value, const std::string& path) {
+    if (field.enum_type()->FindValueByNumber(value) != nullptr) return;
+    violations_.push_back({path, "is " + std::to_string(value) + ", which " +
+                                     std::string(field.enum_type()->full_name()) + " does not have"});
+  }
+
+  Violations violations_;
+};
+
+// Bytes of one field, roughly: enough to tell which is the large one.
+size_t FieldBytes(const Message& message, const FieldDescriptor& field) {
+  if (field.is_repeated()) return static_cast<size_t>(message.GetReflection()->FieldSize(message, &field));
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
+    return message.GetReflection()->GetString(message, &field).size();
+  }
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+    return message.GetReflection()->GetMessage(message, &field).ByteSizeLong();
+  }
+  return sizeof(double);
+}
+
+}  // namespace
+
+Violations CheckWellFormed(const Message& message, const std::string& prefix) {
+  Walker walker;
+  walker.Visit(message, prefix);
+  return walker.Take();
+}
+
+Violations CheckSize(const Message& request) {
+  const size_t bytes = request.ByteSizeLong();
+  if (bytes <= static_cast<size_t>(kMaxRequestBytes)) return {};
+  std::vector<const FieldDescriptor*> fields;
+  request.GetReflection()->ListFields(request, &fields);
+  std::string name = "request";
+  size_t largest = 0;
+  for (const FieldDescriptor* field : fields) {
+    const size_t size = FieldBytes(request, *field);
+    if (size > largest) {
+      largest = size;
+      name = field->name();
+    }
+  }
+  return {{name, "makes the request " + std::to_string(bytes) + " bytes long, the limit is " +
+                     std::to_string(kMaxRequestBytes) + " bytes"}};
+}
+
+Violations CheckRequestId(const std::string& request_id) {
+  constexpr size_t kLimit = 128;
+  if (request_id.size() > kLimit) {
+    return {{"request_id",
+             "is " + std::to_string(request_id.size()) + " characters long, the limit is " + std::to_string(kLimit)}};
+  }
+  for (const char letter : request_id) {
+    if (letter < ' ' || letter > '~') {
+      return {{"request_id", "holds the byte " + std::to_string(static_cast<unsigned char>(letter)) +
+                                 ", only printable ASCII characters are allowed"}};
+    }
+  }
+  return {};
+}
+
+Error InvalidArgument(Violations violations) {
+  ROLLGAIT_CHECK(!violations.empty());
+  std::string message = violations[0].field + " " + violations[0].message;
+  if (violations.size() > 1) message += " (and " + std::to_string(violations.size() - 1) + " more)";
+  return {ErrorCode::kInvalidArgument, std::move(message), std::move(violations)};
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,34 @@
+#ifndef ROLLGAIT_SERVER_SERVICE_REQUEST_CHECK_H_
+#define ROLLGAIT_SERVER_SERVICE_REQUEST_CHECK_H_
+
+#include <google/protobuf/message.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "server/base/outcome.h"
+
+namespace rollgait::server {
+
+// Largest request in bytes that is looked at.
+inline constexpr int64_t kMaxRequestBytes = 4 << 20;
+
+// What no message of any type may hold: numbers that are not finite, enum values and fields that this server does not
+// know (a request is never understood in part). `prefix` is put before every path: "spec." gives
+// "spec.motion.speed_m_s".
+Violations CheckWellFormed(const google::protobuf::Message& message, const std::string& prefix);
+
+// Refuses a request of more than kMaxRequestBytes; names its largest field.
+Violations CheckSize(const google::protobuf::Message& request);
+
+// Refuses an id of more than 128 bytes or with other than printable ASCII characters. Empty is allowed.
+Violations CheckRequestId(const std::string& request_id);
+
+// kInvalidArgument with the violations and a message that holds the first one.
+Error InvalidArgument(Violations violations);
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_SERVICE_REQUEST_CHECK_H_

@@ -1,0 +1,74 @@
+#include "server/service/solve_feed.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rollgait::server {
+
+SolveFeed::SolveFeed(SolveStore& store, std::string id, int64_t last_sequence, bool terminal)
+    : store_(store), id_(std::move(id)), last_sequence_(last_sequence), terminal_(terminal) {}
+
+Outcome<EventPtr> SolveFeed::Decode(const StoredEvent& event) {
+  Outcome<v1::SolveEvent> decoded = ToEvent(id_, event);
+  if (!decoded.ok()) return decoded.error();
+  auto message = std::make_shared<v1::SolveEvent>(std::move(decoded).value());
+  if (event.kind == EventKind::kFinished) {
+    const Outcome<SolveRecord> record = store_.Get(id_);
+    if (!record.ok()) return record.error();
+    Outcome<v1::Solve> solve = ToSolve(record.value());
+    if (!solve.ok()) return solve.error();
+    *message->mutable_finished() = std::move(solve).value();
+  }
+  return EventPtr(std::move(message));
+}
+
+Outcome<std::vector<EventPtr>> SolveFeed::Read(int64_t position, int max_events) {
+  const Outcome<EventPage> page = store_.ReadEvents(id_, position, max_events);
+  if (!page.ok()) return page.error();
+  std::vector<EventPtr> events;
+  for (const StoredEvent& stored : page.value().events) {
+    Outcome<EventPtr> event = Decode(stored);
+    if (!event.ok()) return event.error();
+    events.push_back(std::move(event).value());
+  }
+  return events;
+}
+
+Outcome<bool> SolveFeed::Refresh() {
+  int64_t position = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (terminal_) return false;
+    position = last_sequence_;
+  }
+  Outcome<std::vector<EventPtr>> read = Read(position, static_cast<int>(kHeld));
+  if (!read.ok()) return read.error();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (EventPtr& event : read.value()) {
+    last_sequence_ = event->sequence();
+    terminal_ = event->has_finished();
+    held_.push_back(std::move(event));
+    if (held_.size() > kHeld) held_.pop_front();
+  }
+  return !read.value().empty();
+}
+
+Outcome<std::vector<EventPtr>> SolveFeed::After(int64_t position, int max_events) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (position >= last_sequence_) return std::vector<EventPtr>();
+    if (!held_.empty() && held_.front()->sequence() <= position + 1) {
+      const auto first = held_.begin() + (position + 1 - held_.front()->sequence());
+      const auto count = std::min<int64_t>(max_events, held_.end() - first);
+      return std::vector<EventPtr>(first, first + count);
+    }
+  }
+  return Read(position, max_events);
+}
+
+bool SolveFeed::EndedBy(int64_t position) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return terminal_ && position >= last_sequence_;
+}
+
+}  // namespace rollgait::server

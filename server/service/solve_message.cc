@@ -1,0 +1,79 @@
+#include "server/service/solve_message.h"
+
+#include <utility>
+
+namespace rollgait::server {
+namespace {
+
+constexpr char kPrefix[] = "solves/";
+
+void SetTime(int64_t time_us, google::protobuf::Timestamp* time) {
+  time->set_seconds(time_us / 1'000'000);
+  time->set_nanos(static_cast<int32_t>(time_us % 1'000'000) * 1000);
+}
+
+Error Unreadable(const std::string& what, const std::string& id) {
+  return {ErrorCode::kInternal, "the stored " + what + " of solves/" + id + " cannot be read"};
+}
+
+}  // namespace
+
+std::string SolveName(const std::string& id) { return kPrefix + id; }
+
+Outcome<std::string> SolveId(const std::string& name) {
+  const size_t length = sizeof(kPrefix) - 1;
+  if (name.size() > length && name.compare(0, length, kPrefix) == 0) return name.substr(length);
+  return Error{ErrorCode::kNotFound, "there is no solve \"" + name.substr(0, 100) +
+                                         "\"; names have the form solves/{id}, ListSolves lists them"};
+}
+
+Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
+  v1::Solve solve;
+  solve.set_name(SolveName(record.id));
+  if (!solve.mutable_spec()->ParseFromString(record.spec)) return Unreadable("spec", record.id);
+  solve.set_state(static_cast<v1::SolveState>(record.state));
+  SetTime(record.create_time_us, solve.mutable_create_time());
+  if (record.start_time_us != 0) SetTime(record.start_time_us, solve.mutable_start_time());
+  if (record.end_time_us != 0) SetTime(record.end_time_us, solve.mutable_end_time());
+  if (!record.result.empty() && !solve.mutable_result()->ParseFromString(record.result)) {
+    return Unreadable("result", record.id);
+  }
+  if (!record.error.empty() && !solve.mutable_error()->ParseFromString(record.error)) {
+    return Unreadable("error", record.id);
+  }
+  solve.set_attempts(record.attempts);
+  solve.set_from_cache(record.from_cache);
+  solve.set_last_sequence(record.last_sequence);
+  return solve;
+}
+
+Outcome<v1::SolveEvent> ToEvent(const std::string& id, const StoredEvent& event) {
+  v1::SolveEvent message;
+  if (!message.ParseFromString(event.payload)) {
+    return Unreadable("event " + std::to_string(event.sequence), id);
+  }
+  message.set_sequence(event.sequence);
+  message.set_name(SolveName(id));
+  return message;
+}
+
+std::vector<EventPtr> MergeIterations(const std::vector<EventPtr>& events) {
+  std::vector<EventPtr> merged;
+  int skipped = 0;
+  for (size_t i = 0; i < events.size(); ++i) {
+    const bool run_goes_on = events[i]->has_iteration() && i + 1 < events.size() && events[i + 1]->has_iteration();
+    if (run_goes_on) {
+      skipped += 1 + events[i]->skipped_count();
+    } else if (skipped > 0) {
+      auto last = std::make_shared<v1::SolveEvent>(*events[i]);
+      last->set_skipped_count(last->skipped_count() + skipped);
+      merged.push_back(std::move(last));
+      skipped = 0;
+    } else {
+      merged.push_back(events[i]);
+    }
+  }
+  return merged;
+}
+
+}  // namespace rollgait::server

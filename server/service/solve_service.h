@@ -1,0 +1,55 @@
+#ifndef ROLLGAIT_SERVER_SERVICE_SOLVE_SERVICE_H_
+#define ROLLGAIT_SERVER_SERVICE_SOLVE_SERVICE_H_
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "rollgait/v1/gait_service.pb.h"
+#include "server/base/outcome.h"
+#include "server/service/gait_knowledge.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+struct ServiceOptions {
+  std::string version;
+  std::string solver_build;
+  int solver_slots = 1;
+  int max_queued = 1000;
+  bool reuse_results = true;  // false: every request is solved, equal ones too
+  std::string store_name = "sqlite";
+};
+
+// The use cases, one method an RPC; what the errors mean is in gait_service.proto. Requests are refused with every
+// violation found, before anything is stored. Any thread may call; every call may block on the store.
+class SolveService {
+ public:
+  // `announce(id)` is called after a solve was created or cancelled: the agent and watchers want to look. Store
+  // outlives it.
+  SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOptions options,
+               std::function<void(const std::string& id)> announce);
+
+  Outcome<v1::Solve> CreateSolve(const v1::CreateSolveRequest& request);
+  Outcome<v1::Solve> GetSolve(const v1::GetSolveRequest& request);
+  Outcome<v1::ListSolvesResponse> ListSolves(const v1::ListSolvesRequest& request);
+  Outcome<v1::Solve> CancelSolve(const v1::CancelSolveRequest& request);
+  Outcome<google::protobuf::Empty> DeleteSolve(const v1::DeleteSolveRequest& request);
+  Outcome<v1::ListModelsResponse> ListModels(const v1::ListModelsRequest& request);
+  Outcome<v1::Model> GetModel(const v1::GetModelRequest& request);
+  Outcome<v1::ServerInfo> GetServerInfo(const v1::GetServerInfoRequest& request);
+
+ private:
+  // The key of a good spec, empty if results are not reused.
+  Outcome<std::string> CheckSpec(const v1::SolveSpec& spec, bool has_spec);
+
+  SolveStore& store_;
+  const GaitKnowledge knowledge_;
+  const ServiceOptions options_;
+  const std::function<void(const std::string& id)> announce_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_SERVICE_SOLVE_SERVICE_H_

@@ -1,0 +1,195 @@
+#include "server/service/watch_hub.h"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rollgait::server {
+namespace {
+
+int64_t SteadyNanos() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+Error Stopping() {
+  return {ErrorCode::kUnavailable, "the server is stopping; watch the solve again with after_sequence"};
+}
+
+void Ring(int event_fd) {
+  const uint64_t one = 1;
+  ROLLGAIT_CHECK(write(event_fd, &one, sizeof(one)) == sizeof(one));
+}
+
+}  // namespace
+
+Watch::Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::function<void()> wake)
+    : hub_(hub),
+      feed_(std::move(feed)),
+      wake_(std::make_shared<const std::function<void()>>(std::move(wake))),
+      position_(position),
+      last_taken_ns_(SteadyNanos()) {}
+
+Watch::~Watch() { hub_.Close(this); }
+
+bool Watch::HeartbeatDue() const {
+  return SteadyNanos() - last_taken_ns_ >= std::chrono::nanoseconds(hub_.heartbeat_interval_).count();
+}
+
+Outcome<WatchBatch> Watch::Take() {
+  if (hub_.stopped_) return Stopping();
+  Outcome<std::vector<EventPtr>> events = feed_->After(position_, kMaxBatch);
+  if (!events.ok()) return events.error();
+  WatchBatch batch{std::move(events).value(), false};
+  if (!batch.events.empty()) {
+    position_ = batch.events.back()->sequence();
+    batch.ended = batch.events.back()->has_finished();
+    last_taken_ns_ = SteadyNanos();
+  }
+  batch.ended = batch.ended || feed_->EndedBy(position_);
+  if (batch.events.empty() && !batch.ended && HeartbeatDue()) {
+    auto heartbeat = std::make_shared<v1::SolveEvent>();
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    heartbeat->mutable_time()->set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+    heartbeat->set_sequence(position_);
+    heartbeat->set_name(SolveName(feed_->id()));
+    heartbeat->mutable_heartbeat();
+    batch.events.push_back(std::move(heartbeat));
+    last_taken_ns_ = SteadyNanos();
+  }
+  return batch;
+}
+
+WatchHub::WatchHub(SolveStore& store, NotifyReceiver receiver, std::chrono::milliseconds heartbeat_interval)
+    : store_(store),
+      receiver_(std::move(receiver)),
+      heartbeat_interval_(heartbeat_interval),
+      event_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  ROLLGAIT_CHECK(event_fd_ >= 0);
+  thread_ = std::thread([this] { Loop(); });
+}
+
+WatchHub::~WatchHub() {
+  Stop();
+  thread_.join();
+  close(event_fd_);
+}
+
+Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t after_sequence,
+                                               std::function<void()> wake) {
+  if (stopped_) return Stopping();
+  const Outcome<EventPage> page = store_.ReadEvents(id, after_sequence, 0);
+  if (!page.ok()) return page.error();
+  std::unique_ptr<Watch> watch;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Entry& entry = entries_[id];
+    if (entry.feed == nullptr) {
+      entry.feed = std::make_shared<SolveFeed>(store_, id, page.value().last_sequence, IsTerminal(page.value().state));
+    }
+    watch.reset(new Watch(*this, entry.feed, after_sequence, std::move(wake)));
+    entry.watches.push_back(watch.get());
+    // The feed may be older than the page just read.
+    changed_.push_back(id);
+  }
+  Ring(event_fd_);
+  (*watch->wake_)();
+  return watch;
+}
+
+void WatchHub::Close(Watch* watch) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto entry = entries_.find(watch->feed_->id());
+  std::vector<Watch*>& watches = entry->second.watches;
+  watches.erase(std::find(watches.begin(), watches.end(), watch));
+  if (watches.empty()) entries_.erase(entry);
+}
+
+void WatchHub::Changed(const std::string& id) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (entries_.find(id) == entries_.end()) return;
+    changed_.push_back(id);
+  }
+  Ring(event_fd_);
+}
+
+void WatchHub::Stop() {
+  if (stopped_.exchange(true)) return;
+  Ring(event_fd_);
+  Wakes wakes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [id, entry] : entries_) {
+      for (const Watch* watch : entry.watches) wakes.push_back(watch->wake_);
+    }
+  }
+  for (const auto& wake : wakes) (*wake)();
+}
+
+std::vector<std::string> WatchHub::WatchedIds() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> ids;
+  for (const auto& [id, entry] : entries_) ids.push_back(id);
+  return ids;
+}
+
+void WatchHub::Refresh(const std::string& id) {
+  std::shared_ptr<SolveFeed> feed;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto entry = entries_.find(id);
+    if (entry == entries_.end()) return;
+    feed = entry->second.feed;
+  }
+  const Outcome<bool> changed = feed->Refresh();
+  if (!changed.ok()) spdlog::warn("reading new events of solves/{} failed: {}", id, changed.error().message);
+  if (!changed.ok() || !changed.value()) return;
+  Wakes wakes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto entry = entries_.find(id);
+    if (entry == entries_.end()) return;
+    for (const Watch* watch : entry->second.watches) wakes.push_back(watch->wake_);
+  }
+  // Outside the lock: a wake may hold the last reference to its reader, whose end calls Close.
+  for (const auto& wake : wakes) (*wake)();
+}
+
+void WatchHub::WakeForHeartbeats() {
+  Wakes wakes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [id, entry] : entries_) {
+      for (const Watch* watch : entry.watches) {
+        if (watch->HeartbeatDue()) wakes.push_back(watch->wake_);
+      }
+    }
+  }
+  for (const auto& wake : wakes) (*wake)();
+}
+
+void WatchHub::Loop() {
+  int64_t last_poll_ns = SteadyNanos();
+  while (!stopped_) {
+    pollfd entries[] = {{receiver_.fd(), POLLIN, 0}, {event_fd_, POLLIN, 0}};
+    poll(entries, 2, kNotifyPollMillis);
+    uint64_t count = 0;
+    if (read(event_fd_, &count, sizeof(count)) < 0) count = 0;  // nobody rang
+    std::vector<std::string> ids = receiver_.Drain();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ids.insert(ids.end(), changed_.begin(), changed_.end());
+      changed_.clear();
+    }
+    if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
+      last_poll_ns = SteadyNanos();
+      ids = WatchedIds();
+      WakeForHeartbeats();
+    }
+    for (const std::string& id : ids) Refresh(id);
+  }
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,99 @@
+#ifndef ROLLGAIT_SERVER_SERVICE_WATCH_HUB_H_
+#define ROLLGAIT_SERVER_SERVICE_WATCH_HUB_H_
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/base/notify.h"
+#include "server/service/solve_feed.h"
+#include "server/service/solve_message.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+class WatchHub;
+
+// What a reader gets next.
+struct WatchBatch {
+  std::vector<EventPtr> events;
+  bool ended = false;  // the terminal event is in `events` or was delivered before: nothing will follow
+};
+
+// One reader's place in the events of one solve. One thread at a time; destroy it before the hub.
+class Watch {
+ public:
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  // Events that follow those taken before, at most kMaxBatch; none if there is nothing new, or a heartbeat if nothing
+  // was taken for the heartbeat interval. May read the store. kUnavailable: the server is stopping. kNotFound: it was
+  // deleted.
+  Outcome<WatchBatch> Take();
+
+  static constexpr int kMaxBatch = 64;
+
+ private:
+  friend class WatchHub;
+  Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::function<void()> wake);
+  bool HeartbeatDue() const;
+
+  WatchHub& hub_;
+  const std::shared_ptr<SolveFeed> feed_;
+  const std::shared_ptr<const std::function<void()>> wake_;
+  int64_t position_;  // number of the last event taken
+  std::atomic<int64_t> last_taken_ns_;
+};
+
+// Tells readers of new events. A thread learns of them from the agent's notifications and, should one be lost, by
+// looking into the store every kNotifyPollMillis; events that several readers want are read and decoded once.
+class WatchHub {
+ public:
+  // The store outlives the hub. Heartbeats come within a poll of their time.
+  WatchHub(SolveStore& store, NotifyReceiver receiver, std::chrono::milliseconds heartbeat_interval);
+  ~WatchHub();
+
+  // A reader after a sequence number. `wake` is called, from any thread, when Take may have something: soon after
+  // opening too. It must not block, nor call the hub. kNotFound, kOutOfRange, kUnavailable when stopped.
+  Outcome<std::unique_ptr<Watch>> Open(const std::string& id, int64_t after_sequence, std::function<void()> wake);
+  // This process has changed a solve: look at once.
+  void Changed(const std::string& id);
+  // Wakes every reader; from now on Take and Open answer kUnavailable.
+  void Stop();
+
+ private:
+  friend class Watch;
+  struct Entry {
+    std::shared_ptr<SolveFeed> feed;
+    std::vector<Watch*> watches;
+  };
+  using Wakes = std::vector<std::shared_ptr<const std::function<void()>>>;
+
+  void Loop();
+  void Refresh(const std::string& id);
+  void WakeForHeartbeats();
+  void Close(Watch* watch);
+  std::vector<std::string> WatchedIds();
+
+  SolveStore& store_;
+  NotifyReceiver receiver_;
+  const std::chrono::milliseconds heartbeat_interval_;
+  const int event_fd_;
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;  // protects what follows
+  std::map<std::string, Entry> entries_;
+  std::vector<std::string> changed_;
+  std::thread thread_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_SERVICE_WATCH_HUB_H_
