@@ -1,0 +1,223 @@
+#include "core/gait/initial_guess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rollgait {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Flexion of hip, knee and dorsiflexion of the ankle, degrees, hand-set, against the fraction of the leg's own cycle: stance
+// from 0 (touch-down) to 0.6 (lift-off), swing from 0.6 to 1.
+struct LegPose {
+  double fraction, hip, knee, ankle;
+};
+constexpr std::array<LegPose, 8> kLegCycle = {{{0.0, 24, 6, 0},
+                                               {0.1, 20, 14, -3},
+                                               {0.3, 4, 9, 5},
+                                               {0.5, -13, 9, 9},
+                                               {0.6, -5, 36, -10},
+                                               {0.75, 20, 60, 0},
+                                               {0.9, 27, 22, 2},
+                                               {1.0, 24, 6, 0}}};
+constexpr double kLiftOff = 0.6;
+
+// Periodic cubic Hermite interpolation with slopes of neighbouring knots' differences.
+double LegAngle(double fraction, double LegPose::*angle) {
+  fraction -= std::floor(fraction);
+  const int last = static_cast<int>(kLegCycle.size()) - 1;
+  int k = 0;
+  while (k < last - 1 && fraction >= kLegCycle[k + 1].fraction) ++k;
+  const auto slope = [&](int i) {
+    const int before = i == 0 ? last - 1 : i - 1, after = i == last ? 1 : i + 1;
+    const double left = i == 0 ? kLegCycle[last].fraction - kLegCycle[last - 1].fraction
+                               : kLegCycle[i].fraction - kLegCycle[i - 1].fraction;
+    const double right = i == last ? kLegCycle[1].fraction : kLegCycle[i + 1].fraction - kLegCycle[i].fraction;
+    return (kLegCycle[after].*angle - kLegCycle[before].*angle) / (left + right);
+  };
+  const double h = kLegCycle[k + 1].fraction - kLegCycle[k].fraction;
+  const double t = (fraction - kLegCycle[k].fraction) / h;
+  const double t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * kLegCycle[k].*angle + (t3 - 2 * t2 + t) * h * slope(k) +
+         (3 * t2 - 2 * t3) * kLegCycle[k + 1].*angle + (t3 - t2) * h * slope(k + 1);
+}
+
+bool Contains(const std::vector<int>& values, int value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+// When each contact touches down and lifts off, in a full cycle of the phases.
+class Footfalls {
+ public:
+  Footfalls(const OptimalControlProblem& problem, const std::vector<double>& durations) {
+    struct Piece {
+      std::vector<int> active;
+      double start, end;
+    };
+    std::vector<Piece> pieces;
+    for (int half = 0; half < (problem.mirrored ? 2 : 1); ++half) {
+      for (size_t p = 0; p < problem.phases.size(); ++p) {
+        std::vector<int> active = problem.phases[p].active;
+        if (half == 1) {
+          for (int& contact : active) contact = problem.contacts[contact].mirror_contact;
+        }
+        pieces.push_back({active, cycle_, cycle_ + durations[p]});
+        cycle_ += durations[p];
+      }
+    }
+    const size_t count = pieces.size();
+    touch_down_.assign(problem.contacts.size(), 0);
+    stance_.assign(problem.contacts.size(), kLiftOff * cycle_);
+    for (size_t c = 0; c < problem.contacts.size(); ++c) {
+      const int contact = static_cast<int>(c);
+      for (size_t i = 0; i < count; ++i) {
+        if (!Contains(pieces[i].active, contact) || Contains(pieces[(i + count - 1) % count].active, contact)) continue;
+        touch_down_[c] = pieces[i].start;
+        double stance = 0;
+        for (size_t j = i; j < i + count && Contains(pieces[j % count].active, contact); ++j) {
+          stance += pieces[j % count].end - pieces[j % count].start;
+        }
+        stance_[c] = stance;
+      }
+    }
+  }
+
+  // Fraction of the contact's own cycle at time t.
+  double LegFraction(int contact, double t) const {
+    double since = std::fmod(t - touch_down_[contact], cycle_);
+    if (since < 0) since += cycle_;
+    if (since < stance_[contact]) return kLiftOff * since / stance_[contact];
+    return kLiftOff + (1 - kLiftOff) * (since - stance_[contact]) / (cycle_ - stance_[contact]);
+  }
+
+ private:
+  double cycle_ = 0;
+  std::vector<double> touch_down_, stance_;
+};
+
+class Walk {
+ public:
+  Walk(const OptimalControlProblem& problem, std::vector<double> durations, double displacement)
+      : problem_(problem), durations_(std::move(durations)), displacement_(displacement), footfalls_(problem, durations_) {
+    for (double d : durations_) total_ += d;
+  }
+
+  VectorX Position(int phase, double fraction) const {
+    double time = fraction * durations_[phase];
+    for (int p = 0; p < phase; ++p) time += durations_[p];
+    const Model& model = problem_.model;
+    VectorX q = VectorX::Zero(model.size());
+    for (size_t c = 0; c < problem_.contacts.size(); ++c) {
+      const double leg = footfalls_.LegFraction(static_cast<int>(c), time);
+      for (int j = problem_.contacts[c].joint; j >= 0; j = model.parent(j)) {
+        const std::string& name = model.joint(j).name;
+        if (name.starts_with("hip")) q(j) = LegAngle(leg, &LegPose::hip) * kDegree;
+        if (name.starts_with("knee")) q(j) = LegAngle(leg, &LegPose::knee) * kDegree;
+        if (name.starts_with("ankle")) q(j) = LegAngle(leg, &LegPose::ankle) * kDegree;
+      }
+    }
+    q(problem_.forward_joint) = displacement_ * time / total_;
+    LowerOntoGround(problem_.phases[phase].active, &q);
+    return q;
+  }
+
+  MotionSample Sample(int phase, double fraction) const {
+    const double step = 1e-3;
+    MotionSample sample;
+    sample.position = Position(phase, fraction);
+    sample.velocity = (Position(phase, std::min(1.0, fraction + step)) - Position(phase, std::max(0.0, fraction - step))) /
+                      ((std::min(1.0, fraction + step) - std::max(0.0, fraction - step)) * durations_[phase]);
+    sample.acceleration = VectorX::Zero(problem_.model.size());
+    sample.efforts = VectorX::Zero(static_cast<int>(problem_.model.actuated().size()));
+    const std::vector<int>& active = problem_.phases[phase].active;
+    const std::vector<int> previous = problem_.PreviousActive(phase);
+    sample.forces = VectorX::Zero(3 * static_cast<int>(active.size()));
+    double sum = 0;
+    std::vector<double> shares;
+    for (int contact : active) {
+      // Contacts that were there hand over to those that are new.
+      const bool hands_over = active.size() > 1 && Contains(previous, contact);
+      shares.push_back(active.size() == 1 ? 1 : (hands_over ? 1 - fraction : fraction));
+      sum += shares.back();
+    }
+    for (size_t c = 0; c < active.size(); ++c) {
+      const double share = sum > 0 ? shares[c] / sum : 1.0 / static_cast<double>(active.size());
+      sample.forces(3 * static_cast<int>(c) + 2) = share * problem_.force_size();
+    }
+    return sample;
+  }
+
+ private:
+  // Moves the vertical base joint so that the mean gap of the active contacts is zero.
+  void LowerOntoGround(const std::vector<int>& active, VectorX* q) const {
+    const int vertical = problem_.model.Find("base_z");
+    ROLLGAIT_CHECK(vertical >= 0);
+    TreeDynamics tree(problem_.model);
+    const VectorX zero = VectorX::Zero(problem_.model.size());
+    tree.UpdateKinematics(q->data(), zero.data());
+    double gap = 0;
+    for (int c : active) {
+      ContactDerivatives<double> contact(problem_.model, problem_.contacts[c]);
+      contact.Update(tree);
+      gap += contact.point().z() / static_cast<double>(active.size());
+    }
+    (*q)(vertical) -= gap;
+  }
+
+  const OptimalControlProblem& problem_;
+  std::vector<double> durations_;
+  double displacement_;
+  double total_ = 0;
+  Footfalls footfalls_;
+};
+
+// Speed and step length of a comfortable walk within what is prescribed.
+struct Travel {
+  double duration, displacement;
+};
+
+Travel ChooseTravel(const GaitSpec& spec, const OptimalControlProblem& problem) {
+  const double steps = problem.mirrored ? 1 : 2;
+  const double leg = spec.scene.leg_length;
+  const double speed = spec.speed.value_or(std::clamp(1.3, problem.speed.min, problem.speed.max));
+  const double natural = 0.72 * leg * std::sqrt(speed / 1.3);
+  double step = spec.step_length.value_or(spec.step_duration ? speed * *spec.step_duration : natural);
+  step = std::clamp(step, problem.displacement.min / steps, problem.displacement.max / steps);
+  const double duration = spec.step_duration.value_or(step / speed);
+  return {std::clamp(duration * steps, problem.duration.min, problem.duration.max), step * steps};
+}
+
+}  // namespace
+
+MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem) {
+  const Travel travel = ChooseTravel(spec, problem);
+  MotionGuess guess;
+  guess.displacement = travel.displacement;
+  // A double support takes a quarter of what a single support takes.
+  double weight = 0;
+  for (const PhaseDescription& phase : problem.phases) weight += phase.active.size() > 1 ? 1 : 4;
+  for (const PhaseDescription& phase : problem.phases) {
+    const double share = (phase.active.size() > 1 ? 1 : 4) / weight;
+    guess.durations.push_back(std::clamp(share * travel.duration, phase.duration.min, phase.duration.max));
+  }
+  const auto walk = std::make_shared<Walk>(problem, guess.durations, guess.displacement);
+  guess.motion = [walk](int phase, double fraction) { return walk->Sample(phase, fraction); };
+  return guess;
+}
+
+MotionGuess GuessFromTrajectory(const Trajectory& trajectory) {
+  MotionGuess guess;
+  guess.displacement = trajectory.displacement;
+  for (const TrajectoryPhase& phase : trajectory.phases) guess.durations.push_back(phase.duration);
+  guess.motion = [trajectory](int phase, double fraction) {
+    const int count = static_cast<int>(trajectory.phases[phase].node_times.size()) - 1;
+    const int interval = std::min(static_cast<int>(fraction * count), count - 1);
+    return Sample(trajectory, phase, interval, fraction * count - interval);
+  };
+  return guess;
+}
+
+}  // namespace rollgait

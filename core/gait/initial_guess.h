@@ -1,0 +1,20 @@
+#ifndef ROLLGAIT_CORE_GAIT_INITIAL_GUESS_H_
+#define ROLLGAIT_CORE_GAIT_INITIAL_GUESS_H_
+
+#include "core/gait/gait_request.h"
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+
+// A walk to start from: each leg follows sagittal angles of human walking between its own touch-downs, the hips are carried so
+// that the feet in contact touch the ground, velocities are differences, the weight shifts linearly between the feet.
+// Works for any phases in which every contact touches down once a cycle. Joints are found by name (hip, knee, ankle) on the
+// path of each contact; others stay at zero.
+MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem);
+
+// A solution on another mesh.
+MotionGuess GuessFromTrajectory(const Trajectory& trajectory);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_INITIAL_GUESS_H_

@@ -1,0 +1,145 @@
+#include "core/gait/optimizing_gait_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/initial_guess.h"
+#include "core/nlp/ipopt_solver.h"
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double Since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+bool Converged(Termination termination) {
+  return termination == Termination::kOptimal || termination == Termination::kAcceptable;
+}
+
+std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, CollocationNlp& nlp, const double* x) {
+  const VectorX integrals = nlp.CostIntegrals(x);
+  std::vector<CostValue> values;
+  for (size_t t = 0; t < problem.costs.size(); ++t) {
+    const CostDescription& term = problem.costs[t];
+    CostValue value;
+    value.name = term.integrand ? term.integrand->Name() : "squared torque rate";
+    value.unit = term.integrand ? term.integrand->Unit() : "N² m²/s";
+    value.weight = term.weight;
+    value.value = integrals(static_cast<int>(t));
+    value.contribution = term.weight * value.value / nlp.Denominator(x);
+    values.push_back(value);
+  }
+  return values;
+}
+
+// Rows that miss their bounds by more than the tolerance, worst (in natural sizes) first.
+std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, double tolerance) {
+  constexpr size_t kMost = 10;
+  VectorX g(nlp.constraints());
+  if (!nlp.Constraints(x, g.data())) return {};
+  std::vector<std::pair<double, int>> misses;
+  for (int r = 0; r < g.size(); ++r) {
+    const double miss = std::max(nlp.constraint_lower()(r) - g(r), g(r) - nlp.constraint_upper()(r));
+    if (miss > tolerance) misses.emplace_back(miss, r);
+  }
+  std::sort(misses.rbegin(), misses.rend());
+  std::vector<UnmetConstraint> unmet;
+  for (size_t i = 0; i < std::min(kMost, misses.size()); ++i) {
+    const auto info = nlp.Describe(x, misses[i].second);
+    unmet.push_back({info.name, info.phase, info.time, misses[i].first * info.size, info.unit});
+  }
+  return unmet;
+}
+
+// The intervals of the next mesh: enough for the order of the scheme to bring the figures within their bounds, at most twice
+// as many.
+Mesh Refined(const Mesh& mesh, const GaitSpec& spec, const AccuracyReport& report) {
+  const double excess = std::max({report.max_gap / spec.max_gap, report.max_slip / spec.max_slip, 1.0});
+  const double order = spec.scheme == Scheme::kRadau2 ? 2 : 3;
+  const double factor = std::clamp(1.1 * std::pow(excess, 1 / order), 1.3, 2.0);
+  Mesh finer;
+  for (int intervals : mesh.intervals) finer.intervals.push_back(static_cast<int>(std::ceil(factor * intervals)));
+  return finer;
+}
+
+ValidationOptions JudgeOptions(const GaitSpec& spec) {
+  ValidationOptions options;
+  options.gravity = spec.gravity;
+  return options;
+}
+
+}  // namespace
+
+GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
+  const auto begin = Clock::now();
+  const auto problem = BuildProblem(spec);
+  GaitSolution solution;
+  Mesh mesh;
+  for (const GaitSpec::Phase& phase : spec.phases) mesh.intervals.push_back(phase.intervals);
+  MotionGuess guess = WalkingGuess(spec, *problem);
+  IpoptOptions options;
+  options.tolerance = spec.kkt_tolerance;
+  int iterations_left = spec.max_iterations;
+
+  for (int level = 0; level <= spec.max_refinements; ++level) {
+    CollocationNlp nlp(*problem, spec.scheme, mesh);
+    options.mesh = level;
+    options.max_iterations = iterations_left;
+    options.max_wall_time_s = spec.max_wall_time - Since(begin);
+    const NlpResult result = SolveWithIpopt(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, control);
+    iterations_left = std::max(1, iterations_left - result.iterations);
+
+    MeshStatistics statistics;
+    statistics.intervals = mesh.intervals;
+    statistics.unknowns = nlp.variables();
+    statistics.constraints = nlp.constraints();
+    statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
+    statistics.hessian_nonzeros = nlp.hessian_pattern().size();
+    statistics.iterations = result.iterations;
+    statistics.wall_time = result.wall_time_s;
+    statistics.evaluation_time = result.evaluation_time_s;
+    statistics.kkt_error = result.kkt_error;
+
+    // A finer mesh that fails does not take back the answer of the coarser one.
+    const bool keep_previous = level > 0 && !Converged(result.termination);
+    if (result.x.size() > 0 && result.x.allFinite() && !keep_previous) {
+      solution.termination = result.termination;
+      solution.message = result.message;
+      solution.objective = result.objective / nlp.objective_scale();
+      solution.kkt_error = result.kkt_error;
+      solution.constraint_violation = result.constraint_violation;
+      solution.trajectory = nlp.Extract(result.x.data());
+      solution.accuracy = Validate(spec.scene, *solution.trajectory, JudgeOptions(spec));
+      solution.costs = ReportCosts(*problem, nlp, result.x.data());
+      solution.unmet_constraints = FindUnmet(nlp, result.x.data(), 10 * spec.kkt_tolerance);
+      solution.speed = nlp.displacement(result.x.data()) / nlp.duration(result.x.data());
+      solution.step_length = nlp.displacement(result.x.data()) / (problem->mirrored ? 1 : 2);
+      statistics.objective = solution.objective;
+      statistics.max_gap = solution.accuracy->max_gap;
+      statistics.max_slip = solution.accuracy->max_slip;
+      solution.within_requested_accuracy = Converged(result.termination) &&
+                                           solution.accuracy->max_gap <= spec.max_gap &&
+                                           solution.accuracy->max_slip <= spec.max_slip;
+    } else if (!keep_previous) {
+      solution.termination = result.termination;
+      solution.message = result.message;
+    }
+    solution.meshes.push_back(statistics);
+    if (keep_previous) {
+      solution.message += " The next finer mesh did not converge (" + result.message + ")";
+      break;
+    }
+    if (!Converged(result.termination) || solution.within_requested_accuracy) break;
+    guess = GuessFromTrajectory(*solution.trajectory);
+    mesh = Refined(mesh, spec, *solution.accuracy);
+    options.initial_barrier = 1e-3;
+  }
+  solution.wall_time = Since(begin);
+  return solution;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,131 @@
+#ifndef ROLLGAIT_CORE_TRANSCRIPTION_COLLOCATION_NLP_H_
+#define ROLLGAIT_CORE_TRANSCRIPTION_COLLOCATION_NLP_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/nlp/problem.h"
+#include "core/trajectory/sampling.h"
+#include "core/transcription/interval_block.h"
+#include "core/transcription/layout.h"
+
+namespace rollgait {
+
+// Where a solve starts: durations, displacement and the motion at a fraction of a phase. Forces are 3 per active contact, world.
+struct MotionGuess {
+  std::vector<double> durations;  // s, one a phase
+  double displacement = 0;        // m
+  std::function<MotionSample(int phase, double fraction)> motion;
+};
+
+// The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).
+//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity; travel
+// The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
+class CollocationNlp : public NlpProblem {
+ public:
+  CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh);
+  ~CollocationNlp() override;
+
+  int variables() const override { return layout_.size(); }
+  int constraints() const override { return rows_; }
+  const VectorX& lower_bounds() const override { return lower_; }
+  const VectorX& upper_bounds() const override { return upper_; }
+  const VectorX& constraint_lower() const override { return row_lower_; }
+  const VectorX& constraint_upper() const override { return row_upper_; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
+  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
+  bool Objective(const double* x, double* value) override;
+  bool Gradient(const double* x, double* gradient) override;
+  bool Constraints(const double* x, double* g) override;
+  bool Jacobian(const double* x, double* values) override;
+  bool Hessian(const double* x, double sigma, const double* lambda, double* values) override;
+
+  const DecisionLayout& layout() const { return layout_; }
+  const Mesh& mesh() const { return mesh_; }
+  // f of the NLP = objective_scale() · (weighted sum of integrals / denominator).
+  double objective_scale() const { return objective_scale_; }
+
+  VectorX MakeStart(const MotionGuess& guess) const;
+  Trajectory Extract(const double* x);
+  // Unweighted integral of every cost term, and the denominator.
+  VectorX CostIntegrals(const double* x);
+  double Denominator(const double* x) const;
+  double displacement(const double* x) const { return x[layout_.displacement()]; }
+  double duration(const double* x) const;
+
+  // What a row is, and where it is in time.
+  struct RowInfo {
+    std::string name, unit;
+    double size = 1;
+    int phase = 0;
+    double time = 0;
+  };
+  RowInfo Describe(const double* x, int row) const;
+
+ private:
+  // Σ coefficient · x  as a row, or an entry row at a node.
+  struct LinearRow {
+    std::string name, unit;
+    double size;
+    std::vector<std::pair<int, double>> terms;  // (unknown, coefficient of the unknown as it stands in x)
+  };
+  struct EntryRow {
+    std::unique_ptr<PointConstraint> constraint;
+    int node, phase, first_row;
+    Entries jacobian, hessian;
+  };
+  // Efforts of two consecutive points, (τ_b − τ_a)² / Δt with Δt = ratio · T_phase.
+  struct EffortLink {
+    std::vector<int> from, to;     // unknown of every actuated joint
+    std::vector<double> sign;      // of the later effort (mirror image)
+    int phase;
+    double ratio;
+  };
+
+  double StepRatio(int interval) const { return 1.0 / layout_.intervals_in(layout_.phase(interval)); }
+  double Step(const double* x, int interval) const {
+    return x[layout_.duration(layout_.phase(interval))] * StepRatio(interval);
+  }
+  int GlobalColumn(int interval, int local) const;
+  void SetBounds();
+  void AddIntervalRows();
+  void AddEntryRows();
+  void AddLinearRow(LinearRow row, double lower, double upper);
+  void AddPeriodicityRows();
+  void AddTravelRows();
+  void AddEffortLinks();
+  void BuildPatterns();
+  void ScaleObjective();
+  void LoadEntry(const double* x, const EntryRow& row, bool second);
+  // Weighted sum of all integrals; fills the gradient by the unknowns if asked.
+  double WeightedIntegral(const double* x);
+  void AddLinkGradient(const double* x, double factor, double* gradient) const;
+  double LinkIntegral(const double* x, const VectorX& weights) const;
+
+  const OptimalControlProblem& problem_;
+  Scheme scheme_kind_;
+  EliminatedScheme scheme_;
+  Mesh mesh_;
+  DecisionLayout layout_;
+  PointWorkspace workspace_;
+  std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase
+  std::vector<EntryRow> entries_;
+  std::vector<LinearRow> linear_;
+  std::vector<EffortLink> links_;
+  VectorX link_weights_;              // Σ over effort-rate terms of weight · joint weights
+  std::vector<int> denominator_;      // unknowns whose sum divides the integrals; empty: nothing
+  std::vector<int> cost_unknowns_;    // unknowns with a cost gradient, without the durations
+  int rows_ = 0, first_entry_row_ = 0, first_linear_row_ = 0;
+  VectorX lower_, upper_, row_lower_, row_upper_;
+  SparsityPattern jacobian_pattern_, hessian_pattern_;
+  double objective_scale_ = 1;
+
+  VectorX integrals_, weights_, local_gradient_, cost_gradient_, entry_z_, entry_lambda_;
+  MatrixX entry_jacobian_, entry_hessian_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_TRANSCRIPTION_COLLOCATION_NLP_H_

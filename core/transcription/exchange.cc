@@ -1,0 +1,90 @@
+// CollocationNlp's exchange with motions: start vector from a guess, trajectory from a solution.
+
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+
+VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
+  const int n = problem_.model.size();
+  VectorX x = VectorX::Zero(variables());
+  for (int p = 0; p < layout_.phases(); ++p) x(layout_.duration(p)) = guess.durations[p];
+  x(layout_.displacement()) = guess.displacement;
+  const auto set_node = [&](int k, const MotionSample& sample) {
+    x.segment(layout_.node(k), n) = sample.position;
+    x.segment(layout_.node(k) + n, n) = sample.velocity;
+  };
+  for (int k = 0; k < layout_.intervals(); ++k) {
+    const int p = layout_.phase(k), count = layout_.intervals_in(p), local = k - layout_.first_interval(p);
+    set_node(k, guess.motion(p, static_cast<double>(local) / count));
+    for (int i = 0; i < scheme_.points(); ++i) {
+      const MotionSample sample = guess.motion(p, (local + scheme_.tableau().c(i)) / count);
+      if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / 10;
+      x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
+      int index = 0;
+      for (const ActiveContact& active : problem_.ActiveContacts(p)) {
+        for (size_t d = 0; d < active.directions.size(); ++d) {
+          x(layout_.forces(k, i) + active.offset + static_cast<int>(d)) =
+              sample.forces(3 * index + active.directions[d]) / problem_.force_size();
+        }
+        ++index;
+      }
+    }
+  }
+  set_node(layout_.intervals(), guess.motion(layout_.phases() - 1, 1));
+  return x;
+}
+
+Trajectory CollocationNlp::Extract(const double* x) {
+  const int n = problem_.model.size(), s = scheme_.points();
+  const int efforts = static_cast<int>(problem_.model.actuated().size());
+  Trajectory trajectory;
+  trajectory.scheme = scheme_kind_;
+  trajectory.points_per_interval = s;
+  for (int i = 0; i < s; ++i) trajectory.point_fractions.push_back(scheme_.tableau().c(i));
+  trajectory.cycle = problem_.mirrored ? Cycle::kHalf : Cycle::kFull;
+  trajectory.duration = duration(x);
+  trajectory.displacement = x[layout_.displacement()];
+  double start = 0;
+  for (int p = 0; p < layout_.phases(); ++p) {
+    const int count = layout_.intervals_in(p), first = layout_.first_interval(p);
+    const auto active = problem_.ActiveContacts(p);
+    TrajectoryPhase phase;
+    phase.contacts = problem_.phases[p].active;
+    phase.start = start;
+    phase.duration = x[layout_.duration(p)];
+    phase.node_positions.resize(n, count + 1);
+    phase.node_velocities.resize(n, count + 1);
+    for (MatrixX* m : {&phase.point_positions, &phase.point_velocities, &phase.point_accelerations}) {
+      m->resize(n, count * s);
+    }
+    phase.point_efforts.resize(efforts, count * s);
+    phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
+    for (int k = 0; k <= count; ++k) {
+      phase.node_times.push_back(start + phase.duration * k / count);
+      phase.node_positions.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k), n);
+      phase.node_velocities.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k) + n, n);
+    }
+    for (int k = 0; k < count; ++k) {
+      for (int i = 0; i < s; ++i) {
+        const int column = k * s + i;
+        const VectorX& z = blocks_[p]->PointState(x + layout_.node(first + k), Step(x, first + k), i);
+        phase.point_times.push_back(start + phase.duration * (k + scheme_.tableau().c(i)) / count);
+        phase.point_positions.col(column) = z.head(n);
+        phase.point_velocities.col(column) = z.segment(n, n);
+        phase.point_accelerations.col(column) = z.segment(2 * n, n);
+        phase.point_efforts.col(column) = z.segment(3 * n, efforts);
+        for (size_t c = 0; c < active.size(); ++c) {
+          for (size_t d = 0; d < active[c].directions.size(); ++d) {
+            phase.point_forces(3 * static_cast<int>(c) + active[c].directions[d], column) =
+                z(3 * n + efforts + active[c].offset + static_cast<int>(d));
+          }
+        }
+      }
+    }
+    start += phase.duration;
+    trajectory.phases.push_back(std::move(phase));
+  }
+  return trajectory;
+}
+
+}  // namespace rollgait

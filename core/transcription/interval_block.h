@@ -1,0 +1,114 @@
+#ifndef ROLLGAIT_CORE_TRANSCRIPTION_INTERVAL_BLOCK_H_
+#define ROLLGAIT_CORE_TRANSCRIPTION_INTERVAL_BLOCK_H_
+
+#include <memory>
+#include <vector>
+
+#include "core/math/collocation.h"
+#include "core/ocp/problem.h"
+
+namespace rollgait {
+
+// Tree and contacts at the instant under evaluation; shared by all blocks of a problem, so one problem serves one thread.
+struct PointWorkspace {
+  PointWorkspace(const OptimalControlProblem& problem, bool with_dual);
+  TreeDynamics tree;
+  std::vector<ContactDerivatives<double>> contacts;
+  std::vector<ContactDerivatives<Dual>> dual_contacts;
+};
+
+// All collocation points of one interval of a phase, as a function of the slice of unknowns from the node before it to the node
+// after it (local variables, scaled) and of its length h (the last local variable, in s). Position, velocity and acceleration
+// at a point are linear in the slice for given h; this class carries the derivatives of the point functions through that map:
+//   ∂g/∂y = Σ c_α J_α,   ∂²ℓ/∂y∂y' = Σ c_α c_β H_αβ,   and the terms of h.
+// Second derivatives that involve accelerations are with positions only (PointConstraint's contract in this project's physics).
+class IntervalBlock {
+ public:
+  IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
+                PointWorkspace* workspace);
+
+  int local_size() const { return local_size_; }  // without h
+  int rows() const { return rows_; }
+  const VectorX& scale() const { return scale_; }            // physical = scale · unknown, local_size()
+  const Entries& jacobian_pattern() const { return jacobian_pattern_; }  // column local_size() is h
+  const Entries& hessian_pattern() const { return hessian_pattern_; }    // lower triangle, h included
+  // Local variables (h excluded) on which the cost depends.
+  const std::vector<int>& cost_variables() const { return cost_variables_; }
+
+  // Bounds of the (scaled) rows of interval k of count.
+  void Bounds(int k, int count, double* lower, double* upper) const;
+  // What row `row` is: name, unit, natural size and point.
+  struct RowInfo {
+    std::string name, unit;
+    double size;
+    int point;
+  };
+  RowInfo Describe(int row) const;
+
+  // integrals (one per cost term; zero for effort rates) are added to.
+  void Integrals(const double* y, double h, double* integrals);
+  // gradient (local_size() + 1) = ∂/∂(y, h) of Σ_t weights[t] · integral_t.
+  void CostGradient(const double* y, double h, const double* weights, Eigen::Ref<VectorX> gradient);
+  void Values(const double* y, double h, double* g);
+  void Jacobian(const double* y, double h, double* values);
+  // Hessian of λᵀ g + Σ_t weights[t] integral_t on hessian_pattern(); cost_gradient as CostGradient.
+  void Hessian(const double* y, double h, const double* lambda, const double* weights, double* values,
+               Eigen::Ref<VectorX> cost_gradient);
+
+  // State of point i: z = (q, v, a, τ, f).
+  const VectorX& PointState(const double* y, double h, int i);
+
+ private:
+  struct Point {
+    std::vector<PointConstraint*> constraints;
+    int first_row = 0;
+    int rows = 0;
+    bool at_node = false;
+    VectorX row_size;
+    // Jacobian entries of (q, v, a): (row, coordinate, source); of (τ, f): (row, z index).
+    struct StateEntry {
+      int row, coordinate, source;
+    };
+    std::vector<StateEntry> state_entries;
+    Entries control_entries;
+    std::vector<int> dense_rows;  // rows with an entry in column h
+  };
+
+  void SetStep(double h);
+  void LoadPoint(const double* y, int i);
+  void UpdateWorkspace(int i, bool dynamics, bool second);
+  void EvaluateJacobian(int i);
+  void BuildPoints();
+  void BuildJacobianPattern();
+  void BuildHessianPattern();
+  int SourceOffset(int source) const;
+  int ControlOffset(int point) const { return 2 * layout_.n + (points_count_ - 2) * layout_.n + point * controls_; }
+  void AccumulateHessian(int i);
+
+  const OptimalControlProblem& problem_;
+  const EliminatedScheme& scheme_;
+  PointWorkspace* workspace_;
+  PointLayout layout_;
+  int points_count_, controls_, local_size_, rows_ = 0;
+  std::vector<std::unique_ptr<PointConstraint>> regular_, at_node_;
+  std::vector<int> used_contacts_, active_contacts_;
+  std::vector<Point> points_;
+  VectorX scale_;
+  Entries jacobian_pattern_, hessian_pattern_;
+  std::vector<int> cost_variables_;
+
+  // Coefficients for the current h: [kind](point, source).
+  double step_ = -1;
+  MatrixX value_[3], first_[3], second_[3];
+  PointContext context_;
+  VectorX z_, z_rate_, z_curve_;  // z and the first two derivatives of its first 3n entries by h
+  MatrixX jacobian_, hessian_;
+  VectorX gradient_, cost_gradient_, scaled_lambda_;
+  MatrixX local_;                 // dense lower Hessian of the interval
+  MatrixX block_;                 // n × controls
+  VectorX turned_;                // 3n
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_TRANSCRIPTION_INTERVAL_BLOCK_H_

@@ -1,0 +1,135 @@
+#include "core/transcription/collocation_nlp.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/initial_guess.h"
+
+namespace rollgait {
+namespace {
+
+GaitRequest PlanarRequest() {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.slope = 0.1;
+  request.motion.speed = 1.3;
+  request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
+  request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
+  request.costs.push_back({GaitRequest::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
+  request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
+  request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
+  request.costs.push_back({GaitRequest::Time{}, 100.0});
+  return request;
+}
+
+struct Case {
+  Scheme scheme;
+  GaitRequest::Normalization normalization;
+  Cycle cycle;
+};
+
+class CollocationNlpTest : public ::testing::TestWithParam<Case> {
+ protected:
+  CollocationNlpTest() {
+    GaitRequest request = PlanarRequest();
+    request.normalization = GetParam().normalization;
+    request.cycle = GetParam().cycle;
+    request.discretization.scheme = GetParam().scheme;
+    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
+    problem_ = BuildProblem(*spec_);
+    Mesh mesh;
+    for (size_t p = 0; p < problem_->phases.size(); ++p) mesh.intervals.push_back(p % 2 == 0 ? 1 : 2);
+    nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam().scheme, mesh);
+    x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> noise(-0.05, 0.05);
+    for (double& value : x_) value += noise(random);
+  }
+  MatrixX DenseJacobian(const VectorX& x) {
+    VectorX values(nlp_->jacobian_pattern().size());
+    EXPECT_TRUE(nlp_->Jacobian(x.data(), values.data()));
+    MatrixX dense = MatrixX::Zero(nlp_->constraints(), nlp_->variables());
+    for (int e = 0; e < values.size(); ++e) {
+      dense(nlp_->jacobian_pattern().rows[e], nlp_->jacobian_pattern().columns[e]) += values(e);
+    }
+    return dense;
+  }
+  VectorX GradientAt(const VectorX& x) {
+    VectorX gradient(x.size());
+    EXPECT_TRUE(nlp_->Gradient(x.data(), gradient.data()));
+    return gradient;
+  }
+
+  std::unique_ptr<GaitSpec> spec_;
+  std::unique_ptr<OptimalControlProblem> problem_;
+  std::unique_ptr<CollocationNlp> nlp_;
+  VectorX x_;
+};
+
+// Central differences with step 1e-6: truncation 1e-12 times third derivatives, rounding 1e-10 times values; columns are
+// compared relative to their largest entry.
+constexpr double kStep = 1e-6;
+
+TEST_P(CollocationNlpTest, JacobianAndGradientMeetDifferences) {
+  const MatrixX jacobian = DenseJacobian(x_);
+  const VectorX gradient = GradientAt(x_);
+  VectorX up(nlp_->constraints()), down(nlp_->constraints());
+  for (int j = 0; j < x_.size(); ++j) {
+    VectorX x = x_;
+    x(j) += kStep;
+    double f_up, f_down;
+    ASSERT_TRUE(nlp_->Constraints(x.data(), up.data()));
+    ASSERT_TRUE(nlp_->Objective(x.data(), &f_up));
+    x(j) -= 2 * kStep;
+    ASSERT_TRUE(nlp_->Constraints(x.data(), down.data()));
+    ASSERT_TRUE(nlp_->Objective(x.data(), &f_down));
+    const VectorX difference = (up - down) / (2 * kStep);
+    const double size = 1 + difference.cwiseAbs().maxCoeff();
+    int row;
+    EXPECT_LT((difference - jacobian.col(j)).cwiseAbs().maxCoeff(&row), 1e-6 * size)
+        << "unknown " << j << " row " << row << " " << nlp_->Describe(x_.data(), row).name;
+    EXPECT_NEAR((f_up - f_down) / (2 * kStep), gradient(j), 1e-6 * (1 + gradient.cwiseAbs().maxCoeff())) << j;
+  }
+}
+
+TEST_P(CollocationNlpTest, HessianMeetsDifferencesOfFirstDerivatives) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  VectorX lambda(nlp_->constraints());
+  for (double& value : lambda) value = uniform(random);
+  const double sigma = 0.7;
+  VectorX values(nlp_->hessian_pattern().size());
+  ASSERT_TRUE(nlp_->Hessian(x_.data(), sigma, lambda.data(), values.data()));
+  MatrixX hessian = MatrixX::Zero(x_.size(), x_.size());
+  for (int e = 0; e < values.size(); ++e) {
+    const int r = nlp_->hessian_pattern().rows[e], c = nlp_->hessian_pattern().columns[e];
+    ASSERT_GE(r, c);
+    hessian(r, c) += values(e);
+    if (r != c) hessian(c, r) += values(e);
+  }
+  const auto lagrangian_gradient = [&](const VectorX& x) -> VectorX {
+    return sigma * GradientAt(x) + DenseJacobian(x).transpose() * lambda;
+  };
+  EXPECT_GT(hessian.cwiseAbs().maxCoeff(), 1);
+  for (int j = 0; j < x_.size(); ++j) {
+    VectorX up = x_, down = x_;
+    up(j) += kStep;
+    down(j) -= kStep;
+    const VectorX difference = (lagrangian_gradient(up) - lagrangian_gradient(down)) / (2 * kStep);
+    int row;
+    const double error = (difference - hessian.col(j)).cwiseAbs().maxCoeff(&row);
+    EXPECT_LT(error, 1e-5 * (1 + difference.cwiseAbs().maxCoeff())) << "column " << j << " row " << row;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, CollocationNlpTest,
+    ::testing::Values(Case{Scheme::kRadau2, GaitRequest::Normalization::kPerDistance, Cycle::kHalf},
+                      Case{Scheme::kRadau3, GaitRequest::Normalization::kPerTime, Cycle::kHalf},
+                      Case{Scheme::kHermiteSimpson, GaitRequest::Normalization::kPerDistance, Cycle::kHalf},
+                      Case{Scheme::kRadau2, GaitRequest::Normalization::kNone, Cycle::kFull}));
+
+}  // namespace
+}  // namespace rollgait
