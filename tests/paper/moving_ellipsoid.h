@@ -4,14 +4,9 @@
 #include <Eigen/Geometry>
 
 #include "core/geometry/ellipsoid.h"
+#include "core/multibody/spatial.h"
 
 namespace rollgait {
-
-inline Matrix3 Skew(const Vector3& v) {
-  Matrix3 skew;
-  skew << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return skew;
-}
 
 inline Matrix3 Rotation(const Vector3& rotation_vector) {
   const double angle = rotation_vector.norm();
