@@ -68,6 +68,7 @@ class WatchHub {
   void Changed(const std::string& id);
   // Wakes every reader; from now on Take and Open answer kUnavailable.
   void Stop();
+  bool stopped() const { return stopped_; }
 
  private:
   friend class Watch;

@@ -1,0 +1,54 @@
+#ifndef ROLLGAIT_SERVER_RPC_RPC_SERVER_H_
+#define ROLLGAIT_SERVER_RPC_RPC_SERVER_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "server/base/executor.h"
+#include "server/base/outcome.h"
+#include "server/rpc/gait_service.h"
+#include "server/service/solve_service.h"
+#include "server/service/watch_hub.h"
+
+namespace rollgait::server {
+
+struct RpcOptions {
+  std::string listen = "127.0.0.1:0";         // HOST:PORT; port 0: any free one
+  int executor_threads = 8;                   // calls that may touch the store at once
+  size_t max_waiting_calls = 4096;            // more are refused with RESOURCE_EXHAUSTED
+  std::chrono::milliseconds slow_write{250};  // a longer write marks its reader as slow
+};
+
+// The listening gRPC server: GaitService, grpc.health.v1.Health, reflection. Plain text.
+class RpcServer {
+ public:
+  // Binds and serves. kUnavailable if the address cannot be bound. Service and hub outlive it.
+  static Outcome<std::unique_ptr<RpcServer>> Start(const RpcOptions& options, SolveService& service, WatchHub& hub);
+  ~RpcServer();
+
+  // "HOST:PORT" with the port that was bound.
+  const std::string& address() const { return address_; }
+  // Health says NOT_SERVING, streams end with UNAVAILABLE, unary calls have `grace` to finish; then everything is
+  // cancelled. Returns when no call is left.
+  void Stop(std::chrono::milliseconds grace);
+
+ private:
+  RpcServer(const RpcOptions& options, SolveService& service, WatchHub& hub);
+
+  WatchHub& hub_;
+  Executor executor_;
+  GaitServiceRpc rpc_;
+  std::unique_ptr<grpc::Server> server_;
+  std::string address_;
+};
+
+// True if every address that HOST of "HOST:PORT" stands for is a loopback address: 127.0.0.0/8, ::1, localhost, unix
+// sockets.
+bool IsLoopback(const std::string& listen);
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_RPC_RPC_SERVER_H_

@@ -1,0 +1,86 @@
+#include "server/rpc/status.h"
+
+#include <algorithm>
+#include <string>
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace rollgait::server {
+namespace {
+
+grpc::StatusCode Code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidArgument:
+      return grpc::StatusCode::INVALID_ARGUMENT;
+    case ErrorCode::kNotFound:
+      return grpc::StatusCode::NOT_FOUND;
+    case ErrorCode::kAlreadyExists:
+      return grpc::StatusCode::ALREADY_EXISTS;
+    case ErrorCode::kFailedPrecondition:
+      return grpc::StatusCode::FAILED_PRECONDITION;
+    case ErrorCode::kOutOfRange:
+      return grpc::StatusCode::OUT_OF_RANGE;
+    case ErrorCode::kResourceExhausted:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case ErrorCode::kUnavailable:
+      return grpc::StatusCode::UNAVAILABLE;
+    case ErrorCode::kLeaseLost:  // concerns agents only
+    case ErrorCode::kInternal:
+      return grpc::StatusCode::INTERNAL;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+// Bytes of the UTF-8 sequence that begins at `text[i]`; 0 if none does.
+size_t SequenceLength(const std::string& text, size_t i) {
+  const auto byte = static_cast<unsigned char>(text[i]);
+  const size_t length = byte < 0x80 ? 1 : byte < 0xc2 ? 0 : byte < 0xe0 ? 2 : byte < 0xf0 ? 3 : byte < 0xf5 ? 4 : 0;
+  if (i + length > text.size()) return 0;
+  for (size_t k = 1; k < length; ++k) {
+    if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+// At most about kMaxText bytes of valid UTF-8 without control characters, as protobuf strings and terminals want it.
+std::string Text(const std::string& text) {
+  std::string clean;
+  for (size_t i = 0; i < text.size();) {
+    const size_t length = SequenceLength(text, i);
+    if (clean.size() + length > kMaxText) return clean + "…";
+    const bool printable = length > 1 || (length == 1 && text[i] >= ' ' && text[i] != 0x7f);
+    clean += printable ? text.substr(i, length) : "?";
+    i += length == 0 ? 1 : length;
+  }
+  return clean;
+}
+
+}  // namespace
+
+grpc::Status ToStatus(const Error& error) {
+  google::rpc::Status details;
+  details.set_code(Code(error.code));
+  details.set_message(Text(error.message));
+  if (!error.violations.empty()) {
+    google::rpc::BadRequest bad_request;
+    const size_t count = std::min(error.violations.size(), kMaxViolations);
+    for (size_t i = 0; i < count; ++i) {
+      auto* violation = bad_request.add_field_violations();
+      violation->set_field(Text(error.violations[i].field));
+      violation->set_description(Text(error.violations[i].message));
+    }
+    details.add_details()->PackFrom(bad_request);
+  }
+  if (error.retry_after.has_value()) {
+    google::rpc::RetryInfo retry;
+    const auto milliseconds = error.retry_after->count();
+    retry.mutable_retry_delay()->set_seconds(milliseconds / 1000);
+    retry.mutable_retry_delay()->set_nanos(static_cast<int32_t>(milliseconds % 1000) * 1'000'000);
+    details.add_details()->PackFrom(retry);
+  }
+  return grpc::Status(Code(error.code), details.message(),
+                      details.details_size() > 0 ? details.SerializeAsString() : "");
+}
+
+}  // namespace rollgait::server

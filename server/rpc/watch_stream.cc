@@ -1,0 +1,156 @@
+#include "server/rpc/watch_stream.h"
+
+#include <utility>
+#include <vector>
+
+#include "server/rpc/status.h"
+
+namespace rollgait::server {
+
+WatchStream* WatchStream::Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan) {
+  std::shared_ptr<WatchStream> stream(new WatchStream(executor, hub, slow_write, std::move(plan)));
+  stream->self_ = stream;
+  if (!executor.TryPost([stream] { stream->Prepare(); })) {
+    const std::lock_guard<std::mutex> lock(stream->mutex_);
+    stream->End(ToStatus({ErrorCode::kResourceExhausted,
+                          "the server has too many calls to answer; try again later",
+                          {},
+                          std::chrono::milliseconds(1000)}));
+  }
+  return stream.get();
+}
+
+void WatchStream::Prepare() {
+  const Outcome<Target> target = plan_.prepare();
+  if (target.ok()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    id_ = target.value().id;
+    if (cancelled_) EndAsDisconnected();
+    if (ended_) return;
+  }
+  std::weak_ptr<WatchStream> weak = weak_from_this();
+  Outcome<std::unique_ptr<Watch>> watch = target.ok() ? hub_.Open(target.value().id, target.value().after_sequence,
+                                                                  [weak] {
+                                                                    if (const auto stream = weak.lock()) stream->Wake();
+                                                                  })
+                                                      : Outcome<std::unique_ptr<Watch>>(target.error());
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!watch.ok()) {
+      End(ToStatus(watch.error()));
+      return;
+    }
+    watch_ = std::move(watch).value();
+  }
+  Pump();
+}
+
+void WatchStream::Wake() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (ended_) return;
+  if (pumping_ || !waiting_.empty()) {
+    again_ = true;
+    return;
+  }
+  pumping_ = true;
+  executor_.Post([self = shared_from_this()] { self->Pump(); });
+}
+
+void WatchStream::Pump() {
+  while (true) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (ended_) return;
+      again_ = false;
+    }
+    Outcome<WatchBatch> batch = watch_->Take();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (cancelled_) EndAsDisconnected();
+    if (ended_) return;
+    if (!batch.ok()) {
+      End(ToStatus(batch.error()));
+      return;
+    }
+    if (batch.value().ended || !batch.value().events.empty()) {
+      pumping_ = false;
+      Send(std::move(batch).value());
+      return;
+    }
+    if (!again_) {
+      pumping_ = false;
+      return;
+    }
+  }
+}
+
+void WatchStream::Send(WatchBatch batch) {
+  if (slow_) batch.events = MergeIterations(batch.events);
+  last_batch_ = batch.ended;
+  waiting_.assign(batch.events.begin(), batch.events.end());
+  if (waiting_.empty()) {
+    End(grpc::Status::OK);
+  } else {
+    StartNextWrite();
+  }
+}
+
+void WatchStream::StartNextWrite() {
+  write_start_ = std::chrono::steady_clock::now();
+  StartWrite(waiting_.front().get());
+}
+
+void WatchStream::OnWriteDone(bool ok) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_.pop_front();
+  if (ended_) return;
+  if (!ok || cancelled_) {
+    EndAsDisconnected();
+    return;
+  }
+  slow_ = std::chrono::steady_clock::now() - write_start_ > slow_write_;
+  if (slow_ && waiting_.size() > 1) {
+    const std::vector<EventPtr> merged = MergeIterations({waiting_.begin(), waiting_.end()});
+    waiting_.assign(merged.begin(), merged.end());
+  }
+  if (!waiting_.empty()) {
+    StartNextWrite();
+  } else if (last_batch_) {
+    End(grpc::Status::OK);
+  } else {
+    pumping_ = true;
+    executor_.Post([self = shared_from_this()] { self->Pump(); });
+  }
+}
+
+void WatchStream::OnCancel() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  cancelled_ = true;
+  // A write in flight ends soon, a pump sees the flag: they end the stream then.
+  if (waiting_.empty() && !pumping_) EndAsDisconnected();
+}
+
+void WatchStream::EndAsDisconnected() {
+  if (ended_) return;
+  const bool server_stops = hub_.stopped();  // then it is not the client that has gone
+  if (plan_.on_disconnect != nullptr && !id_.empty() && !server_stops) {
+    executor_.Post([self = shared_from_this()] { self->plan_.on_disconnect(self->id_); });
+  }
+  End(server_stops ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the server is stopping")
+                   : grpc::Status(grpc::StatusCode::CANCELLED, "the client has gone"));
+}
+
+void WatchStream::End(const grpc::Status& status) {
+  if (ended_) return;
+  ended_ = true;
+  Finish(status);
+}
+
+void WatchStream::OnDone() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+  }
+  const std::shared_ptr<WatchStream> last = std::move(self_);
+}
+
+}  // namespace rollgait::server

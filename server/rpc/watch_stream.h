@@ -1,0 +1,79 @@
+#ifndef ROLLGAIT_SERVER_RPC_WATCH_STREAM_H_
+#define ROLLGAIT_SERVER_RPC_WATCH_STREAM_H_
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "rollgait/v1/gait_service.pb.h"
+#include "server/base/executor.h"
+#include "server/service/watch_hub.h"
+
+namespace rollgait::server {
+
+// One event stream to one client: of WatchSolve, and of RunSolve after its solve was made. One write is in flight at a
+// time. A reader is slow if a write took longer than `slow_write`; what waits for it then is merged (MergeIterations).
+// Reactions do not block: everything that may touch the store runs on the executor.
+class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std::enable_shared_from_this<WatchStream> {
+ public:
+  struct Target {
+    std::string id;
+    int64_t after_sequence = 0;
+  };
+  struct Plan {
+    // Finds or makes the solve to be watched. Runs on the executor.
+    std::function<Outcome<Target>()> prepare;
+    // Called on the executor, with the target, if the client has gone before the terminal event was written. May be
+    // empty.
+    std::function<void(const std::string& id)> on_disconnect;
+  };
+
+  // Starts the stream; it deletes itself when gRPC is done with it. Executor and hub outlive it.
+  static WatchStream* Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan);
+
+  void OnWriteDone(bool ok) override;
+  void OnCancel() override;
+  void OnDone() override;
+
+ private:
+  WatchStream(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan)
+      : executor_(executor), hub_(hub), slow_write_(slow_write), plan_(std::move(plan)) {}
+
+  void Prepare();
+  // Asks the executor for a pump unless one is asked for or a write is in flight, whose end will pump.
+  void Wake();
+  // Takes what is new and starts a write or ends the stream. On the executor.
+  void Pump();
+  void Send(WatchBatch batch);
+  void StartNextWrite();
+  // Ends the stream once; later calls do nothing. Needs the lock.
+  void End(const grpc::Status& status);
+  void EndAsDisconnected();
+
+  Executor& executor_;
+  WatchHub& hub_;
+  const std::chrono::milliseconds slow_write_;
+  const Plan plan_;
+  std::shared_ptr<WatchStream> self_;  // until OnDone: gRPC holds a plain pointer
+
+  std::mutex mutex_;  // protects what follows; watch_ is used by the one pump at a time only
+  std::unique_ptr<Watch> watch_;
+  std::string id_;
+  std::deque<EventPtr> waiting_;  // the first one is being written
+  std::chrono::steady_clock::time_point write_start_;
+  bool slow_ = false;
+  bool pumping_ = true;  // a pump is posted or runs; true until prepared
+  bool again_ = false;   // woken meanwhile
+  bool last_batch_ = false;
+  bool cancelled_ = false;
+  bool ended_ = false;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_RPC_WATCH_STREAM_H_
