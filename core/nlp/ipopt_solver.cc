@@ -165,6 +165,8 @@ void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const Ipopt
   // The transcription scales unknowns, rows and objective itself.
   o.SetStringValue("nlp_scaling_method", "none");
   o.SetStringValue("fixed_variable_treatment", "make_parameter");
+  // Moving a solution onto a bound that was relaxed by 1e-8 would break the dynamics by that times 1/h².
+  o.SetStringValue("honor_original_bounds", "no");
   o.SetNumericValue("mu_init", options.initial_barrier);
   if (start.constraint_multipliers.size() > 0) {
     o.SetStringValue("warm_start_init_point", "yes");

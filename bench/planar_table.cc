@@ -1,0 +1,112 @@
+// Planar gait from the built-in guess: iterations, time, objective and accuracy for every slope, scheme and mesh.
+//   planar_table [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10] [--verbose]
+
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+std::vector<std::string> Split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::stringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+const char* Name(Termination termination) {
+  switch (termination) {
+    case Termination::kOptimal:
+      return "optimal";
+    case Termination::kAcceptable:
+      return "acceptable";
+    case Termination::kInfeasible:
+      return "infeasible";
+    case Termination::kIterationLimit:
+      return "iterations";
+    case Termination::kTimeLimit:
+      return "time";
+    case Termination::kNumericalDifficulty:
+      return "numerics";
+    case Termination::kCancelled:
+      return "cancelled";
+  }
+  return "?";
+}
+
+Scheme SchemeOf(const std::string& name) {
+  if (name == "radau3") return Scheme::kRadau3;
+  if (name == "hermite-simpson") return Scheme::kHermiteSimpson;
+  return Scheme::kRadau2;
+}
+
+void PrintIteration(const IterationInfo& i) {
+  std::fprintf(stderr, "  %4d f %.8e pr %.2e du %.2e mu %.1e reg %.1e ap %.2e ad %.2e%s\n", i.index, i.objective,
+               i.primal_infeasibility, i.dual_infeasibility, i.barrier_parameter, i.regularization, i.primal_step,
+               i.dual_step, i.restoration ? " R" : "");
+}
+
+int Main(int argc, char** argv) {
+  std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
+                           schemes = {"radau2", "radau3", "hermite-simpson"};
+  bool verbose = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    if (flag == "--verbose") verbose = true;
+    if (i + 1 >= argc) continue;
+    if (flag == "--intervals") intervals = Split(argv[++i]);
+    if (flag == "--slopes") slopes = Split(argv[++i]);
+    if (flag == "--schemes") schemes = Split(argv[++i]);
+  }
+  std::printf("%-16s %5s %4s | %-10s %4s %7s %7s | %9s %9s %6s | %9s %9s %8s %8s %8s | %5s %5s\n", "scheme", "slope",
+              "N", "end", "iter", "cpu s", "eval s", "objective", "KKT", "step m", "gap m", "slip m/s", "defect q",
+              "defect v", "energy", "minN", "fric");
+  bool all = true;
+  for (const auto& scheme : schemes) {
+    for (const auto& slope : slopes) {
+      for (const auto& n : intervals) {
+        GaitRequest request;
+        request.body.model = "planar";
+        request.slope = std::stod(slope) * std::numbers::pi / 180;
+        request.motion.speed = 1.3;
+        request.discretization.scheme = SchemeOf(scheme);
+        request.discretization.single_support_intervals = std::stoi(n);
+        request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+        const Result<GaitSpec> spec = CheckRequest(request);
+        if (!spec.ok()) {
+          for (const Violation& v : spec.violations()) std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
+          return 1;
+        }
+        SolveControl control;
+        if (verbose) control.observer = PrintIteration;
+        const std::clock_t begin = std::clock();
+        const GaitSolution s = OptimizingGaitSolver().Solve(spec.value(), control);
+        all &= s.termination == Termination::kOptimal;
+        const AccuracyReport a = s.accuracy.value_or(AccuracyReport());
+        const MeshStatistics& m = s.meshes.back();
+        std::printf("%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.3f %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
+                    scheme.c_str(), slope.c_str(), n.c_str(), Name(s.termination), m.iterations,
+                    static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
+                    m.evaluation_time, s.objective, s.kkt_error, s.step_length, a.max_gap, a.max_slip,
+                    a.max_position_defect, a.max_velocity_defect, a.energy_balance_error_relative, a.min_normal_force,
+                    a.max_friction_ratio);
+        std::fflush(stdout);
+        for (const auto& u : s.unmet_constraints) {
+          std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());
+        }
+      }
+    }
+  }
+  return all ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace rollgait
+
+int main(int argc, char** argv) { return rollgait::Main(argc, argv); }
