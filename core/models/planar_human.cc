@@ -115,6 +115,9 @@ std::vector<std::string> Sources() {
       "Feet: ellipsoids from heel to toe (a = half foot length) whose sole has the radius of curvature a²/c = 0.3 × leg "
       "length (Adamczyk, Collins, Kuo 2006, J Exp Biol 209:3953); bottom at the sole of the standing foot; half breadth "
       "0.187 × foot length (US Army survey 1988, male means, from memory).",
+      "Posture at zero: lumbar and cervical joints on one vertical, hips ahead of it as the table has them. The trunk's "
+      "centre of mass is then 0.063 m (male, 1.774 m) or 0.058 m (female, 1.610 m) behind the hips, so balance takes some "
+      "forward lean.",
       "Ranges of motion: hip -30..120 and ankle -50 deg, AAOS 1965 norms; knee 0..150 deg, AMA guides; 40 deg of ankle "
       "dorsiflexion are reached under weight only (lunge test). From memory of these norms.",
       "Torque limits: 200 N m (hip), 250 N m (knee, ankle) at 75 kg in both directions, proportional to body mass: above "

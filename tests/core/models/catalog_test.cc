@@ -2,9 +2,17 @@
 
 #include <limits>
 #include <set>
+#include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "core/multibody/body_dynamics.h"
+#include "tests/support/matrix_near.h"
+#include "tests/support/seeded_random.h"
 
 namespace rollgait {
 namespace {
@@ -39,6 +47,58 @@ TEST(CatalogTest, EveryEntryBuildsAsListed) {
     }
   }
   EXPECT_EQ(names.count("planar"), 1u);
+}
+
+// The tree is one that dynamics can work with, and left and right are the same: at a mirrored posture the mass matrix has
+// its rows and columns exchanged.
+TEST(CatalogTest, MassMatrixIsThatOfInverseDynamicsAndMirrors) {
+  for (const CatalogEntry& entry : ListCatalog()) {
+    BodyRequest request;
+    request.model = entry.name;
+    const Result<Scene> scene = BuildScene(request);
+    ASSERT_TRUE(scene.ok());
+    const Model& model = scene.value().model;
+    const BodyDynamics dynamics(model);
+    const int n = model.size();
+    const auto mass_matrix = [&](const VectorX& q) {
+      BodyDynamics::State state;
+      BodyDynamics::Workspace workspace;
+      MatrixX mass;
+      dynamics.ComputeState(q, VectorX::Zero(n), &state);
+      dynamics.MassMatrix(state, &workspace, &mass);
+      for (int i = 0; i < n; ++i) {
+        VectorX column;
+        dynamics.InverseDynamics(state, VectorX::Unit(n, i), Vector3::Zero(), &workspace, &column);
+        EXPECT_TRUE(MatrixNear(mass.col(i), column, 1e-12)) << entry.name << " " << i;  // rounding of 75 kg m²
+      }
+      return mass;
+    };
+    const VectorX q = SeededRandom(17).VectorOf(n, -0.6, 0.6);
+    VectorX mirrored(n);
+    MatrixX exchange = MatrixX::Zero(n, n);
+    for (int i = 0; i < n; ++i) {
+      exchange(i, model.joint(i).mirror_joint) = model.joint(i).mirror_sign;
+    }
+    mirrored = exchange * q;
+    const MatrixX mass = mass_matrix(q);
+    EXPECT_EQ(mass.llt().info(), Eigen::Success);
+    EXPECT_TRUE(MatrixNear(mass_matrix(mirrored), exchange * mass * exchange.transpose(), 1e-12));
+    EXPECT_GT((mass_matrix(mirrored) - mass).norm(), 0.1);
+  }
+}
+
+TEST(CatalogTest, StandingStraightIsWithinEveryLimit) {
+  for (const CatalogEntry& entry : ListCatalog()) {
+    BodyRequest request;
+    request.model = entry.name;
+    const Result<Scene> scene = BuildScene(request);
+    ASSERT_TRUE(scene.ok());
+    for (const Joint& joint : scene.value().model.joints()) {
+      EXPECT_LE(joint.position_min, 0) << joint.name;
+      EXPECT_GE(joint.position_max, 0) << joint.name;
+      EXPECT_EQ(joint.actuated, joint.effort_max > 0) << joint.name;
+    }
+  }
 }
 
 TEST(CatalogTest, PlanarHumanIsListedWithItsContacts) {

@@ -167,6 +167,12 @@ TEST(PlanarHumanTest, DefaultMaleHasTheStatedFeetAndLimits) {
   EXPECT_NEAR(scene.model.joint(5).effort_max, 250, 1e-12);
 }
 
+// What Scene::sources says of the posture at zero.
+TEST(PlanarHumanTest, TrunkIsBehindTheHipsByWhatTheSourcesState) {
+  EXPECT_NEAR(PlanarHuman(Sex::kMale, 1.774, 75).model.joint(2).center_of_mass.x(), -0.063, 5e-4);
+  EXPECT_NEAR(PlanarHuman(Sex::kFemale, 1.610, 62).model.joint(2).center_of_mass.x(), -0.058, 5e-4);
+}
+
 // Mass and moment of the whole standing body do not depend on how the trunk was lumped.
 TEST(PlanarHumanTest, WholeBodyEqualsTheSumOfItsSegments) {
   const SegmentTable table(Sex::kMale, 1.774, 75);
