@@ -1,0 +1,59 @@
+#include "server/solve/process_limits.h"
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace rollgait::server {
+namespace {
+
+std::string Reason(const char* call) { return std::string(call) + ": " + std::strerror(errno); }
+
+}  // namespace
+
+std::optional<std::string> EnsureOneThread(char** argv) {
+  bool complete = true;
+  for (const std::string_view variable : kOneThreadVariables) {
+    const size_t equals = variable.find('=');
+    const std::string name(variable.substr(0, equals));
+    const char* value = std::getenv(name.c_str());
+    if (value != nullptr && variable.substr(equals + 1) == value) continue;
+    complete = false;
+    if (setenv(name.c_str(), "1", 1) != 0) return Reason("setenv");
+  }
+  if (complete) return std::nullopt;
+  execv("/proc/self/exe", argv);
+  return Reason("execv /proc/self/exe");
+}
+
+std::optional<std::string> ConfineProcess() {
+  const rlimit none{0, 0};
+  if (setrlimit(RLIMIT_CORE, &none) != 0) return Reason("setrlimit RLIMIT_CORE");
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return Reason("prctl PR_SET_NO_NEW_PRIVS");
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) != 0) return Reason("prctl PR_SET_PDEATHSIG");
+  return std::nullopt;
+}
+
+std::optional<std::string> LimitMemory(int64_t bytes) {
+  const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) return Reason("setrlimit RLIMIT_AS");
+  return std::nullopt;
+}
+
+std::optional<std::string> LimitCpuTime(int64_t seconds) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CPU, &limit) != 0) return Reason("getrlimit RLIMIT_CPU");
+  limit.rlim_cur = std::min(limit.rlim_cur, static_cast<rlim_t>(seconds));
+  limit.rlim_max = std::min(limit.rlim_max, static_cast<rlim_t>(seconds + 5));
+  if (setrlimit(RLIMIT_CPU, &limit) != 0) return Reason("setrlimit RLIMIT_CPU");
+  return std::nullopt;
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,104 @@
+#include "server/solve/worker.h"
+
+#include <unistd.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "server/base/framing.h"
+#include "server/convert/gait_request_convert.h"
+#include "server/convert/result_convert.h"
+#include "server/solve/solver_build.h"
+#include "server/solve/wire.pb.h"
+
+namespace rollgait::server {
+namespace {
+
+constexpr const char* kMemoryMessage =
+    "the solver needs more memory than its limit; ask for fewer intervals or fewer refinements";
+
+std::string EncodeError(v1::SolveError::Kind kind, const std::string& message) {
+  wire::SolverMessage encoded;
+  encoded.mutable_error()->set_kind(kind);
+  encoded.mutable_error()->set_message(message);
+  return encoded.SerializeAsString();
+}
+
+WorkerExit SendError(int fd, v1::SolveError::Kind kind, const std::string& message) {
+  return WriteFrame(fd, EncodeError(kind, message)) == FrameStatus::kOk ? kWorkerDone : kWorkerNoReader;
+}
+
+WorkerExit SolveAndSend(int fd, const GaitSpec& spec, GaitSolver& solver, StopFlag& stop) {
+  SolveControl control;
+  control.stop = &stop;
+  control.observer = [&](const IterationInfo& iteration) {
+    wire::SolverMessage message;
+    *message.mutable_iteration() = EncodeIteration(iteration);
+    if (WriteFrame(fd, message.SerializeAsString()) != FrameStatus::kOk) stop.Request();
+  };
+  wire::SolverMessage message;
+  *message.mutable_result() = EncodeResult(solver.Solve(spec, control), spec);
+  message.mutable_result()->set_solver_build(SolverBuild());
+  const std::string encoded = message.SerializeAsString();
+  if (encoded.size() > kMaxFrameBytes) {
+    return SendError(fd, v1::SolveError::KIND_INTERNAL,
+                     "the result has " + std::to_string(encoded.size()) + " bytes, more than the limit of " +
+                         std::to_string(kMaxFrameBytes) + "; ask for fewer intervals");
+  }
+  return WriteFrame(fd, encoded) == FrameStatus::kOk ? kWorkerDone : kWorkerNoReader;
+}
+
+// What ReportMemoryLimitOn prepares, so that the handler needs no memory.
+int memory_limit_fd = -1;
+std::string* memory_limit_frame = nullptr;
+
+void SendMemoryLimit() {
+  const char* bytes = memory_limit_frame->data();
+  size_t left = memory_limit_frame->size();
+  while (left > 0) {
+    const ssize_t count = write(memory_limit_fd, bytes, left);
+    if (count <= 0) break;
+    bytes += count;
+    left -= static_cast<size_t>(count);
+  }
+  _exit(kWorkerDone);
+}
+
+}  // namespace
+
+void ReportMemoryLimitOn(int fd) {
+  memory_limit_fd = fd;
+  delete memory_limit_frame;
+  memory_limit_frame = new std::string(EncodeFrame(EncodeError(v1::SolveError::KIND_MEMORY_LIMIT, kMemoryMessage)));
+  std::set_new_handler(SendMemoryLimit);
+}
+
+WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
+                           const std::function<void(const GaitSpec&)>& on_request) {
+  try {
+    std::string payload;
+    const FrameStatus status = ReadFrame(fd, &payload);
+    if (status == FrameStatus::kEnd) return kWorkerDone;
+    v1::SolveSpec request;
+    if (status != FrameStatus::kOk || !request.ParseFromString(payload)) {
+      SendError(fd, v1::SolveError::KIND_INTERNAL,
+                status == FrameStatus::kOk ? "the request is not a SolveSpec" : Describe(status));
+      return kWorkerNoRequest;
+    }
+    const Result<GaitSpec> spec = DecodeSpec(request);
+    if (!spec.ok()) {
+      const Violation& first = spec.violations().front();
+      return SendError(fd, v1::SolveError::KIND_INTERNAL,
+                       "this solver refuses the request: " + first.field + ": " + first.message);
+    }
+    on_request(spec.value());
+    return SolveAndSend(fd, spec.value(), solver, stop);
+  } catch (const std::bad_alloc&) {
+    return SendError(fd, v1::SolveError::KIND_MEMORY_LIMIT, kMemoryMessage);
+  } catch (const std::exception& exception) {
+    return SendError(fd, v1::SolveError::KIND_INTERNAL, std::string("the solver failed: ") + exception.what());
+  }
+}
+
+}  // namespace rollgait::server
