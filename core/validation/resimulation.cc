@@ -55,6 +55,12 @@ class PhaseMotion {
   VectorX tau_, efforts_, q_, v_;
 };
 
+double Largest(const VectorX& difference) {
+  double largest = 0;
+  for (double value : difference) RaiseTo(std::abs(value), &largest);
+  return largest;
+}
+
 void Compare(const VectorX& end, const Eigen::Ref<const VectorX>& expected, double time, Defect* defect) {
   for (int j = 0; j < expected.size(); ++j) {
     const double before = defect->value;
@@ -90,6 +96,8 @@ Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const 
         Compare(x.tail(n), v, time, &result.velocity);
       };
       compare(phase.node_positions.col(k + 1), phase.node_velocities.col(k + 1));
+      result.interval_positions.push_back(Largest(x.head(n) - phase.node_positions.col(k + 1)));
+      result.interval_velocities.push_back(Largest(x.tail(n) - phase.node_velocities.col(k + 1)));
       if (k + 1 < intervals) continue;
       if (p + 1 < trajectory.phases.size()) {
         const TrajectoryPhase& next = trajectory.phases[p + 1];

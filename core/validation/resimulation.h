@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_CORE_VALIDATION_RESIMULATION_H_
 #define ROLLGAIT_CORE_VALIDATION_RESIMULATION_H_
 
+#include <vector>
+
 #include "core/models/scene.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/trajectory/trajectory.h"
@@ -16,7 +18,10 @@ struct Defect {
 };
 
 struct Resimulation {
-  Defect position, velocity;
+  Defect position, velocity;  // largest of all
+  // Largest difference of each interval, in order of time, against its own next node alone. Shorter than the trajectory
+  // if an interval could not be integrated: nothing after it is judged.
+  std::vector<double> interval_positions, interval_velocities;
 };
 
 // Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held rolling
