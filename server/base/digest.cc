@@ -53,12 +53,6 @@ Outcome<std::string> Sha256HexOfFile(const std::string& path) {
   return sha.Hex();
 }
 
-Outcome<std::string> BuildOfExecutable(const std::string& path) {
-  Outcome<std::string> digest = Sha256HexOfFile(path);
-  if (!digest.ok()) return digest;
-  return std::string(ROLLGAIT_VERSION) + "+" + digest.value().substr(0, 12);
-}
-
 std::string RandomId() {
   std::array<uint8_t, 16> bytes;
   ROLLGAIT_CHECK(getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()));

@@ -37,7 +37,8 @@ Outcome<std::string> SolveService::CheckSpec(const v1::SolveSpec& spec, bool has
     AddPrefix("spec.", violations);
     return InvalidArgument(std::move(violations));
   }
-  return options_.reuse_results ? SolveKey(spec, model.value(), options_.solver_build) : std::string();
+  if (!options_.reuse_results) return std::string();
+  return SolveKey(spec, model.value(), options_.solver_build + " " + options_.solver_fingerprint);
 }
 
 Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& request) {

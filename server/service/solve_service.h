@@ -14,7 +14,8 @@ namespace rollgait::server {
 
 struct ServiceOptions {
   std::string version;
-  std::string solver_build;
+  std::string solver_build;        // as in results
+  std::string solver_fingerprint;  // differs whenever the solver's program does; part of every solve key
   int solver_slots = 1;
   int max_queued = 1000;
   bool reuse_results = true;  // false: every request is solved, equal ones too

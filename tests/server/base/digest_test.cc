@@ -25,8 +25,6 @@ TEST(DigestTest, FilesAreReadWhole) {
   const std::string path = directory.path() + "/file";
   std::ofstream(path) << std::string(1'000'000, 'a');
   EXPECT_EQ(Sha256HexOfFile(path).value(), kMillionA);
-  const std::string build = BuildOfExecutable(path).value();
-  EXPECT_EQ(build.substr(build.find('+')), "+cdc76e5c9914");
   EXPECT_EQ(Sha256HexOfFile(directory.path() + "/none").error().code, ErrorCode::kUnavailable);
   EXPECT_EQ(Sha256HexOfFile(directory.path()).error().code, ErrorCode::kUnavailable);
 }
@@ -34,9 +32,10 @@ TEST(DigestTest, FilesAreReadWhole) {
 TEST(DigestTest, RandomIdsDiffer) {
   std::set<std::string> ids;
   for (int i = 0; i < 100; ++i) {
-    ids.insert(RandomId());
-    EXPECT_EQ(ids.begin()->find_first_not_of("abcdefghijklmnopqrstuvwxyz234567"), std::string::npos);
-    EXPECT_EQ(ids.begin()->size(), 16u);
+    const std::string id = RandomId();
+    EXPECT_EQ(id.size(), 16u);
+    EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz234567"), std::string::npos) << id;
+    ids.insert(id);
   }
   EXPECT_EQ(ids.size(), 100u);
 }

@@ -1,0 +1,190 @@
+// rollgaitd: the gRPC front end. Serves requests from the store and keeps a rollgait-agent alive that works on them.
+#include <fcntl.h>
+#include <signal.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "server/base/clock.h"
+#include "server/base/data_dir.h"
+#include "server/base/digest.h"
+#include "server/base/file_lock.h"
+#include "server/base/notify.h"
+#include "server/base/supervisor.h"
+#include "server/rpc/rpc_server.h"
+#include "server/service/core_knowledge.h"
+#include "server/service/solve_service.h"
+#include "server/service/watch_hub.h"
+#include "server/solve/solver_build.h"
+#include "server/store/sqlite_store.h"
+
+namespace rollgait::server {
+namespace {
+
+constexpr std::chrono::milliseconds kCallGrace{5'000};
+constexpr std::chrono::milliseconds kAgentGrace{10'000};
+
+struct Flags {
+  std::string data_dir;
+  std::string listen = "127.0.0.1:50051";
+  bool insecure_listen = false;
+  int solver_slots = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string agent, solver;
+  int max_queued = 1000;
+  double heartbeat_interval_s = 10;
+  bool no_result_reuse = false;
+  std::string log_level = "info";
+};
+
+// A program that lies beside this one.
+std::string Sibling(const std::string& name) {
+  std::error_code error;
+  return (std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name).string();
+}
+
+void AddFlags(CLI::App& app, Flags& flags) {
+  app.add_option("--data-dir", flags.data_dir, "Directory of the store; made if need be")->required();
+  app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
+      ->capture_default_str();
+  app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
+  app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once; default: one a core")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
+  app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
+  app.add_option("--max-queued", flags.max_queued, "Solves that may wait; more are refused with RESOURCE_EXHAUSTED")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--heartbeat-interval", flags.heartbeat_interval_s, "Seconds between heartbeats of a silent stream")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  app.add_flag("--no-result-reuse", flags.no_result_reuse, "Solve every request, also one that was answered before");
+  app.add_option("--log-level", flags.log_level, "debug, info, warning or error")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->capture_default_str();
+  app.set_version_flag("--version", SolverBuild());
+}
+
+int Fail(const std::string& reason) {
+  spdlog::critical("{}", reason);
+  return 1;
+}
+
+// Signals that end the server are waited for, not handled: blocked here, before there are threads.
+sigset_t BlockEndSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  return signals;
+}
+
+// As many connections as the system allows.
+void RaiseDescriptorLimit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  if (setrlimit(RLIMIT_NOFILE, &limit) != 0) spdlog::warn("the limit of open files stays as it was");
+}
+
+Outcome<FileLock> TakeDataDir(const DataDir& data_dir) {
+  std::error_code error;
+  const bool is_new = !std::filesystem::exists(data_dir.path, error);
+  std::filesystem::create_directories(data_dir.AgentsDir(), error);
+  if (error) {
+    return Error{ErrorCode::kUnavailable, "cannot make " + data_dir.AgentsDir() + ": " + error.message()};
+  }
+  if (is_new) std::filesystem::permissions(data_dir.path, std::filesystem::perms::owner_all, error);
+  Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(data_dir.ServerLock());
+  if (!lock.ok()) return lock.error();
+  if (!lock.value().has_value()) {
+    return Error{ErrorCode::kUnavailable,
+                 "another rollgaitd serves --data-dir " + data_dir.path + "; stop it or use another directory"};
+  }
+  return *std::move(lock.value());
+}
+
+Supervisor::Options AgentCommand(const Flags& flags, const DataDir& data_dir) {
+  Supervisor::Options options;
+  options.name = "rollgait-agent";
+  options.arguments = {flags.agent, "--data-dir", data_dir.path, "--slots", std::to_string(flags.solver_slots),
+                       "--solver",  flags.solver};
+  return options;
+}
+
+int Serve(const Flags& flags, const sigset_t& end_signals) {
+  const DataDir data_dir{std::filesystem::absolute(flags.data_dir).lexically_normal().string()};
+  const Outcome<FileLock> lock = TakeDataDir(data_dir);
+  if (!lock.ok()) return Fail(lock.error().message);
+  const Outcome<std::string> fingerprint = Sha256HexOfFile(flags.solver);
+  if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
+  const SystemClock clock;
+  const auto store = SqliteStore::Open(data_dir.Database(), clock);
+  if (!store.ok()) return Fail(store.error().message);
+  auto hints = NotifyReceiver::Create(data_dir.path, kServerSocket);
+  if (!hints.ok()) return Fail(hints.error().message);
+  const auto to_agent = NotifySender::Create(data_dir.path, kAgentSocket);
+  if (!to_agent.ok()) return Fail(to_agent.error().message);
+
+  WatchHub hub(*store.value(), std::move(hints).value(),
+               std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)));
+  ServiceOptions options;
+  options.version = RollgaitVersion();
+  options.solver_build = SolverBuild();
+  options.solver_fingerprint = fingerprint.value();
+  options.solver_slots = flags.solver_slots;
+  options.max_queued = flags.max_queued;
+  options.reuse_results = !flags.no_result_reuse;
+  SolveService service(*store.value(), MakeCoreKnowledge(), options, [&](const std::string& id) {
+    to_agent.value().Send(id);
+    hub.Changed(id);
+  });
+  RpcOptions rpc_options;
+  rpc_options.listen = flags.listen;
+  const auto server = RpcServer::Start(rpc_options, service, hub);
+  if (!server.ok()) return Fail(server.error().message);
+  const auto agent = Supervisor::Start(AgentCommand(flags, data_dir));
+  if (!agent.ok()) return Fail(agent.error().message);
+  spdlog::info("serving {} on {}, {} solver slots", data_dir.path, server.value()->address(), flags.solver_slots);
+  std::printf("rollgaitd listening on %s\n", server.value()->address().c_str());
+  std::fflush(stdout);
+
+  int received = 0;
+  sigwait(&end_signals, &received);
+  spdlog::info("signal {}: stopping", received);
+  server.value()->Stop(kCallGrace);
+  agent.value()->Stop(kAgentGrace);
+  spdlog::info("stopped");
+  return 0;
+}
+
+int Main(int argc, char** argv) {
+  Flags flags;
+  CLI::App app("Optimal gaits over gRPC.", "rollgaitd");
+  AddFlags(app, flags);
+  CLI11_PARSE(app, argc, argv);
+  const sigset_t end_signals = BlockEndSignals();
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("rollgaitd"));
+  spdlog::set_level(spdlog::level::from_str(flags.log_level));
+  if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
+  if (flags.solver.empty()) flags.solver = Sibling("rollgait-solve");
+  if (!IsLoopback(flags.listen) && !flags.insecure_listen) {
+    return Fail("--listen " + flags.listen +
+                " is not a loopback address and this server speaks plain text: anyone on the " +
+                "network could read and use it. Listen on 127.0.0.1, or say --insecure-listen");
+  }
+  RaiseDescriptorLimit();
+  return Serve(flags, end_signals);
+}
+
+}  // namespace
+}  // namespace rollgait::server
+
+int main(int argc, char** argv) { return rollgait::server::Main(argc, argv); }
