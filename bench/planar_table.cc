@@ -1,5 +1,5 @@
 // Planar gait from the built-in guess: iterations, time, objective and accuracy for every slope, scheme and mesh.
-//   planar_table [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10] [--verbose]
+//   planar_table [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10] [--standard | --fine] [--verbose]
 
 #include <cstdio>
 #include <ctime>
@@ -56,9 +56,12 @@ int Main(int argc, char** argv) {
   std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
                            schemes = {"radau2", "radau3", "hermite-simpson"};
   bool verbose = false;
+  auto level = GaitRequest::AccuracyLevel::kDraft;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--verbose") verbose = true;
+    if (flag == "--standard") level = GaitRequest::AccuracyLevel::kStandard;
+    if (flag == "--fine") level = GaitRequest::AccuracyLevel::kFine;
     if (i + 1 >= argc) continue;
     if (flag == "--intervals") intervals = Split(argv[++i]);
     if (flag == "--slopes") slopes = Split(argv[++i]);
@@ -77,7 +80,7 @@ int Main(int argc, char** argv) {
         request.motion.speed = 1.3;
         request.discretization.scheme = SchemeOf(scheme);
         request.discretization.single_support_intervals = std::stoi(n);
-        request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+        request.accuracy.level = level;
         const Result<GaitSpec> spec = CheckRequest(request);
         if (!spec.ok()) {
           for (const Violation& v : spec.violations()) std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
@@ -97,6 +100,14 @@ int Main(int argc, char** argv) {
                     a.max_position_defect, a.max_velocity_defect, a.energy_balance_error_relative, a.min_normal_force,
                     a.max_friction_ratio);
         std::fflush(stdout);
+        if (s.meshes.size() > 1) {
+          for (const auto& mesh : s.meshes) {
+            int total = 0;
+            for (int count : mesh.intervals) total += count;
+            std::printf("    mesh of %d intervals: %d iterations, %.3f s, objective %.3f, gap %.2e m, slip %.2e m/s\n", total,
+                        mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
+          }
+        }
         for (const auto& u : s.unmet_constraints) {
           std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());
         }

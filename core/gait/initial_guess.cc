@@ -213,9 +213,11 @@ MotionGuess GuessFromTrajectory(const Trajectory& trajectory) {
   guess.displacement = trajectory.displacement;
   for (const TrajectoryPhase& phase : trajectory.phases) guess.durations.push_back(phase.duration);
   guess.motion = [trajectory](int phase, double fraction) {
-    const int count = static_cast<int>(trajectory.phases[phase].node_times.size()) - 1;
-    const int interval = std::min(static_cast<int>(fraction * count), count - 1);
-    return Sample(trajectory, phase, interval, fraction * count - interval);
+    const std::vector<double>& nodes = trajectory.phases[phase].node_times;
+    const double time = nodes.front() + fraction * (nodes.back() - nodes.front());
+    const auto after = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, time);
+    const int interval = static_cast<int>(after - nodes.begin()) - 1;
+    return Sample(trajectory, phase, interval, (time - nodes[interval]) / (nodes[interval + 1] - nodes[interval]));
   };
   return guess;
 }

@@ -6,6 +6,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/mesh_refinement.h"
 #include "core/nlp/ipopt_solver.h"
 #include "core/transcription/collocation_nlp.h"
 
@@ -55,16 +56,9 @@ std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, dou
   return unmet;
 }
 
-// The intervals of the next mesh: enough for the order of the scheme to bring the figures within their bounds, at most twice
-// as many.
-Mesh Refined(const Mesh& mesh, const GaitSpec& spec, const AccuracyReport& report) {
-  const double excess = std::max({report.max_gap / spec.max_gap, report.max_slip / spec.max_slip, 1.0});
-  const double order = spec.scheme == Scheme::kRadau2 ? 2 : 3;
-  const double factor = std::clamp(1.1 * std::pow(excess, 1 / order), 1.3, 2.0);
-  Mesh finer;
-  for (int intervals : mesh.intervals) finer.intervals.push_back(static_cast<int>(std::ceil(factor * intervals)));
-  return finer;
-}
+// Feet that slip between nodes at a fair part of the walking speed: the optimiser has found a motion that exists on this mesh
+// only.
+bool IsArtefact(const GaitSolution& solution) { return solution.accuracy->max_slip > 0.2 * solution.speed; }
 
 ValidationOptions JudgeOptions(const GaitSpec& spec) {
   ValidationOptions options;
@@ -78,8 +72,9 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   const auto begin = Clock::now();
   const auto problem = BuildProblem(spec);
   GaitSolution solution;
-  Mesh mesh;
-  for (const GaitSpec::Phase& phase : spec.phases) mesh.intervals.push_back(phase.intervals);
+  std::vector<int> intervals;
+  for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
+  Mesh mesh = Mesh::Uniform(intervals);
   MotionGuess guess = WalkingGuess(spec, *problem);
   IpoptOptions options;
   options.tolerance = spec.kkt_tolerance;
@@ -94,7 +89,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     iterations_left = std::max(1, iterations_left - result.iterations);
 
     MeshStatistics statistics;
-    statistics.intervals = mesh.intervals;
+    statistics.intervals = mesh.Intervals();
     statistics.unknowns = nlp.variables();
     statistics.constraints = nlp.constraints();
     statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
@@ -134,8 +129,13 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
       break;
     }
     if (!Converged(result.termination) || solution.within_requested_accuracy) break;
+    if (IsArtefact(solution)) {
+      // Start afresh: a finer mesh started from there would stay near it.
+      mesh = Halved(mesh);
+      continue;
+    }
     guess = GuessFromTrajectory(*solution.trajectory);
-    mesh = Refined(mesh, spec, *solution.accuracy);
+    mesh = RefineMesh(mesh, spec, *solution.trajectory);
     options.initial_barrier = 1e-3;
   }
   solution.wall_time = Since(begin);

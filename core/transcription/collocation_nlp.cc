@@ -110,7 +110,7 @@ void CollocationNlp::AddIntervalRows() {
     const int rows = blocks_[p]->rows();
     lower.resize(rows_ + rows);
     upper.resize(rows_ + rows);
-    blocks_[p]->Bounds(k - layout_.first_interval(p), layout_.intervals_in(p), lower.data() + rows_,
+    blocks_[p]->Bounds(layout_.start(k), layout_.length(k), layout_.ends_phase(k), lower.data() + rows_,
                        upper.data() + rows_);
     rows_ += rows;
   }
@@ -517,7 +517,8 @@ CollocationNlp::RowInfo CollocationNlp::Describe(const double* x, int row) const
     if (k > 0 && p != layout_.phase(k - 1)) phase_start += x[layout_.duration(p - 1)];
     if (row < first + blocks_[p]->rows()) {
       const auto info = blocks_[p]->Describe(row - first);
-      const double time = phase_start + Step(x, k) * (k - layout_.first_interval(p) + scheme_.tableau().c(info.point));
+      const double time =
+          phase_start + x[layout_.duration(p)] * layout_.start(k) + Step(x, k) * scheme_.tableau().c(info.point);
       return {info.name, info.unit, info.size, p, time};
     }
     first += blocks_[p]->rows();

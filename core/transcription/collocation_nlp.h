@@ -84,7 +84,7 @@ class CollocationNlp : public NlpProblem {
     double ratio;
   };
 
-  double StepRatio(int interval) const { return 1.0 / layout_.intervals_in(layout_.phase(interval)); }
+  double StepRatio(int interval) const { return layout_.length(interval); }
   double Step(const double* x, int interval) const {
     return x[layout_.duration(layout_.phase(interval))] * StepRatio(interval);
   }

@@ -14,10 +14,10 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
     x.segment(layout_.node(k) + n, n) = sample.velocity;
   };
   for (int k = 0; k < layout_.intervals(); ++k) {
-    const int p = layout_.phase(k), count = layout_.intervals_in(p), local = k - layout_.first_interval(p);
-    set_node(k, guess.motion(p, static_cast<double>(local) / count));
+    const int p = layout_.phase(k);
+    set_node(k, guess.motion(p, layout_.start(k)));
     for (int i = 0; i < scheme_.points(); ++i) {
-      const MotionSample sample = guess.motion(p, (local + scheme_.tableau().c(i)) / count);
+      const MotionSample sample = guess.motion(p, layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k));
       if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / 10;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
       int index = 0;
@@ -60,7 +60,7 @@ Trajectory CollocationNlp::Extract(const double* x) {
     phase.point_efforts.resize(efforts, count * s);
     phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
     for (int k = 0; k <= count; ++k) {
-      phase.node_times.push_back(start + phase.duration * k / count);
+      phase.node_times.push_back(start + phase.duration * (k < count ? layout_.start(first + k) : 1));
       phase.node_positions.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k), n);
       phase.node_velocities.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k) + n, n);
     }
@@ -68,7 +68,8 @@ Trajectory CollocationNlp::Extract(const double* x) {
       for (int i = 0; i < s; ++i) {
         const int column = k * s + i;
         const VectorX& z = blocks_[p]->PointState(x + layout_.node(first + k), Step(x, first + k), i);
-        phase.point_times.push_back(start + phase.duration * (k + scheme_.tableau().c(i)) / count);
+        phase.point_times.push_back(start + phase.duration * (layout_.start(first + k) +
+                                                              scheme_.tableau().c(i) * layout_.length(first + k)));
         phase.point_positions.col(column) = z.head(n);
         phase.point_velocities.col(column) = z.segment(n, n);
         phase.point_accelerations.col(column) = z.segment(2 * n, n);

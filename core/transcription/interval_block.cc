@@ -177,15 +177,15 @@ void IntervalBlock::BuildHessianPattern() {
   cost_variables_.assign(cost.begin(), cost.end());
 }
 
-void IntervalBlock::Bounds(int k, int count, double* lower, double* upper) const {
+void IntervalBlock::Bounds(double start, double length, bool last, double* lower, double* upper) const {
   for (int i = 0; i < points_count_; ++i) {
     const Point& point = points_[i];
-    const double fraction = (k + scheme_.tableau().c(i)) / count;
+    const double fraction = start + scheme_.tableau().c(i) * length;
     int row = point.first_row;
     for (PointConstraint* constraint : point.constraints) {
       constraint->Bounds(fraction, lower + row, upper + row);
       // A gap at the end of its phase is the business of the next phase: touch-down fixes it.
-      const bool end_of_phase = k == count - 1 && i == points_count_ - 1;
+      const bool end_of_phase = last && i == points_count_ - 1;
       for (int r = 0; r < constraint->rows(); ++r, ++row) {
         if (end_of_phase && constraint->Unit(r) == "m") lower[row] = -kInfinity;
         lower[row] /= constraint->Size(r);

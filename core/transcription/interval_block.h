@@ -35,8 +35,9 @@ class IntervalBlock {
   // Local variables (h excluded) on which the cost depends.
   const std::vector<int>& cost_variables() const { return cost_variables_; }
 
-  // Bounds of the (scaled) rows of interval k of count.
-  void Bounds(int k, int count, double* lower, double* upper) const;
+  // Bounds of the (scaled) rows of an interval that starts at a fraction of the phase and is as long as another; `last` if the
+  // phase ends with it.
+  void Bounds(double start, double length, bool last, double* lower, double* upper) const;
   // What row `row` is: name, unit, natural size and point.
   struct RowInfo {
     std::string name, unit;

@@ -8,10 +8,12 @@
 
 namespace rollgait {
 
-// Number of equal intervals in every phase.
+// The intervals of every phase as fractions of its duration: positive, with sum 1.
 struct Mesh {
-  std::vector<int> intervals;
-  int total() const;
+  std::vector<std::vector<double>> fractions;
+
+  static Mesh Uniform(const std::vector<int>& intervals);
+  std::vector<int> Intervals() const;
 };
 
 // The only place that knows where unknowns sit in the decision vector. Stage order:
@@ -26,6 +28,10 @@ class DecisionLayout {
   int phases() const { return static_cast<int>(first_interval_.size()) - 1; }
   int points() const { return points_; }
   int phase(int interval) const { return phase_of_[interval]; }
+  // Start and length of an interval as fractions of its phase.
+  double start(int interval) const { return start_[interval]; }
+  double length(int interval) const { return length_[interval]; }
+  bool ends_phase(int interval) const { return interval + 1 == first_interval_[phase_of_[interval] + 1]; }
   int first_interval(int phase) const { return first_interval_[phase]; }
   int intervals_in(int phase) const { return first_interval_[phase + 1] - first_interval_[phase]; }
 
@@ -43,6 +49,7 @@ class DecisionLayout {
  private:
   int n_, efforts_, points_;
   std::vector<int> phase_of_, first_interval_, per_point_, node_;
+  std::vector<double> start_, length_;
   int durations_, displacement_;
 };
 

@@ -40,7 +40,9 @@ class CollocationNlpTest : public ::testing::TestWithParam<Case> {
     spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
     problem_ = BuildProblem(*spec_);
     Mesh mesh;
-    for (size_t p = 0; p < problem_->phases.size(); ++p) mesh.intervals.push_back(p % 2 == 0 ? 1 : 2);
+    for (size_t p = 0; p < problem_->phases.size(); ++p) {
+      mesh.fractions.push_back(p % 2 == 0 ? std::vector<double>{1} : std::vector<double>{0.3, 0.7});
+    }
     nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam().scheme, mesh);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
     std::mt19937 random(5);
