@@ -1,0 +1,180 @@
+#include "server/convert/gait_request_convert.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace rollgait::server {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+v1::SolveSpec Parse(const std::string& text) {
+  v1::SolveSpec spec;
+  ROLLGAIT_CHECK(google::protobuf::TextFormat::ParseFromString(text, &spec));
+  return spec;
+}
+
+std::vector<std::string> Fields(const Violations& violations) {
+  std::vector<std::string> fields;
+  for (const Violation& violation : violations) fields.push_back(violation.field);
+  return fields;
+}
+
+TEST(DecodeRequest, UnsetFieldsStayUnset) {
+  const GaitRequest request = DecodeRequest(Parse("model { name: 'planar' }")).value();
+  EXPECT_EQ(request.body.model, "planar");
+  EXPECT_EQ(request.body.sex, Sex::kMale);
+  EXPECT_FALSE(request.body.stature);
+  EXPECT_FALSE(request.body.mass);
+  EXPECT_FALSE(request.motion.speed);
+  EXPECT_FALSE(request.motion.step_length);
+  EXPECT_FALSE(request.motion.step_duration);
+  EXPECT_FALSE(request.motion.free_speed);
+  EXPECT_FALSE(request.phases);
+  EXPECT_TRUE(request.costs.empty());
+  EXPECT_EQ(request.cycle, Cycle::kHalf);
+  EXPECT_EQ(request.normalization, GaitRequest::Normalization::kPerDistance);
+  EXPECT_FALSE(request.ground_contact.friction_coefficient);
+  EXPECT_FALSE(request.ground_contact.touch_down_point);
+  EXPECT_EQ(request.discretization.scheme, Scheme::kRadau2);
+  EXPECT_FALSE(request.discretization.single_support_intervals);
+  EXPECT_EQ(request.accuracy.level, GaitRequest::AccuracyLevel::kStandard);
+  EXPECT_FALSE(request.accuracy.max_refinements);
+  EXPECT_FALSE(request.solver_limits.max_iterations);
+  EXPECT_FALSE(request.gravity);
+}
+
+// Every number differs, so that no two fields can be mixed up.
+TEST(DecodeRequest, EveryFieldArrives) {
+  const GaitRequest request = DecodeRequest(Parse(R"(
+      model { name: 'planar' sex: SEX_FEMALE stature_m: 1.71 body_mass_kg: 61 }
+      slope_rad: 0.11
+      motion { speed_m_s: 1.2 step_length_m: 0.62 step_duration_s: 0.53 free_speed: true }
+      cycle: CYCLE_FULL
+      phases { phases { contacts: 'a' contacts: 'b' intervals: 7 min_duration_s: 0.04 max_duration_s: 0.9 }
+               phases { contacts: 'c' } }
+      cost_normalization: COST_NORMALIZATION_PER_TIME
+      ground_contact { friction_coefficient: 0.71 min_normal_force_bw: 0.05 swing_clearance_m: 0.02
+                       touch_down_point { min: -0.9 max: -0.8 } lift_off_point { min: 0.7 max: 0.75 } }
+      limits { joint_position { key: 'k' value { min: -1 max: 2 } } joint_velocity { key: 'v' value: 3 }
+               joint_effort { key: 'e' value { min: -4 max: 5 } } }
+      discretization { scheme: SCHEME_HERMITE_SIMPSON single_support_intervals: 21 double_support_intervals: 11 }
+      accuracy { level: LEVEL_FINE kkt_tolerance: 1e-7 max_gap_m: 2e-4 max_slip_m_s: 3e-3 max_refinements: 2 }
+      solver_limits { max_iterations: 321 max_wall_time_s: 44 }
+      gravity_m_s2: 1.62)"))
+                                  .value();
+  EXPECT_EQ(request.body.sex, Sex::kFemale);
+  EXPECT_EQ(request.body.stature, 1.71);
+  EXPECT_EQ(request.body.mass, 61);
+  EXPECT_EQ(request.slope, 0.11);
+  EXPECT_EQ(request.motion.speed, 1.2);
+  EXPECT_EQ(request.motion.step_length, 0.62);
+  EXPECT_EQ(request.motion.step_duration, 0.53);
+  EXPECT_TRUE(request.motion.free_speed);
+  EXPECT_EQ(request.cycle, Cycle::kFull);
+  ASSERT_EQ(request.phases->size(), 2u);
+  EXPECT_THAT(request.phases->at(0).contacts, ElementsAre("a", "b"));
+  EXPECT_EQ(request.phases->at(0).intervals, 7);
+  EXPECT_EQ(request.phases->at(0).min_duration, 0.04);
+  EXPECT_EQ(request.phases->at(0).max_duration, 0.9);
+  EXPECT_FALSE(request.phases->at(1).intervals);
+  EXPECT_EQ(request.normalization, GaitRequest::Normalization::kPerTime);
+  EXPECT_EQ(request.ground_contact.friction_coefficient, 0.71);
+  EXPECT_EQ(request.ground_contact.min_normal_force_bw, 0.05);
+  EXPECT_EQ(request.ground_contact.swing_clearance, 0.02);
+  EXPECT_EQ(request.ground_contact.touch_down_point->min, -0.9);
+  EXPECT_EQ(request.ground_contact.touch_down_point->max, -0.8);
+  EXPECT_EQ(request.ground_contact.lift_off_point->min, 0.7);
+  EXPECT_EQ(request.limits.joint_position.at("k").max, 2);
+  EXPECT_EQ(request.limits.joint_velocity.at("v"), 3);
+  EXPECT_EQ(request.limits.joint_effort.at("e").min, -4);
+  EXPECT_EQ(request.discretization.scheme, Scheme::kHermiteSimpson);
+  EXPECT_EQ(request.discretization.single_support_intervals, 21);
+  EXPECT_EQ(request.discretization.double_support_intervals, 11);
+  EXPECT_EQ(request.accuracy.level, GaitRequest::AccuracyLevel::kFine);
+  EXPECT_EQ(request.accuracy.kkt_tolerance, 1e-7);
+  EXPECT_EQ(request.accuracy.max_gap, 2e-4);
+  EXPECT_EQ(request.accuracy.max_slip, 3e-3);
+  EXPECT_EQ(request.accuracy.max_refinements, 2);
+  EXPECT_EQ(request.solver_limits.max_iterations, 321);
+  EXPECT_EQ(request.solver_limits.max_wall_time, 44);
+  EXPECT_EQ(request.gravity, 1.62);
+}
+
+TEST(DecodeRequest, EveryCostTermArrives) {
+  const GaitRequest request = DecodeRequest(Parse(R"(
+      costs { squared_torque { joint_weights { key: 'a' value: 2 } } weight: 3 }
+      costs { squared_torque_rate { joint_weights { key: 'b' value: 4 } } }
+      costs { mechanical_work { smoothing_w: 5 } }
+      costs { time {} }
+      costs { tracking { channels { joint: 'c' positions: [6, 7] weight: 8 } } })"))
+                                  .value();
+  ASSERT_EQ(request.costs.size(), 5u);
+  EXPECT_EQ(request.costs[0].weight, 3);
+  EXPECT_FALSE(request.costs[1].weight);
+  EXPECT_THAT(std::get<GaitRequest::SquaredTorque>(request.costs[0].term).joint_weights, ElementsAre(Pair("a", 2)));
+  EXPECT_THAT(std::get<GaitRequest::SquaredTorqueRate>(request.costs[1].term).joint_weights, ElementsAre(Pair("b", 4)));
+  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(request.costs[2].term).smoothing, 5);
+  EXPECT_TRUE(std::holds_alternative<GaitRequest::Time>(request.costs[3].term));
+  const auto& channel = std::get<GaitRequest::Tracking>(request.costs[4].term).channels.at(0);
+  EXPECT_EQ(channel.joint, "c");
+  EXPECT_THAT(channel.positions, ElementsAre(6, 7));
+  EXPECT_EQ(channel.weight, 8);
+}
+
+TEST(DecodeRequest, PhasesThatAreSetAndEmptyAreNotTheDefault) {
+  const GaitRequest request = DecodeRequest(Parse("phases {}")).value();
+  ASSERT_TRUE(request.phases);
+  EXPECT_TRUE(request.phases->empty());
+}
+
+TEST(DecodeRequest, RefusesEnumValuesWithoutAName) {
+  v1::SolveSpec spec;
+  spec.mutable_model()->set_sex(static_cast<v1::ModelSelection::Sex>(9));
+  spec.set_cycle(static_cast<v1::Cycle>(-1));
+  spec.set_cost_normalization(static_cast<v1::CostNormalization>(77));
+  spec.mutable_discretization()->set_scheme(static_cast<v1::Discretization::Scheme>(4));
+  spec.mutable_accuracy()->set_level(static_cast<v1::Accuracy::Level>(4));
+  const Result<GaitRequest> request = DecodeRequest(spec);
+  ASSERT_FALSE(request.ok());
+  EXPECT_THAT(Fields(request.violations()),
+              ElementsAre("model.sex", "cycle", "cost_normalization", "discretization.scheme", "accuracy.level"));
+  EXPECT_THAT(request.violations()[2].message, HasSubstr("77"));
+}
+
+TEST(DecodeRequest, RefusesACostWithoutATerm) {
+  const Result<GaitRequest> request = DecodeRequest(Parse("costs { time {} } costs { weight: 2 }"));
+  ASSERT_FALSE(request.ok());
+  EXPECT_THAT(Fields(request.violations()), ElementsAre("costs[1]"));
+}
+
+TEST(DecodeSpec, JoinsTheViolationsOfBothSteps) {
+  v1::SolveSpec spec = Parse("model { name: 'horse' } slope_rad: 1");
+  spec.set_cycle(static_cast<v1::Cycle>(5));
+  const Result<GaitSpec> checked = DecodeSpec(spec);
+  ASSERT_FALSE(checked.ok());
+  EXPECT_THAT(Fields(checked.violations()), ElementsAre("cycle", "model.name", "slope_rad"));
+}
+
+TEST(DecodeSpec, AcceptsTheSmallestRequest) {
+  const Result<GaitSpec> checked = DecodeSpec(Parse("model { name: 'planar' }"));
+  ASSERT_TRUE(checked.ok());
+  EXPECT_EQ(checked.value().phases.size(), 2u);
+}
+
+TEST(DecodeBody, NamesFieldsRelativeToTheSelection) {
+  v1::ModelSelection selection;
+  selection.set_sex(static_cast<v1::ModelSelection::Sex>(3));
+  const Result<BodyRequest> body = DecodeBody(selection);
+  ASSERT_FALSE(body.ok());
+  EXPECT_THAT(Fields(body.violations()), ElementsAre("sex"));
+}
+
+}  // namespace
+}  // namespace rollgait::server

@@ -1,0 +1,138 @@
+#include "server/convert/model_convert.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+namespace rollgait::server {
+namespace {
+
+Vector3 Decode(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+Matrix3 Decode(const v1::Quaternion& q) { return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).toRotationMatrix(); }
+
+// A joint read back from the message alone.
+Joint Decode(const v1::Joint& encoded) {
+  Joint joint;
+  joint.name = encoded.name();
+  joint.type = encoded.type() == v1::Joint::TYPE_PRISMATIC ? JointType::kPrismatic : JointType::kRevolute;
+  joint.parent = encoded.parent();
+  joint.p_PJ = Decode(encoded.origin_m());
+  joint.R_PJ = Decode(encoded.orientation());
+  joint.axis = Decode(encoded.axis());
+  joint.position_min = encoded.position_min();
+  joint.position_max = encoded.position_max();
+  joint.velocity_max = encoded.velocity_max();
+  joint.actuated = encoded.actuated();
+  joint.effort_min = encoded.effort_min();
+  joint.effort_max = encoded.effort_max();
+  joint.link = encoded.link_name();
+  joint.mass = encoded.mass_kg();
+  joint.center_of_mass = Decode(encoded.center_of_mass_m());
+  const auto& i = encoded.inertia_kg_m2();
+  joint.inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  joint.mirror_joint = encoded.mirror_joint();
+  joint.mirror_sign = encoded.mirror_sign();
+  return joint;
+}
+
+void ExpectSameJoint(const Joint& a, const Joint& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.type, b.type);
+  EXPECT_EQ(a.parent, b.parent);
+  EXPECT_EQ(a.p_PJ, b.p_PJ);
+  EXPECT_LT((a.R_PJ - b.R_PJ).norm(), 1e-14) << "rotation -> quaternion -> rotation, rounding";
+  EXPECT_EQ(a.axis, b.axis);
+  EXPECT_EQ(a.position_min, b.position_min);
+  EXPECT_EQ(a.position_max, b.position_max);
+  EXPECT_EQ(a.velocity_max, b.velocity_max);
+  EXPECT_EQ(a.actuated, b.actuated);
+  EXPECT_EQ(a.effort_min, b.effort_min);
+  EXPECT_EQ(a.effort_max, b.effort_max);
+  EXPECT_EQ(a.link, b.link);
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.center_of_mass, b.center_of_mass);
+  EXPECT_EQ(a.inertia, b.inertia);
+  EXPECT_EQ(a.mirror_sign, b.mirror_sign);
+}
+
+Scene Planar() {
+  BodyRequest body;
+  body.model = "planar";
+  body.stature = 1.9;
+  return BuildScene(body).value();
+}
+
+TEST(EncodeModel, TheTreeCanBeRebuiltFromTheMessage) {
+  const Scene scene = Planar();
+  v1::Model encoded;
+  ASSERT_TRUE(encoded.ParseFromString(EncodeModel(scene, 9.81).SerializeAsString()));
+  std::vector<Joint> joints;
+  for (const v1::Joint& joint : encoded.joints()) joints.push_back(Decode(joint));
+  const Result<Model> model = Model::Create(std::move(joints));
+  ASSERT_TRUE(model.ok()) << model.violations()[0].field << model.violations()[0].message;
+  ASSERT_EQ(model.value().size(), scene.model.size());
+  for (int i = 0; i < scene.model.size(); ++i) {
+    SCOPED_TRACE(i);
+    ExpectSameJoint(model.value().joint(i), scene.model.joint(i));
+    const int mirror = scene.model.joint(i).mirror_joint;
+    EXPECT_EQ(encoded.joints(i).mirror_joint(), mirror < 0 ? i : mirror);
+  }
+  EXPECT_EQ(model.value().total_mass(), encoded.total_mass_kg());
+}
+
+// The catalogue has no turned joint frame yet.
+TEST(EncodeModel, KeepsTurnedFramesAndEveryEntryOfTheInertia) {
+  Joint joint;
+  joint.name = "only";
+  joint.link = "link";
+  joint.mass = 2;
+  joint.R_PJ = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  joint.inertia << 5, 0.1, 0.2, 0.1, 6, 0.3, 0.2, 0.3, 7;
+  joint.mirror_sign = -1;
+  Scene scene = Planar();
+  Result<Model> model = Model::Create({joint});
+  ASSERT_TRUE(model.ok()) << model.violations()[0].message;
+  scene.model = std::move(model).value();
+  scene.contacts.clear();
+  ExpectSameJoint(Decode(EncodeModel(scene, 9.81).joints(0)), joint);
+}
+
+TEST(EncodeModel, ContactsNameTheirSurfaceAndMirror) {
+  const Scene scene = Planar();
+  const v1::Model encoded = EncodeModel(scene, 3.7);
+  ASSERT_EQ(encoded.contacts_size(), 2);
+  for (int i = 0; i < 2; ++i) {
+    const ContactSurface& contact = scene.contacts[i];
+    EXPECT_EQ(encoded.contacts(i).name(), contact.name);
+    EXPECT_EQ(encoded.contacts(i).joint(), contact.joint);
+    EXPECT_EQ(Decode(encoded.contacts(i).surface().ellipsoid().semi_axes_m()), contact.surface.semi_axes());
+    EXPECT_EQ(Decode(encoded.contacts(i).center_m()), contact.p_LE);
+    EXPECT_LT((Decode(encoded.contacts(i).orientation()) - contact.R_LE).norm(), 1e-14);
+    EXPECT_EQ(encoded.contacts(i).mirror_contact(), scene.contacts[1 - i].name);
+    ASSERT_EQ(encoded.contacts(i).directions_size(), 2);
+    EXPECT_EQ(Decode(encoded.contacts(i).directions(0)), Vector3::UnitX());
+    EXPECT_EQ(Decode(encoded.contacts(i).directions(1)), Vector3::UnitZ());
+  }
+  EXPECT_EQ(encoded.gravity_m_s2(), 3.7);
+  EXPECT_EQ(encoded.stature_m(), 1.9);
+  EXPECT_EQ(encoded.selection().stature_m(), 1.9);
+  EXPECT_EQ(encoded.selection().sex(), v1::ModelSelection::SEX_MALE);
+  EXPECT_EQ(encoded.leg_length_m(), scene.leg_length);
+  EXPECT_EQ(encoded.sources_size(), static_cast<int>(scene.sources.size()));
+}
+
+TEST(EncodeSummary, IsTheSameForTheCatalogueAndTheModel) {
+  for (const CatalogEntry& entry : ListCatalog()) {
+    BodyRequest body;
+    body.model = entry.name;
+    EXPECT_EQ(EncodeSummary(entry).SerializeAsString(),
+              EncodeModel(BuildScene(body).value(), 9.81).summary().SerializeAsString());
+    EXPECT_GT(EncodeSummary(entry).degrees_of_freedom(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace rollgait::server
