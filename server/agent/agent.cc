@@ -1,0 +1,260 @@
+#include "server/agent/agent.h"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <random>
+#include <utility>
+
+namespace rollgait::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kReclaim{5000};     // between looks for solves of dead agents
+constexpr milliseconds kSpawnRetry{1000};  // after a solver that did not start or died without work
+constexpr milliseconds kLook{kNotifyPollMillis};
+
+// "agent-<pid>-<random>": unique among all agents that ever used the directory.
+std::string NewOwner() {
+  std::random_device random;
+  char text[64];
+  std::snprintf(text, sizeof text, "agent-%d-%08x%08x", static_cast<int>(getpid()), random(), random());
+  return text;
+}
+
+// True once the other end is closed; nobody ever writes.
+bool AtEnd(int fd) {
+  if (fd < 0) return false;
+  pollfd entry{fd, POLLIN, 0};
+  if (poll(&entry, 1, 0) <= 0) return false;
+  char byte;
+  const ssize_t count = read(fd, &byte, 1);
+  return count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
+}
+
+bool Readable(int fd) {
+  pollfd entry{fd, POLLIN, 0};
+  return fd >= 0 && poll(&entry, 1, 0) > 0;
+}
+
+}  // namespace
+
+Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, SolveStore& store, const Clock& clock) {
+  const DataDir directory{options.data_dir};
+  if (mkdir(directory.AgentsDir().c_str(), 0700) != 0 && errno != EEXIST) {
+    return Error{ErrorCode::kUnavailable, "cannot make " + directory.AgentsDir() + ": " + std::strerror(errno)};
+  }
+  std::string owner = NewOwner();
+  Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
+  if (!lock.ok()) return lock.error();
+  if (!lock.value()) return Error{ErrorCode::kInternal, directory.AgentLock(owner) + " is locked by another process"};
+  Outcome<Spool> spool = Spool::Open(options.data_dir + "/spool");
+  if (!spool.ok()) return spool.error();
+  Outcome<NotifyReceiver> receiver = NotifyReceiver::Create(options.data_dir, kAgentSocket);
+  if (!receiver.ok()) return receiver.error();
+  Outcome<NotifySender> sender = NotifySender::Create(options.data_dir, kServerSocket);
+  if (!sender.ok()) return sender.error();
+  return std::unique_ptr<Agent>(new Agent(options, store, clock, std::move(owner), std::move(*lock.value()),
+                                          std::move(spool).value(), std::move(receiver).value(),
+                                          std::move(sender).value()));
+}
+
+Agent::Agent(const Options& options, SolveStore& store, const Clock& clock, std::string owner, FileLock lock,
+             Spool spool, NotifyReceiver receiver, NotifySender sender)
+    : options_(options),
+      store_(store),
+      owner_(std::move(owner)),
+      lock_(std::move(lock)),
+      spool_(std::move(spool)),
+      receiver_(std::move(receiver)),
+      sender_(std::move(sender)),
+      context_{.store = store,
+               .spool = spool_,
+               .clock = clock,
+               .poke = [this](const std::string& id) { sender_.Send(id); },
+               .kill_after = options.kill_after,
+               .wall_grace = options.wall_grace,
+               .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s)} {}
+
+Agent::~Agent() {
+  GiveUpAll();
+  lock_.ReleaseAndRemove();
+}
+
+void Agent::Run() {
+  while (Step(std::chrono::hours(1))) {
+  }
+}
+
+bool Agent::Step(milliseconds at_most) {
+  Wait(at_most);
+  const SteadyTime now = std::chrono::steady_clock::now();
+  if (Readable(options_.stop_fd)) stopping_ = true;
+  if (!draining_ && AtEnd(options_.lifeline_fd)) {
+    spdlog::warn("rollgaitd has gone; finishing {} solves", runs_.size());
+    draining_ = true;
+    idle_.clear();
+  }
+  if (stopping_) {
+    GiveUpAll();
+    return false;
+  }
+  if (!receiver_.Drain().empty()) poked_ = true;
+  const size_t before = runs_.size();
+  ServiceRuns(now);
+  if (draining_ && runs_.empty()) return false;
+  if (!draining_ && now >= reclaim_at_) LookAfterOthers(now);
+  if (poked_ || now >= look_at_ || runs_.size() < before) {
+    poked_ = false;
+    look_at_ = now + kLook;
+    LookForCancels();
+    if (!draining_) ClaimWork(now);
+  }
+  if (!draining_) KeepIdleProcesses(now);
+  return true;
+}
+
+void Agent::Wait(milliseconds at_most) {
+  std::vector<pollfd> entries = {{receiver_.fd(), POLLIN, 0}, {options_.stop_fd, POLLIN, 0}};
+  entries.push_back({draining_ ? -1 : options_.lifeline_fd, POLLIN, 0});
+  for (const auto& run : runs_) {
+    const SolverProcess& process = run->process();
+    const short writing = process.wants_to_write() ? POLLOUT : 0;
+    // A stream that has ended stays readable: then NextDue sets the pace.
+    entries.push_back({run->stream_ended() ? -1 : process.stream_fd(), static_cast<short>(POLLIN | writing), 0});
+    entries.push_back({process.output_fd(), POLLIN, 0});
+  }
+  for (const SolverProcess& process : idle_) entries.push_back({process.stream_fd(), POLLIN, 0});
+  const SteadyTime now = std::chrono::steady_clock::now();
+  milliseconds timeout = std::chrono::ceil<milliseconds>(NextDue(now) - now);
+  timeout = std::clamp(timeout, milliseconds(0), at_most);
+  poll(entries.data(), entries.size(), static_cast<int>(timeout.count()));
+}
+
+SteadyTime Agent::NextDue(SteadyTime now) const {
+  SteadyTime due = poked_ ? now : look_at_;
+  if (!draining_) {
+    due = std::min(due, reclaim_at_);
+    const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
+    if (idle_.size() < wanted) due = std::min(due, spawn_at_);
+  }
+  for (const auto& run : runs_) due = std::min(due, run->NextDue());
+  return due;
+}
+
+void Agent::ServiceRuns(SteadyTime now) {
+  for (const auto& run : runs_) run->Service(now);
+  std::erase_if(runs_, [](const auto& run) { return run->over(); });
+}
+
+void Agent::LookForCancels() {
+  if (runs_.empty()) return;
+  const Outcome<std::vector<std::string>> ids = store_.CancelRequests(owner_);
+  if (!ids.ok()) {
+    spdlog::warn("cannot look for cancellations: {}", ids.error().message);
+    return;
+  }
+  const SteadyTime now = std::chrono::steady_clock::now();
+  for (const auto& run : runs_) {
+    if (std::find(ids.value().begin(), ids.value().end(), run->id()) != ids.value().end()) run->Cancel(now);
+  }
+}
+
+void Agent::LookAfterOthers(SteadyTime now) {
+  reclaim_at_ = now + kReclaim;
+  ReclaimDeadOwners();
+  const Outcome<std::vector<std::string>> expired = store_.ReclaimExpired();
+  if (!expired.ok()) {
+    spdlog::warn("cannot look for expired leases: {}", expired.error().message);
+    return;
+  }
+  for (const std::string& id : expired.value()) context_.poke(id);
+  if (!expired.value().empty()) poked_ = true;
+}
+
+void Agent::ReclaimDeadOwners() {
+  const Outcome<std::vector<std::string>> owners = store_.LeaseOwners();
+  if (!owners.ok()) {
+    spdlog::warn("cannot look for dead agents: {}", owners.error().message);
+    return;
+  }
+  const DataDir directory{options_.data_dir};
+  for (const std::string& owner : owners.value()) {
+    if (owner == owner_) continue;
+    Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
+    if (!lock.ok() || !lock.value()) continue;  // it lives
+    for (const std::string& id : ReplaySpool(spool_, store_)) context_.poke(id);
+    const Outcome<std::vector<std::string>> ids = store_.ReclaimOwner(owner);
+    if (!ids.ok()) {
+      spdlog::warn("cannot take over from {}: {}", owner, ids.error().message);
+      continue;
+    }
+    spdlog::info("{} is dead; {} of its solves are queued again", owner, ids.value().size());
+    for (const std::string& id : ids.value()) context_.poke(id);
+    poked_ = true;
+    lock.value()->ReleaseAndRemove();
+  }
+}
+
+void Agent::KeepIdleProcesses(SteadyTime now) {
+  const size_t before = idle_.size();
+  std::erase_if(idle_, [](SolverProcess& process) {
+    process.ReadOutput();
+    if (!process.Reap()) return false;
+    spdlog::error("a solver died before it had work: {}", process.LastOutput());
+    return true;
+  });
+  if (idle_.size() < before) spawn_at_ = std::max(spawn_at_, now + kSpawnRetry);
+  const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
+  while (idle_.size() < wanted && now >= spawn_at_) {
+    Outcome<SolverProcess> process = SolverProcess::Spawn(options_.solver);
+    if (!process.ok()) {
+      spdlog::error("{}", process.error().message);
+      spawn_at_ = now + kSpawnRetry;
+      return;
+    }
+    idle_.push_back(std::move(process).value());
+    poked_ = true;
+  }
+}
+
+void Agent::ClaimWork(SteadyTime now) {
+  while (!idle_.empty()) {
+    const Outcome<SolveCounts> counts = store_.Counts();
+    if (!counts.ok()) {
+      spdlog::warn("cannot look for work: {}", counts.error().message);
+      return;
+    }
+    if (counts.value().queued == 0 || counts.value().running >= options_.slots) return;
+    Outcome<std::optional<ClaimedSolve>> claimed = store_.ClaimNext(owner_, kLeaseDuration);
+    if (!claimed.ok()) {
+      spdlog::warn("cannot claim work: {}", claimed.error().message);
+      return;
+    }
+    if (!claimed.value()) return;
+    SolverProcess process = std::move(idle_.front());
+    idle_.pop_front();
+    runs_.push_back(std::make_unique<SolveRun>(context_, std::move(*claimed.value()), std::move(process), now));
+    context_.poke(runs_.back()->id());
+  }
+}
+
+void Agent::GiveUpAll() {
+  for (const auto& run : runs_) run->GiveUp();
+  runs_.clear();
+  idle_.clear();
+}
+
+std::vector<pid_t> Agent::IdleProcesses() const {
+  std::vector<pid_t> pids;
+  for (const SolverProcess& process : idle_) pids.push_back(process.pid());
+  return pids;
+}
+
+}  // namespace rollgait::server

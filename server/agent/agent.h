@@ -1,0 +1,81 @@
+#ifndef ROLLGAIT_SERVER_AGENT_AGENT_H_
+#define ROLLGAIT_SERVER_AGENT_AGENT_H_
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/agent/solve_run.h"
+#include "server/agent/solver_process.h"
+#include "server/agent/spool.h"
+#include "server/base/clock.h"
+#include "server/base/data_dir.h"
+#include "server/base/file_lock.h"
+#include "server/base/notify.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+// Works on the solves of a store: claims them under a lease, runs each in a process of its own, relays events, kills.
+// One loop in one thread. See data_dir.h for how it lives and dies beside rollgaitd and other agents.
+class Agent {
+ public:
+  struct Options {
+    std::string data_dir;
+    int slots = 1;  // solves at once, of all agents of this directory together
+    SolverProcess::Options solver;
+    int stop_fd = -1;                            // readable: stop, give the solves back
+    int lifeline_fd = -1;                        // at its end: claim nothing more, finish what runs
+    std::chrono::milliseconds kill_after{2000};  // see SolveRun::Context
+    std::chrono::milliseconds wall_grace{60'000};
+  };
+
+  // Takes its place in the data directory (lock, socket, spool). The store and the clock outlive it. kUnavailable with
+  // the reason.
+  static Outcome<std::unique_ptr<Agent>> Create(const Options& options, SolveStore& store, const Clock& clock);
+  ~Agent();
+
+  // Works until it is told to stop or has nothing left to finish.
+  void Run();
+  // One turn of the loop, waiting at most so long. False: it is time to go.
+  bool Step(std::chrono::milliseconds at_most);
+
+  const std::string& owner() const { return owner_; }
+  int running() const { return static_cast<int>(runs_.size()); }
+  // Process ids of the solvers that wait for work.
+  std::vector<pid_t> IdleProcesses() const;
+
+ private:
+  Agent(const Options& options, SolveStore& store, const Clock& clock, std::string owner, FileLock lock, Spool spool,
+        NotifyReceiver receiver, NotifySender sender);
+
+  void Wait(std::chrono::milliseconds at_most);
+  void ServiceRuns(SteadyTime now);
+  void LookAfterOthers(SteadyTime now);
+  void ReclaimDeadOwners();
+  void LookForCancels();
+  void KeepIdleProcesses(SteadyTime now);
+  void ClaimWork(SteadyTime now);
+  void GiveUpAll();
+  SteadyTime NextDue(SteadyTime now) const;
+
+  const Options options_;
+  SolveStore& store_;
+  const std::string owner_;
+  FileLock lock_;
+  const Spool spool_;
+  NotifyReceiver receiver_;
+  const NotifySender sender_;
+  const SolveRun::Context context_;
+  std::vector<std::unique_ptr<SolveRun>> runs_;
+  std::deque<SolverProcess> idle_;
+  bool stopping_ = false, draining_ = false;
+  bool poked_ = true;  // look into the store at once
+  SteadyTime look_at_, reclaim_at_, spawn_at_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_AGENT_AGENT_H_

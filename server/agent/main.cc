@@ -1,0 +1,99 @@
+// rollgait-agent: works on the solves of a data directory, each in a rollgait-solve of its own.
+#include <fcntl.h>
+#include <signal.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "server/agent/agent.h"
+#include "server/solve/solver_build.h"
+#include "server/store/sqlite_store.h"
+
+namespace rollgait::server {
+namespace {
+
+// Written to by the handler of SIGTERM and SIGINT.
+int stop_pipe_write = -1;
+
+void HandleStop(int) {
+  const int before = errno;
+  const char byte = 1;
+  // A full pipe has been written to before.
+  [[maybe_unused]] const ssize_t count = write(stop_pipe_write, &byte, 1);
+  errno = before;
+}
+
+// The read end of a pipe that gets a byte when the process is told to stop; -1 if that fails.
+int CatchStopSignals() {
+  std::array<int, 2> ends;
+  if (pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) return -1;
+  stop_pipe_write = ends[1];
+  struct sigaction action {};
+  action.sa_handler = HandleStop;
+  if (sigaction(SIGTERM, &action, nullptr) != 0 || sigaction(SIGINT, &action, nullptr) != 0) return -1;
+  signal(SIGPIPE, SIG_IGN);
+  return ends[0];
+}
+
+// Standard input if it is a pipe, whose end means that rollgaitd has died; else -1.
+int Lifeline() {
+  struct stat info {};
+  const bool is_pipe = fstat(STDIN_FILENO, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
+  return is_pipe ? STDIN_FILENO : -1;
+}
+
+std::string BesideThisProgram(const char* name) {
+  std::error_code failure;
+  return (std::filesystem::read_symlink("/proc/self/exe", failure).parent_path() / name).string();
+}
+
+int Fail(const std::string& reason) {
+  spdlog::error("{}", reason);
+  return 1;
+}
+
+int Main(int argc, char** argv) {
+  Agent::Options options;
+  CLI::App app("Works on the solves of a data directory, each in a process of its own.", "rollgait-agent");
+  app.set_version_flag("--version", SolverBuild());
+  app.add_option("--data-dir", options.data_dir, "Directory of rollgaitd")->required()->check(CLI::ExistingDirectory);
+  options.solver.program = BesideThisProgram("rollgait-solve");
+  app.add_option("--solver", options.solver.program, "Path of rollgait-solve; default: beside this program");
+  app.add_option("--slots", options.slots, "How many solves run at once")->check(CLI::Range(1, 1024));
+  app.add_option("--memory-limit-mb", options.solver.memory_limit_mb, "Address space of a solver in MiB")
+      ->check(CLI::Range(int64_t{64}, int64_t{1} << 20));
+  app.add_option("--cpu-limit-s", options.solver.cpu_limit_s, "CPU time of a solver in s")
+      ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
+  CLI11_PARSE(app, argc, argv);
+
+  spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
+  if (access(options.solver.program.c_str(), X_OK) != 0) {
+    return Fail(options.solver.program + " cannot be run: " + std::strerror(errno) + "; give --solver");
+  }
+  options.stop_fd = CatchStopSignals();
+  if (options.stop_fd < 0) return Fail(std::string("cannot catch signals: ") + std::strerror(errno));
+  options.lifeline_fd = Lifeline();
+
+  const SystemClock clock;
+  Outcome<std::unique_ptr<SqliteStore>> store = SqliteStore::Open(DataDir{options.data_dir}.Database(), clock);
+  if (!store.ok()) return Fail(store.error().message);
+  Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, *store.value(), clock);
+  if (!agent.ok()) return Fail(agent.error().message);
+  spdlog::info("{} works with {} slots on {}", agent.value()->owner(), options.slots, options.data_dir);
+  agent.value()->Run();
+  spdlog::info("{} stops", agent.value()->owner());
+  return 0;
+}
+
+}  // namespace
+}  // namespace rollgait::server
+
+int main(int argc, char** argv) { return rollgait::server::Main(argc, argv); }

@@ -1,0 +1,39 @@
+#ifndef ROLLGAIT_SERVER_AGENT_RUN_END_H_
+#define ROLLGAIT_SERVER_AGENT_RUN_END_H_
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "server/agent/solver_process.h"
+#include "server/solve/wire.pb.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+// What is known of a solver process when it is gone.
+struct RunFacts {
+  std::optional<wire::SolverMessage> last;  // a result or an error; nullopt: none arrived whole
+  ProcessEnd process;
+  FrameStatus stream = FrameStatus::kEnd;  // how its stream ended
+  bool cancelled = false;                  // we asked it to stop because a client wanted that
+  bool out_of_time = false;                // we killed it because it did not stop at its wall time
+  double cpu_limit_s = 0;
+  std::string output;  // the last it printed
+};
+
+// Give the solve up, so that the store decides on another attempt.
+struct Crash {
+  std::string detail;
+};
+
+// Judges the end of a run: a result is an answer whatever the exit status; an exit without one is a crash whatever the
+// exit status (MUMPS stops with status 0). A result that was cut short by a cancellation is dropped.
+std::variant<SolveEnd, Crash> JudgeRun(RunFacts facts);
+
+// A failed or cancelled end.
+SolveEnd EndWithError(SolveState state, v1::SolveError::Kind kind, const std::string& message);
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_AGENT_RUN_END_H_

@@ -1,0 +1,218 @@
+#include "server/agent/solve_run.h"
+
+#include <google/protobuf/util/time_util.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rollgait/v1/solve.pb.h"
+
+namespace rollgait::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRetry{500};       // after a store that could not take something
+constexpr milliseconds kReapTick{1};      // between looks for a child whose stream has ended
+constexpr size_t kMaxPending = 5000;      // events held for a store that takes none
+constexpr double kDefaultWallTime = 600;  // s, of SolverLimits
+constexpr double kMaxWallTime = 86400;
+
+milliseconds WallTime(const std::string& encoded_spec) {
+  v1::SolveSpec spec;
+  double seconds = kDefaultWallTime;
+  if (spec.ParseFromString(encoded_spec) && spec.solver_limits().has_max_wall_time_s()) {
+    seconds = spec.solver_limits().max_wall_time_s();
+  }
+  if (!(seconds >= 0)) seconds = 0;  // NaN too; the solver refuses it
+  return milliseconds(std::llround(1000 * std::min(seconds, kMaxWallTime)));
+}
+
+}  // namespace
+
+SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
+    : context_(context), lease_(std::move(claimed.lease)), process_(std::move(process)) {
+  renew_at_ = now + kLeaseRenewal;
+  wall_end_ = now + WallTime(claimed.record.spec) + context_.wall_grace;
+  process_.Send(claimed.record.spec);
+  spdlog::info("solves/{}: attempt {} in process {}", id(), claimed.record.attempts, process_.pid());
+  if (claimed.record.cancel_requested) Cancel(now);
+}
+
+void SolveRun::Service(SteadyTime now) {
+  if (state_ == State::kSolving) {
+    process_.Write();
+    process_.ReadOutput();
+    ReadSolver(now);
+    EnforceDeadlines(now);
+    if (flush_at_ && now >= *flush_at_) FlushEvents(now);
+  }
+  if (state_ != State::kOver && now >= renew_at_) RenewLease(now);
+  if (state_ == State::kSolving) ConcludeIfGone(now);
+  if (state_ == State::kCommitting && now >= commit_at_) Commit(now);
+}
+
+SteadyTime SolveRun::NextDue() const {
+  SteadyTime due = renew_at_;
+  if (state_ == State::kCommitting) return std::min(due, commit_at_);
+  due = std::min(due, wall_end_);
+  if (flush_at_) due = std::min(due, *flush_at_);
+  if (kill_at_) due = std::min(due, *kill_at_);
+  if (stream_end_) due = std::min(due, std::chrono::steady_clock::now() + kReapTick);
+  return due;
+}
+
+void SolveRun::Cancel(SteadyTime now) {
+  if (cancelled_ || state_ != State::kSolving) return;
+  cancelled_ = true;
+  process_.Kill(SIGTERM);
+  KillBy(now + context_.kill_after);
+}
+
+void SolveRun::GiveUp() {
+  process_.Kill(SIGKILL);
+  if (state_ == State::kOver) return;
+  if (state_ == State::kCommitting) {
+    commit_at_ = SteadyTime{};
+    Commit(std::chrono::steady_clock::now());
+    return;
+  }
+  state_ = State::kOver;
+  const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kStopping, "its agent stops");
+  if (!given.ok()) spdlog::warn("solves/{}: {}", id(), given.error().message);
+  context_.poke(id());
+}
+
+void SolveRun::KillBy(SteadyTime deadline) { kill_at_ = kill_at_ ? std::min(*kill_at_, deadline) : deadline; }
+
+void SolveRun::ReadSolver(SteadyTime now) {
+  if (stream_end_) return;
+  std::vector<std::string> payloads;
+  const FrameStatus status = process_.Receive(&payloads);
+  for (const std::string& payload : payloads) Take(payload, now);
+  if (status != FrameStatus::kNeedMore && !stream_end_) stream_end_ = status;
+  // It ends by itself in an instant; a process that closed or spoilt its stream is of no use any more.
+  if (stream_end_) KillBy(*stream_end_ == FrameStatus::kEnd ? now + context_.kill_after : now);
+}
+
+void SolveRun::Take(const std::string& payload, SteadyTime now) {
+  wire::SolverMessage message;
+  if (!message.ParseFromString(payload) || message.message_case() == wire::SolverMessage::MESSAGE_NOT_SET) {
+    stream_end_ = FrameStatus::kGarbage;
+    return;
+  }
+  if (message.has_iteration()) {
+    AddIteration(message.iteration(), now);
+    return;
+  }
+  last_ = std::move(message);
+  KillBy(now + context_.kill_after);  // nothing is to follow but its end
+}
+
+void SolveRun::AddIteration(const v1::Iteration& iteration, SteadyTime now) {
+  if (pending_.size() >= kMaxPending) {
+    pending_.erase(pending_.begin());
+    ++skipped_;
+  }
+  v1::SolveEvent event;
+  *event.mutable_time() = google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(context_.clock.WallMicros());
+  event.set_skipped_count(std::exchange(skipped_, 0));
+  *event.mutable_iteration() = iteration;
+  pending_.push_back({0, EventKind::kIteration, event.SerializeAsString()});
+  if (!flush_at_) flush_at_ = sent_any_ ? now + context_.batch : now;
+  sent_any_ = true;
+}
+
+void SolveRun::FlushEvents(SteadyTime now) {
+  flush_at_.reset();
+  if (pending_.empty()) return;
+  const Outcome<LeaseState> appended = context_.store.AppendEvents(lease_, pending_);
+  if (!appended.ok() && appended.error().code == ErrorCode::kLeaseLost) return LoseLease(appended.error().message);
+  if (!appended.ok()) {
+    spdlog::warn("solves/{}: {} events wait: {}", id(), pending_.size(), appended.error().message);
+    flush_at_ = now + kRetry;
+    return;
+  }
+  pending_.clear();
+  context_.poke(id());
+  if (appended.value().cancel_requested) Cancel(now);
+}
+
+void SolveRun::RenewLease(SteadyTime now) {
+  const Outcome<LeaseState> renewed = context_.store.RenewLease(lease_, kLeaseDuration);
+  if (!renewed.ok() && renewed.error().code == ErrorCode::kLeaseLost) return LoseLease(renewed.error().message);
+  if (!renewed.ok()) {
+    spdlog::warn("solves/{}: the lease is not renewed: {}", id(), renewed.error().message);
+    renew_at_ = now + kRetry;
+    return;
+  }
+  renew_at_ = now + kLeaseRenewal;
+  if (renewed.value().cancel_requested) Cancel(now);
+}
+
+void SolveRun::LoseLease(const std::string& reason) {
+  spdlog::warn("solves/{}: {}", id(), reason);
+  process_.Kill(SIGKILL);
+  if (state_ == State::kCommitting) context_.spool.Remove(lease_);
+  state_ = State::kOver;
+}
+
+void SolveRun::EnforceDeadlines(SteadyTime now) {
+  if (now >= wall_end_ && !kill_at_) {
+    out_of_time_ = true;
+    kill_at_ = now;
+  }
+  if (kill_at_ && now >= *kill_at_) {
+    process_.Kill(SIGKILL);
+    kill_at_ = now + kRetry;  // until it is gone
+  }
+}
+
+void SolveRun::ConcludeIfGone(SteadyTime now) {
+  if (!stream_end_) return;
+  const std::optional<ProcessEnd> end = process_.Reap();
+  if (!end) return;
+  process_.ReadOutput();
+  RunFacts facts;
+  facts.last = std::move(last_);
+  facts.process = *end;
+  facts.stream = *stream_end_;
+  facts.cancelled = cancelled_;
+  facts.out_of_time = out_of_time_;
+  facts.cpu_limit_s = context_.cpu_limit_s;
+  facts.output = process_.LastOutput();
+  outcome_ = JudgeRun(std::move(facts));
+  if (const SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {
+    const Outcome<Done> put = context_.spool.Put({lease_, pending_, *solve_end});
+    if (!put.ok()) spdlog::error("solves/{}: {}", id(), put.error().message);  // the commit may still succeed
+  }
+  state_ = State::kCommitting;
+  commit_at_ = now;
+}
+
+void SolveRun::Commit(SteadyTime now) {
+  std::optional<Error> failure;
+  if (const Crash* crash = std::get_if<Crash>(&outcome_)) {
+    spdlog::warn("solves/{}: the solver died: {}", id(), crash->detail);
+    const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kCrashed, crash->detail);
+    if (!given.ok()) failure = given.error();
+  } else {
+    const Outcome<Done> finished = context_.store.Finish(lease_, pending_, std::get<SolveEnd>(outcome_));
+    if (!finished.ok()) failure = finished.error();
+  }
+  if (failure && failure->code == ErrorCode::kLeaseLost) return LoseLease(failure->message);
+  if (failure) {
+    spdlog::error("solves/{}: its end is not stored yet: {}", id(), failure->message);
+    commit_at_ = now + kRetry;
+    return;
+  }
+  context_.spool.Remove(lease_);
+  state_ = State::kOver;
+  spdlog::info("solves/{}: {}", id(), std::holds_alternative<Crash>(outcome_) ? "given back" : "ended");
+  context_.poke(id());
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,87 @@
+#ifndef ROLLGAIT_SERVER_AGENT_SOLVE_RUN_H_
+#define ROLLGAIT_SERVER_AGENT_SOLVE_RUN_H_
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "server/agent/run_end.h"
+#include "server/agent/solver_process.h"
+#include "server/agent/spool.h"
+#include "server/base/clock.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+// One claimed solve, from the hand-over to a solver process until the store knows how it ended. Never blocks but for
+// the store and the disk. One thread.
+class SolveRun {
+ public:
+  // What every run of an agent shares; outlives the runs.
+  struct Context {
+    SolveStore& store;
+    const Spool& spool;
+    const Clock& clock;
+    std::function<void(const std::string& id)> poke;  // tells rollgaitd that the solve has new events
+    std::chrono::milliseconds batch{20};              // how long events wait for company
+    std::chrono::milliseconds kill_after{2000};       // from the request to stop to SIGKILL
+    std::chrono::milliseconds wall_grace{60'000};     // from max_wall_time_s to SIGKILL
+    double cpu_limit_s = 86400;
+  };
+
+  SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now);
+
+  const std::string& id() const { return lease_.solve_id; }
+  const SolverProcess& process() const { return process_; }
+  // Its stream stays readable for ever then.
+  bool stream_ended() const { return stream_end_.has_value(); }
+  // Does what is due: reads the solver, stores events, renews the lease, kills, commits the end.
+  void Service(SteadyTime now);
+  // When Service is due again though no descriptor is ready.
+  SteadyTime NextDue() const;
+  // The store knows the end, or the solve is no longer ours.
+  bool over() const { return state_ == State::kOver; }
+  // Asks the solver to stop because a client wants that.
+  void Cancel(SteadyTime now);
+  // Kills the solver and gives the solve back to the queue; an end that waits for its commit stays in the spool.
+  void GiveUp();
+
+ private:
+  enum class State { kSolving, kCommitting, kOver };
+
+  void ReadSolver(SteadyTime now);
+  void Take(const std::string& payload, SteadyTime now);
+  void AddIteration(const v1::Iteration& iteration, SteadyTime now);
+  void FlushEvents(SteadyTime now);
+  void RenewLease(SteadyTime now);
+  void EnforceDeadlines(SteadyTime now);
+  void ConcludeIfGone(SteadyTime now);
+  void Commit(SteadyTime now);
+  void KillBy(SteadyTime deadline);
+  void LoseLease(const std::string& reason);
+
+  const Context& context_;
+  Lease lease_;
+  SolverProcess process_;
+  State state_ = State::kSolving;
+
+  std::optional<wire::SolverMessage> last_;  // result or error
+  std::optional<FrameStatus> stream_end_;
+  std::vector<StoredEvent> pending_;
+  int skipped_ = 0;  // iterations dropped because the store does not take any
+  bool sent_any_ = false;
+  bool cancelled_ = false;
+  bool out_of_time_ = false;
+  std::optional<SteadyTime> flush_at_, kill_at_;
+  SteadyTime renew_at_, wall_end_, commit_at_;
+  std::variant<SolveEnd, Crash> outcome_;  // while committing
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_AGENT_SOLVE_RUN_H_

@@ -1,0 +1,131 @@
+#include "server/agent/spool.h"
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "server/base/framing.h"
+#include "server/solve/wire.pb.h"
+
+namespace rollgait::server {
+namespace {
+
+constexpr const char* kSuffix = ".end";
+
+Error Unavailable(const std::string& what) { return {ErrorCode::kUnavailable, what + ": " + std::strerror(errno)}; }
+
+std::string Encode(const PendingEnd& pending) {
+  wire::SpooledEnd spooled;
+  spooled.set_solve_id(pending.lease.solve_id);
+  spooled.set_owner(pending.lease.owner);
+  spooled.set_epoch(pending.lease.epoch);
+  spooled.set_state(static_cast<int>(pending.end.state));
+  spooled.set_result(pending.end.result);
+  spooled.set_error(pending.end.error);
+  spooled.set_reusable(pending.end.reusable);
+  for (const StoredEvent& event : pending.events) spooled.add_iterations(event.payload);
+  return spooled.SerializeAsString();
+}
+
+// False if the bytes are not an end.
+bool Decode(const std::string& bytes, PendingEnd* pending) {
+  wire::SpooledEnd spooled;
+  if (!spooled.ParseFromString(bytes) || spooled.solve_id().empty()) return false;
+  const auto state = static_cast<SolveState>(spooled.state());
+  if (state != SolveState::kSucceeded && state != SolveState::kFailed && state != SolveState::kCancelled) return false;
+  pending->lease = {spooled.solve_id(), spooled.owner(), spooled.epoch()};
+  pending->end = {state, spooled.result(), spooled.error(), spooled.reusable()};
+  for (const std::string& payload : spooled.iterations()) {
+    pending->events.push_back({0, EventKind::kIteration, payload});
+  }
+  return true;
+}
+
+// Reads one file written by Put: a frame and nothing after it.
+bool ReadFile(const std::string& path, PendingEnd* pending) {
+  std::ifstream file(path, std::ios::binary);
+  FrameParser parser;
+  parser.Append(std::string(std::istreambuf_iterator<char>(file), {}));
+  std::string payload;
+  return parser.Next(&payload) == FrameStatus::kOk && parser.AtBoundary() && Decode(payload, pending);
+}
+
+// Makes names in a directory durable.
+bool SyncDirectory(const std::string& directory) {
+  const int fd = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool synced = fsync(fd) == 0;
+  close(fd);
+  return synced;
+}
+
+}  // namespace
+
+Outcome<Spool> Spool::Open(const std::string& directory) {
+  if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST) return Unavailable("cannot make " + directory);
+  return Spool(directory);
+}
+
+std::string Spool::Path(const Lease& lease) const {
+  return directory_ + "/" + lease.solve_id + "-" + std::to_string(lease.epoch) + kSuffix;
+}
+
+Outcome<Done> Spool::Put(const PendingEnd& pending) const {
+  const std::string path = Path(pending.lease), temporary = path + ".tmp";
+  const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (fd < 0) return Unavailable("cannot make " + temporary);
+  const bool written = WriteFrame(fd, Encode(pending)) == FrameStatus::kOk && fsync(fd) == 0;
+  const int reason = errno;
+  close(fd);
+  errno = written ? errno : reason;
+  if (!written || rename(temporary.c_str(), path.c_str()) != 0 || !SyncDirectory(directory_)) {
+    const Error error = Unavailable("cannot write " + path);
+    unlink(temporary.c_str());
+    return error;
+  }
+  return Done{};
+}
+
+void Spool::Remove(const Lease& lease) const { unlink(Path(lease).c_str()); }
+
+std::vector<PendingEnd> Spool::ReadAll() const {
+  std::vector<PendingEnd> ends;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_, failure)) {
+    if (entry.path().extension() != kSuffix) continue;
+    PendingEnd pending;
+    if (ReadFile(entry.path().string(), &pending)) {
+      ends.push_back(std::move(pending));
+      continue;
+    }
+    const std::string aside = entry.path().string() + ".bad";
+    spdlog::error("{} is damaged; renamed to {}", entry.path().string(), aside);
+    rename(entry.path().c_str(), aside.c_str());
+  }
+  if (failure) spdlog::error("cannot list {}: {}", directory_, failure.message());
+  return ends;
+}
+
+std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store) {
+  std::vector<std::string> committed;
+  for (const PendingEnd& pending : spool.ReadAll()) {
+    const Outcome<Done> finished = store.Finish(pending.lease, pending.events, pending.end);
+    if (finished.ok()) {
+      committed.push_back(pending.lease.solve_id);
+    } else if (finished.error().code != ErrorCode::kLeaseLost) {
+      spdlog::warn("solves/{}: its end stays in the spool: {}", pending.lease.solve_id, finished.error().message);
+      continue;
+    }
+    spool.Remove(pending.lease);
+  }
+  return committed;
+}
+
+}  // namespace rollgait::server
