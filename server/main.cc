@@ -4,6 +4,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -180,6 +181,7 @@ int Main(int argc, char** argv) {
                 " is not a loopback address and this server speaks plain text: anyone on the " +
                 "network could read and use it. Listen on 127.0.0.1, or say --insecure-listen");
   }
+  umask(0077);  // requests and results are the owner's
   RaiseDescriptorLimit();
   return Serve(flags, end_signals);
 }

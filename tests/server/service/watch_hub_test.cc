@@ -1,0 +1,165 @@
+#include "server/service/watch_hub.h"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+
+#include "tests/server/service/service_fixture.h"
+
+namespace rollgait::server {
+namespace {
+
+// Reads one watch as a stream would: sleeps until woken, then takes.
+class Reader {
+ public:
+  Reader(ServiceBench& bench, const std::string& id, int64_t after)
+      : watch_(bench.hub().Open(id, after, [this] { Wake(); }).value()) {}
+
+  // Adds what comes until `done(events)`; false if the watch ended or failed before.
+  template <typename Condition>
+  bool Until(Condition done) {
+    while (!done(events)) {
+      Outcome<WatchBatch> batch = watch_->Take();
+      if (!batch.ok()) {
+        failure = batch.error();
+        return false;
+      }
+      events.insert(events.end(), batch.value().events.begin(), batch.value().events.end());
+      ended = batch.value().ended;
+      if (ended) return done(events);
+      if (!batch.value().events.empty()) continue;
+      std::unique_lock<std::mutex> lock(mutex_);
+      woken_.wait(lock, [this] { return wakes_ > 0; });
+      wakes_ = 0;
+    }
+    return true;
+  }
+  bool UntilCount(size_t count) {
+    return Until([count](const std::vector<EventPtr>& all) { return all.size() >= count; });
+  }
+  bool UntilEnd() {
+    Until([](const std::vector<EventPtr>&) { return false; });
+    return ended;
+  }
+
+  std::vector<EventPtr> events;
+  bool ended = false;
+  std::optional<Error> failure;
+
+ private:
+  void Wake() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++wakes_;
+    woken_.notify_one();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  int wakes_ = 0;
+  std::unique_ptr<Watch> watch_;
+};
+
+void ExpectDenseAfter(const std::vector<EventPtr>& events, int64_t after) {
+  for (const EventPtr& event : events) EXPECT_EQ(event->sequence(), ++after);
+}
+
+TEST(WatchHubTest, EventsArriveAsTheyAreWrittenAndTheLastIsTheFinishedSolve) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  Reader reader(bench, id, 0);
+  ASSERT_TRUE(reader.UntilCount(1));
+  EXPECT_EQ(reader.events[0]->state_change().state(), v1::SOLVE_STATE_QUEUED);
+  EXPECT_EQ(reader.events[0]->name(), "solves/" + id);
+  const Lease lease = bench.Claim();
+  bench.Hint(id);
+  ASSERT_TRUE(reader.UntilCount(2));
+  bench.AppendIterations(lease, 0, 3);
+  ASSERT_TRUE(reader.UntilCount(5));
+  EXPECT_EQ(reader.events[4]->iteration().index(), 2);
+  bench.Finish(lease);
+  ASSERT_TRUE(reader.UntilEnd());
+  ExpectDenseAfter(reader.events, 0);
+  const v1::Solve& solve = reader.events.back()->finished();
+  EXPECT_EQ(solve.name(), "solves/" + id);
+  EXPECT_EQ(solve.state(), v1::SOLVE_STATE_SUCCEEDED);
+  EXPECT_EQ(solve.result().message(), "found");
+  EXPECT_EQ(solve.last_sequence(), reader.events.back()->sequence());
+}
+
+TEST(WatchHubTest, LostHintsDoNotMatter) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  Reader reader(bench, id, 0);
+  ASSERT_TRUE(reader.UntilCount(1));
+  const Lease lease = bench.Claim();  // nobody says so
+  ASSERT_TRUE(bench.store().Finish(lease, {}, {SolveState::kSucceeded, "", "", false}).ok());
+  EXPECT_TRUE(reader.UntilEnd());
+  EXPECT_EQ(reader.events.size(), 3u);
+}
+
+TEST(WatchHubTest, ReadersJoinAtAnyNumberAndMissNothing) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  const Lease lease = bench.Claim();
+  bench.AppendIterations(lease, 0, 3000);  // more than a feed holds in memory
+  Reader first(bench, id, 0);
+  ASSERT_TRUE(first.UntilCount(3002));
+  bench.AppendIterations(lease, 3000, 1500);
+  ASSERT_TRUE(first.UntilCount(4502));
+  Reader from_memory(bench, id, 4400), from_store(bench, id, 17), from_end(bench, id, 4502);
+  bench.Finish(lease);
+  for (Reader* reader : {&first, &from_memory, &from_store, &from_end}) EXPECT_TRUE(reader->UntilEnd());
+  ExpectDenseAfter(first.events, 0);
+  ExpectDenseAfter(from_memory.events, 4400);
+  ExpectDenseAfter(from_store.events, 17);
+  ExpectDenseAfter(from_end.events, 4502);
+  EXPECT_EQ(first.events.size(), 4503u);
+  EXPECT_EQ(from_memory.events.size(), 103u);
+  EXPECT_EQ(from_store.events.size(), 4486u);
+  EXPECT_EQ(from_end.events.size(), 1u);
+}
+
+TEST(WatchHubTest, AFinishedSolveEndsAtOnce) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  bench.Finish(bench.Claim());
+  Reader all(bench, id, 0), nothing(bench, id, 3);
+  EXPECT_TRUE(all.UntilEnd());
+  EXPECT_EQ(all.events.size(), 3u);
+  EXPECT_TRUE(nothing.UntilEnd());
+  EXPECT_TRUE(nothing.events.empty());
+}
+
+TEST(WatchHubTest, BadPlacesAreRefused) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  EXPECT_EQ(bench.hub().Open(id, 2, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open(id, -1, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open("none", 0, [] {}).error().code, ErrorCode::kNotFound);
+}
+
+TEST(WatchHubTest, HeartbeatsRepeatTheLastNumber) {
+  ServiceBench bench(std::chrono::milliseconds(10));
+  Reader reader(bench, bench.Create(), 0);
+  ASSERT_TRUE(reader.UntilCount(3));
+  EXPECT_TRUE(reader.events[0]->has_state_change());
+  EXPECT_TRUE(reader.events[1]->has_heartbeat());
+  EXPECT_TRUE(reader.events[2]->has_heartbeat());
+  EXPECT_EQ(reader.events[1]->sequence(), 1);
+  EXPECT_EQ(reader.events[2]->sequence(), 1);
+}
+
+TEST(WatchHubTest, StopWakesReadersAndRefusesNewOnes) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  Reader reader(bench, id, 0);
+  ASSERT_TRUE(reader.UntilCount(1));
+  bench.hub().Stop();
+  EXPECT_FALSE(reader.UntilCount(2));
+  ASSERT_TRUE(reader.failure.has_value());
+  EXPECT_EQ(reader.failure->code, ErrorCode::kUnavailable);
+  EXPECT_EQ(bench.hub().Open(id, 0, [] {}).error().code, ErrorCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace rollgait::server
