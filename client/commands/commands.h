@@ -1,0 +1,66 @@
+// The commands of `rollgait`. Each writes data to terminal.out, everything else to terminal.err, returns the exit code
+// of what it did, and throws Failure for what it could not do.
+#ifndef ROLLGAIT_CLIENT_COMMANDS_COMMANDS_H_
+#define ROLLGAIT_CLIENT_COMMANDS_COMMANDS_H_
+
+#include <string>
+#include <vector>
+
+#include "client/connection.h"
+#include "client/failure.h"
+#include "client/spec_flags.h"
+#include "client/terminal.h"
+
+namespace rollgait::client {
+
+struct SolveOptions {
+  SpecFlags spec;
+  std::string request_id;
+  std::string output;
+  bool validate_only = false;
+  bool detach = false;
+  double reconnect_s = 60;
+};
+// Creates a solve and follows it to its end; Ctrl-C cancels it.
+ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct WatchOptions {
+  std::string name;
+  int64_t after_sequence = 0;
+  std::string output;
+  double reconnect_s = 60;
+};
+// Follows a solve; Ctrl-C leaves it alone.
+ExitCode RunWatch(const WatchOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct GetOptions {
+  std::string name;
+  std::string output;
+};
+ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct ListOptions {
+  std::string state;
+  int limit = 50;
+};
+ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+// The last exit code that is not success, if there is one; every name is tried.
+ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
+ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
+
+// Without a model name in the flags: the list; with one: the whole model.
+ExitCode RunModels(const SpecFlags& flags, const GlobalOptions& global, const Terminal& terminal);
+
+struct ReportOptions {
+  std::vector<std::string> solves;  // names on the server, or .json files
+  std::string output;
+  std::string title;
+};
+ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_COMMANDS_COMMANDS_H_

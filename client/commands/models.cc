@@ -1,0 +1,86 @@
+#include "client/commands/commands.h"
+#include "client/json.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+std::string Vector(const v1::Vector3& v) {
+  return "(" + FormatNumber(v.x()) + ", " + FormatNumber(v.y()) + ", " + FormatNumber(v.z()) + ")";
+}
+
+// "-30 … 120 °", or "free".
+std::string PositionRange(const v1::Joint& joint) {
+  const bool angle = joint.type() == v1::Joint::TYPE_REVOLUTE;
+  const double scale = angle ? 180 / kPi : 1.0;
+  if (joint.position_max() - joint.position_min() > 1e6) return "free";
+  return FormatNumber(joint.position_min() * scale) + " … " + FormatNumber(joint.position_max() * scale) +
+         (angle ? "°" : " m");
+}
+
+std::string EffortRange(const v1::Joint& joint) {
+  if (!joint.actuated()) return "-";
+  return FormatNumber(joint.effort_min()) + " … " + FormatNumber(joint.effort_max()) +
+         (joint.type() == v1::Joint::TYPE_PRISMATIC ? " N" : " N m");
+}
+
+std::string ModelText(const v1::Model& model) {
+  std::string text = model.summary().name() + ": " + model.summary().description() + "\n\n";
+  text += FormatTable({{"mass", FormatNumber(model.total_mass_kg()), "kg"},
+                       {"stature", FormatNumber(model.stature_m()), "m"},
+                       {"leg length", FormatNumber(model.leg_length_m()), "m"},
+                       {"gravity", FormatNumber(model.gravity_m_s2()), "m/s²"}},
+                      "lr");
+  std::vector<std::vector<std::string>> joints = {{"JOINT", "TYPE", "PARENT", "ORIGIN m", "AXIS", "RANGE", "EFFORT",
+                                                   "LINK", "MASS kg", "CENTRE OF MASS m", "IYY kg m²"}};
+  for (const v1::Joint& joint : model.joints()) {
+    const bool known_parent = joint.parent() >= 0 && joint.parent() < model.joints_size();
+    joints.push_back({joint.name(), joint.type() == v1::Joint::TYPE_PRISMATIC ? "prismatic" : "revolute",
+                      known_parent ? model.joints(joint.parent()).name() : "world", Vector(joint.origin_m()),
+                      Vector(joint.axis()), PositionRange(joint), EffortRange(joint), joint.link_name(),
+                      FormatNumber(joint.mass_kg()), Vector(joint.center_of_mass_m()),
+                      joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
+  }
+  text += "\n" + FormatTable(joints, "");
+  std::vector<std::vector<std::string>> contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "CENTRE m", "MIRROR IMAGE"}};
+  for (const v1::ContactSurface& contact : model.contacts()) {
+    const bool known = contact.joint() >= 0 && contact.joint() < model.joints_size();
+    contacts.push_back({contact.name(), known ? model.joints(contact.joint()).link_name() : "?",
+                        Vector(contact.surface().ellipsoid().semi_axes_m()), Vector(contact.center_m()),
+                        contact.mirror_contact()});
+  }
+  text += "\n" + FormatTable(contacts, "") + "\nSources\n";
+  for (const std::string& source : model.sources()) text += "  " + source + "\n";
+  return text;
+}
+
+}  // namespace
+
+ExitCode RunModels(const SpecFlags& flags, const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  grpc::ClientContext context;
+  connection.SetDeadline(context);
+  if (flags.model) {
+    v1::GetModelRequest request;
+    ApplyBodyFlags(flags, *request.mutable_model());
+    v1::Model model;
+    RequireOk(connection.stub().GetModel(&context, request, &model), "get model " + *flags.model, connection.server());
+    terminal.out << (global.json ? ToJsonText(model) : ModelText(model)) << std::flush;
+    return ExitCode::kSuccess;
+  }
+  v1::ListModelsResponse response;
+  RequireOk(connection.stub().ListModels(&context, {}, &response), "list the models", connection.server());
+  std::vector<std::vector<std::string>> rows = {{"NAME", "DOF", "ACTUATED", "CONTACTS", "DESCRIPTION"}};
+  for (const v1::ModelSummary& model : response.models()) {
+    if (global.json) terminal.out << ToJsonLine(model) << "\n";
+    std::string contacts;
+    for (const std::string& contact : model.contact_names()) contacts += (contacts.empty() ? "" : ", ") + contact;
+    rows.push_back({model.name(), std::to_string(model.degrees_of_freedom()), std::to_string(model.actuated_joints()),
+                    contacts, model.description()});
+  }
+  if (!global.json) terminal.out << FormatTable(rows, "lrr");
+  terminal.out << std::flush;
+  return ExitCode::kSuccess;
+}
+
+}  // namespace rollgait::client

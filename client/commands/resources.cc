@@ -1,0 +1,161 @@
+// get, list, cancel, delete, server-info: one call and its answer.
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "client/commands/commands.h"
+#include "client/json.h"
+#include "client/output.h"
+#include "client/summary.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+constexpr int kLargestPage = 1000;
+
+v1::SolveState ParseState(const std::string& word) {
+  if (word.empty()) return v1::SOLVE_STATE_UNSPECIFIED;
+  for (const v1::SolveState state : {v1::SOLVE_STATE_QUEUED, v1::SOLVE_STATE_RUNNING, v1::SOLVE_STATE_SUCCEEDED,
+                                     v1::SOLVE_STATE_FAILED, v1::SOLVE_STATE_CANCELLED}) {
+    if (StateName(state) == word) return state;
+  }
+  throw Failure(ExitCode::kUsage, "--state " + word + ": must be one of queued, running, succeeded, failed, cancelled");
+}
+
+std::vector<std::string> ListRow(const v1::Solve& solve) {
+  const auto seconds = [](const google::protobuf::Timestamp& time) {
+    return static_cast<double>(time.seconds()) + 1e-9 * time.nanos();
+  };
+  const bool timed = solve.has_start_time() && solve.has_end_time();
+  const auto& motion = solve.spec().motion();
+  return {solve.name(),
+          StateName(solve.state()),
+          solve.spec().model().name(),
+          FormatNumber(solve.spec().slope_rad() * 180 / kPi) + "°",
+          motion.has_speed_m_s() ? FormatNumber(motion.speed_m_s()) + " m/s"
+          : motion.free_speed()  ? "free"
+                                 : "-",
+          FormatTime(solve.create_time()),
+          timed ? FormatDuration(seconds(solve.end_time()) - seconds(solve.start_time())) : "-"};
+}
+
+// Calls `act` for each name; prints failures and goes on.
+ExitCode ForEachName(const std::vector<std::string>& names, const Terminal& terminal,
+                     const std::function<void(const std::string&)>& act) {
+  ExitCode code = ExitCode::kSuccess;
+  for (const std::string& name : names) {
+    try {
+      act(SolveName(name));
+    } catch (const Failure& failure) {
+      terminal.err << "rollgait: " << failure.what() << std::endl;
+      code = failure.code();
+    }
+  }
+  return code;
+}
+
+}  // namespace
+
+ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  if (!options.output.empty()) RequireOutputPath(options.output);
+  Connection connection(global);
+  const v1::Solve solve = connection.GetSolve(options.name);
+  if (global.json) {
+    terminal.out << ToJsonText(solve);
+  } else if (!global.quiet) {
+    terminal.out << Summarize(solve, terminal.out_color);
+  }
+  terminal.out << std::flush;
+  if (!options.output.empty()) WriteSolve(solve, options.output);
+  return ExitCode::kSuccess;
+}
+
+ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  v1::ListSolvesRequest request;
+  request.set_state(ParseState(options.state));
+  std::vector<std::vector<std::string>> rows;
+  int left = options.limit;
+  bool more = true;
+  while (more && left > 0) {
+    request.set_page_size(std::min(left, kLargestPage));
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::ListSolvesResponse response;
+    RequireOk(connection.stub().ListSolves(&context, request, &response), "list the solves", connection.server());
+    for (const v1::Solve& solve : response.solves()) {
+      if (global.json) terminal.out << ToJsonLine(solve) << "\n";
+      rows.push_back(ListRow(solve));
+    }
+    left -= response.solves_size();
+    request.set_page_token(response.next_page_token());
+    more = !response.next_page_token().empty();
+  }
+  if (!global.json && !rows.empty()) {
+    rows.insert(rows.begin(), {"NAME", "STATE", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
+    terminal.out << FormatTable(rows, "lllrr");
+  }
+  terminal.out << std::flush;
+  if (!global.quiet && !global.json && rows.empty()) terminal.err << "no solves" << std::endl;
+  if (!global.quiet && !global.json && more) {
+    terminal.err << "there are more; --limit " << options.limit << " was reached" << std::endl;
+  }
+  return ExitCode::kSuccess;
+}
+
+ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  return ForEachName(names, terminal, [&](const std::string& name) {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::CancelSolveRequest request;
+    request.set_name(name);
+    v1::Solve solve;
+    RequireOk(connection.stub().CancelSolve(&context, request, &solve), "cancel " + name, connection.server());
+    if (global.json) {
+      terminal.out << ToJsonLine(solve) << std::endl;
+    } else if (!global.quiet) {
+      terminal.out << name << "  " << StateName(solve.state()) << std::endl;
+    }
+  });
+}
+
+ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  return ForEachName(names, terminal, [&](const std::string& name) {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::DeleteSolveRequest request;
+    request.set_name(name);
+    google::protobuf::Empty empty;
+    RequireOk(connection.stub().DeleteSolve(&context, request, &empty), "delete " + name, connection.server());
+    if (!global.quiet && !global.json) terminal.out << name << "  deleted" << std::endl;
+  });
+}
+
+ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  grpc::ClientContext context;
+  connection.SetDeadline(context);
+  v1::ServerInfo info;
+  RequireOk(connection.stub().GetServerInfo(&context, {}, &info), "ask the server", connection.server());
+  if (global.json) {
+    terminal.out << ToJsonText(info) << std::flush;
+    return ExitCode::kSuccess;
+  }
+  terminal.out << FormatTable({{"server", global.server},
+                               {"version", info.version()},
+                               {"solver", info.solver_build()},
+                               {"solver slots", std::to_string(info.solver_slots())},
+                               {"running", std::to_string(info.running())},
+                               {"queued", std::to_string(info.queued())},
+                               {"largest request", std::to_string(info.max_request_bytes()) + " bytes"},
+                               {"up for", FormatDuration(info.uptime_s())},
+                               {"store", info.store()}},
+                              "l")
+               << std::flush;
+  return ExitCode::kSuccess;
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,47 @@
+// The way to the server.
+#ifndef ROLLGAIT_CLIENT_CONNECTION_H_
+#define ROLLGAIT_CLIENT_CONNECTION_H_
+
+#include <grpcpp/client_context.h>
+
+#include <memory>
+#include <string>
+
+#include "rollgait/v1/gait_service.grpc.pb.h"
+
+namespace rollgait::client {
+
+// What applies to every command.
+struct GlobalOptions {
+  std::string server = "127.0.0.1:50551";
+  bool json = false;
+  bool quiet = false;
+  // Longest wait for the answer of one call, s. Streams have no such limit.
+  double timeout_s = 30.0;
+};
+
+// A channel in plain text with keepalive, quick reconnection and no bound on the size of an answer.
+// Cheap to make: nothing is sent before the first call.
+class Connection {
+ public:
+  // Throws Failure(kUsage) if the address is not HOST:PORT with a port in [1, 65535] (or unix:PATH).
+  explicit Connection(const GlobalOptions& options);
+
+  v1::GaitService::StubInterface& stub() { return *stub_; }
+  const std::string& server() const { return options_.server; }
+  const GlobalOptions& options() const { return options_; }
+
+  // Gives one call the deadline of the options.
+  void SetDeadline(grpc::ClientContext& context) const;
+
+  // GetSolve; throws Failure.
+  v1::Solve GetSolve(const std::string& name);
+
+ private:
+  GlobalOptions options_;
+  std::unique_ptr<v1::GaitService::Stub> stub_;
+};
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_CONNECTION_H_

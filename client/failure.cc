@@ -1,0 +1,124 @@
+#include "client/failure.h"
+
+#include <google/protobuf/duration.pb.h>
+#include <google/rpc/error_details.pb.h>
+#include <google/rpc/status.pb.h>
+
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+// The lines that the rich error adds to the message, each starting with a line feed.
+std::string Details(const grpc::Status& status) {
+  google::rpc::Status rich;
+  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return "";
+  std::string text;
+  for (const google::protobuf::Any& detail : rich.details()) {
+    google::rpc::BadRequest bad_request;
+    google::rpc::RetryInfo retry;
+    google::rpc::QuotaFailure quota;
+    if (detail.UnpackTo(&bad_request)) {
+      for (const auto& violation : bad_request.field_violations()) {
+        text += "\n  " + violation.field() + ": " + violation.description();
+      }
+    } else if (detail.UnpackTo(&retry)) {
+      const double seconds = static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();
+      text += "\n  the server asks to try again in " + FormatNumber(seconds, 3) + " s";
+    } else if (detail.UnpackTo(&quota)) {
+      for (const auto& violation : quota.violations()) {
+        text += "\n  " + violation.subject() + ": " + violation.description();
+      }
+    }
+  }
+  return text;
+}
+
+std::string Advice(grpc::StatusCode code, const std::string& server) {
+  switch (code) {
+    case grpc::StatusCode::UNAVAILABLE:
+      return "Is a server running at " + server + "? Start one with `rollgaitd --data-dir DIR --listen " + server +
+             "`, or name another with --server HOST:PORT.";
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return "No answer from " + server + " in time; raise --timeout or check the address.";
+    case grpc::StatusCode::INVALID_ARGUMENT:
+      return "Correct the values named above; `rollgait solve --help` gives the ranges.";
+    case grpc::StatusCode::NOT_FOUND:
+      return "`rollgait list` and `rollgait models` show what the server has.";
+    case grpc::StatusCode::ALREADY_EXISTS:
+      return "Use another --request-id, or repeat the request exactly as it was.";
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return "The server is busy; try again later.";
+    case grpc::StatusCode::FAILED_PRECONDITION:
+      return "A solve that is not finished must be cancelled first: `rollgait cancel SOLVE`.";
+    case grpc::StatusCode::OUT_OF_RANGE:
+      return "`rollgait get SOLVE` tells the state and the number of the newest event.";
+    case grpc::StatusCode::UNIMPLEMENTED:
+      return "The server at " + server + " does not offer this call; `rollgait server-info` tells its version.";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+ExitCode ExitCodeOf(const grpc::Status& status) {
+  switch (status.error_code()) {
+    case grpc::StatusCode::OK:
+      return ExitCode::kSuccess;
+    case grpc::StatusCode::INVALID_ARGUMENT:
+    case grpc::StatusCode::OUT_OF_RANGE:
+    case grpc::StatusCode::FAILED_PRECONDITION:
+    case grpc::StatusCode::ALREADY_EXISTS:
+    case grpc::StatusCode::UNAUTHENTICATED:
+    case grpc::StatusCode::PERMISSION_DENIED:
+      return ExitCode::kUsage;
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return ExitCode::kUnreachable;
+    case grpc::StatusCode::CANCELLED:
+      return ExitCode::kCancelled;
+    case grpc::StatusCode::NOT_FOUND:
+      return ExitCode::kNotFound;
+    default:
+      return ExitCode::kInternal;
+  }
+}
+
+ExitCode ExitCodeOf(const v1::Solve& solve) {
+  switch (solve.state()) {
+    case v1::SOLVE_STATE_SUCCEEDED:
+      break;
+    case v1::SOLVE_STATE_FAILED:
+      return solve.error().kind() == v1::SolveError::KIND_CANCELLED ? ExitCode::kCancelled : ExitCode::kRunFailed;
+    case v1::SOLVE_STATE_CANCELLED:
+      return ExitCode::kCancelled;
+    default:
+      return ExitCode::kInternal;
+  }
+  switch (solve.result().termination()) {
+    case v1::TERMINATION_OPTIMAL:
+    case v1::TERMINATION_ACCEPTABLE:
+      return ExitCode::kSuccess;
+    case v1::TERMINATION_CANCELLED:
+      return ExitCode::kCancelled;
+    default:
+      return ExitCode::kNoSolution;
+  }
+}
+
+std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server) {
+  std::string text = "cannot " + action + ": " + StatusCodeName(status.error_code());
+  if (!status.error_message().empty()) text += ": " + status.error_message();
+  text += Details(status);
+  const std::string advice = Advice(status.error_code(), server);
+  if (!advice.empty()) text += "\n" + advice;
+  return text;
+}
+
+void RequireOk(const grpc::Status& status, const std::string& action, const std::string& server) {
+  if (!status.ok()) throw Failure(ExitCodeOf(status), Describe(status, action, server));
+}
+
+}  // namespace rollgait::client

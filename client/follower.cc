@@ -1,0 +1,131 @@
+#include "client/follower.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "client/failure.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+// True for what a connection's or a server's death looks like from here. A server killed while it writes can end the
+// stream without a status, which gRPC reports as UNKNOWN "Stream removed".
+bool IsBroken(const grpc::Status& status) {
+  return status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||
+         (status.error_code() == grpc::StatusCode::UNKNOWN &&
+          status.error_message().find("Stream removed") != std::string::npos);
+}
+
+}  // namespace
+
+SolveFollower::SolveFollower(Connection& connection, std::string name, const FollowOptions& options)
+    : connection_(connection), name_(std::move(name)), options_(options), last_sequence_(options.after_sequence) {}
+
+v1::Solve SolveFollower::Follow(const std::function<void(const v1::SolveEvent&)>& on_event,
+                                const std::function<void(const std::string&)>& on_note) {
+  using Clock = std::chrono::steady_clock;
+  auto last_heard = Clock::now();
+  double wait_s = 0.1;
+  bool first_failure = true;
+  while (ReadStream(on_event, on_note) == StreamEnd::kBroken) {
+    if (heard_) {
+      last_heard = Clock::now();
+      wait_s = 0.1;
+      first_failure = true;
+    }
+    const double silent_s = std::chrono::duration<double>(Clock::now() - last_heard).count();
+    if (silent_s >= options_.reconnect_s) {
+      throw Failure(ExitCode::kUnreachable,
+                    "the connection to " + connection_.server() + " broke (" + broken_.error_message() +
+                        ") and could not be made again within " + FormatDuration(options_.reconnect_s) +
+                        ". The solve is not cancelled; go on with\n  rollgait watch " + name_ + " --after-sequence " +
+                        std::to_string(last_sequence_) + " --server " + connection_.server());
+    }
+    if (first_failure) {
+      on_note("connection lost after event " + std::to_string(last_sequence_) + "; trying again for " +
+              FormatDuration(options_.reconnect_s));
+    }
+    first_failure = false;
+    WaitBeforeRetry(std::min(wait_s, std::max(options_.reconnect_s - silent_s, 0.01)));
+    wait_s = std::min(2.0 * wait_s, 3.0);
+  }
+  return finished_;
+}
+
+SolveFollower::StreamEnd SolveFollower::ReadStream(const std::function<void(const v1::SolveEvent&)>& on_event,
+                                                   const std::function<void(const std::string&)>& on_note) {
+  grpc::ClientContext context;
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    if (stopped_) throw Failure(ExitCode::kCancelled, "");
+    context_ = &context;
+  }
+  v1::WatchSolveRequest request;
+  request.set_name(name_);
+  request.set_after_sequence(last_sequence_);
+  heard_ = false;
+  auto reader = connection_.stub().WatchSolve(&context, request);
+  v1::SolveEvent event;
+  bool finished = false;
+  while (!finished && reader->Read(&event)) {
+    if (!heard_ && cancel_pending_) Cancel();
+    heard_ = true;
+    if (!Accept(event, on_note)) continue;
+    on_event(event);
+    if (event.has_finished()) {
+      finished_ = event.finished();
+      finished = true;
+    }
+  }
+  if (finished) context.TryCancel();  // The server may close the stream when it likes; nothing follows.
+  const grpc::Status status = reader->Finish();
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    context_ = nullptr;
+    if (finished) return StreamEnd::kFinished;
+    if (stopped_) throw Failure(ExitCode::kCancelled, "");
+  }
+  if (!IsBroken(status)) RequireOk(status, "watch " + name_, connection_.server());
+  broken_ = status.ok() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the stream ended before the solve") : status;
+  return StreamEnd::kBroken;
+}
+
+bool SolveFollower::Accept(const v1::SolveEvent& event, const std::function<void(const std::string&)>& on_note) {
+  if (event.has_heartbeat() || event.event_case() == v1::SolveEvent::EVENT_NOT_SET) return false;
+  if (event.sequence() <= last_sequence_) return event.has_finished();
+  // An event may stand for itself and the skipped ones merged into it.
+  const int64_t missing = event.sequence() - last_sequence_ - 1 - event.skipped_count();
+  if (missing > 0) {
+    on_note("warning: " + std::to_string(missing) + " events before number " + std::to_string(event.sequence()) +
+            " were not delivered");
+  }
+  last_sequence_ = event.sequence();
+  return true;
+}
+
+grpc::Status SolveFollower::Cancel() {
+  cancel_pending_ = true;
+  grpc::ClientContext context;
+  connection_.SetDeadline(context);
+  v1::CancelSolveRequest request;
+  request.set_name(name_);
+  v1::Solve solve;
+  const grpc::Status status = connection_.stub().CancelSolve(&context, request, &solve);
+  if (status.ok()) cancel_pending_ = false;
+  return status;
+}
+
+void SolveFollower::Stop() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  stopped_ = true;
+  if (context_ != nullptr) context_->TryCancel();
+  stopped_changed_.notify_all();
+}
+
+void SolveFollower::WaitBeforeRetry(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  stopped_changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stopped_; });
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,60 @@
+#include "client/json.h"
+
+#include <google/protobuf/util/json_util.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "client/failure.h"
+
+namespace rollgait::client {
+namespace {
+
+std::string Print(const google::protobuf::Message& message, bool indented) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.add_whitespace = indented;
+  std::string text;
+  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  if (!status.ok()) throw Failure(ExitCode::kInternal, "cannot write JSON: " + status.ToString());
+  return text;
+}
+
+}  // namespace
+
+std::string ToJsonLine(const google::protobuf::Message& message) { return Print(message, false); }
+
+std::string ToJsonText(const google::protobuf::Message& message) { return Print(message, true); }
+
+void ReadJsonFile(const std::string& path, google::protobuf::Message& message) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));
+  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &message);
+  if (!status.ok()) {
+    throw Failure(ExitCode::kUsage, path + ": not a proto3 JSON " + message.GetDescriptor()->full_name() + ": " +
+                                        std::string(status.message()));
+  }
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  // A pipe or a device cannot be replaced by a file; it is written as it is.
+  std::error_code ignored;
+  const bool special = std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+  const std::string temporary = special ? path : path + ".part-" + std::to_string(getpid());
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file || (!special && std::rename(temporary.c_str(), path.c_str()) != 0)) {
+    const std::string reason = std::strerror(errno);
+    if (!special) std::remove(temporary.c_str());
+    throw Failure(ExitCode::kInternal, path + ": cannot be written: " + reason);
+  }
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,27 @@
+// Proto3 JSON: lowerCamelCase names are written, both spellings are read, fields at their default are left out.
+#ifndef ROLLGAIT_CLIENT_JSON_H_
+#define ROLLGAIT_CLIENT_JSON_H_
+
+#include <google/protobuf/message.h>
+
+#include <string>
+
+#include "rollgait/v1/solve.pb.h"
+
+namespace rollgait::client {
+
+// One line without a line feed, or indented lines that end with one.
+std::string ToJsonLine(const google::protobuf::Message& message);
+std::string ToJsonText(const google::protobuf::Message& message);
+
+// Reads a proto3 JSON file into `message`.
+// Throws Failure(kUsage) if the file cannot be read, is not JSON, or has a field that the message does not know.
+void ReadJsonFile(const std::string& path, google::protobuf::Message& message);
+
+// Writes `text` to `path` through a file beside it that is renamed, so that a reader never sees half of it.
+// Throws Failure(kInternal) if that fails.
+void WriteFile(const std::string& path, const std::string& text);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_JSON_H_

@@ -1,0 +1,16 @@
+# Writes text files into a C++ header as string constants.
+#   cmake -DOUTPUT=assets.h -DASSETS=kReportHtml=report.html,kReportCss=report.css -P embed.cmake
+string(REPLACE "," ";" assets "${ASSETS}")
+set(text "// Made by client/report/embed.cmake.\n#pragma once\n\nnamespace rollgait::client {\n")
+foreach(asset ${assets})
+  string(REGEX MATCH "^([A-Za-z0-9_]+)=(.*)$" whole "${asset}")
+  set(name "${CMAKE_MATCH_1}")
+  file(READ "${CMAKE_MATCH_2}" content)
+  string(FIND "${content}" ")_asset" found)
+  if(NOT found EQUAL -1)
+    message(FATAL_ERROR "${CMAKE_MATCH_2} contains the delimiter )_asset")
+  endif()
+  string(APPEND text "inline constexpr char ${name}[] = R\"_asset(${content})_asset\";\n")
+endforeach()
+string(APPEND text "}  // namespace rollgait::client\n")
+file(WRITE "${OUTPUT}" "${text}")

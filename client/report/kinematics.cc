@@ -1,0 +1,105 @@
+#include "client/report/kinematics.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "client/failure.h"
+
+namespace rollgait::client {
+namespace {
+
+Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+// An unset quaternion is the identity.
+Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
+  const Eigen::Quaterniond quaternion(q.w(), q.x(), q.y(), q.z());
+  if (quaternion.norm() < 1e-12) return Eigen::Matrix3d::Identity();
+  return quaternion.normalized().toRotationMatrix();
+}
+
+}  // namespace
+
+std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions) {
+  if (static_cast<int>(positions.size()) != model.joints_size()) {
+    throw Failure(ExitCode::kUsage, "the model has " + std::to_string(model.joints_size()) + " joints, but " +
+                                        std::to_string(positions.size()) + " positions are given");
+  }
+  std::vector<Pose> poses;
+  for (int i = 0; i < model.joints_size(); ++i) {
+    const v1::Joint& joint = model.joints(i);
+    if (joint.parent() < -1 || joint.parent() >= i) {
+      throw Failure(ExitCode::kUsage, "model.joints[" + std::to_string(i) + "].parent is " +
+                                          std::to_string(joint.parent()) + ", must be in [-1, " +
+                                          std::to_string(i - 1) + "]: parents come first");
+    }
+    const Pose parent =
+        joint.parent() < 0 ? Pose{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()} : poses[joint.parent()];
+    Pose pose;
+    pose.rotation = parent.rotation * ToRotation(joint.orientation());
+    pose.position = parent.position + parent.rotation * ToVector(joint.origin_m());
+    const Eigen::Vector3d axis = ToVector(joint.axis());
+    if (joint.type() == v1::Joint::TYPE_PRISMATIC) {
+      pose.position += pose.rotation * axis * positions[i];
+    } else {
+      pose.rotation = pose.rotation * Eigen::AngleAxisd(positions[i], axis.normalized()).toRotationMatrix();
+    }
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
+  if (contact.joint() < 0 || contact.joint() >= static_cast<int>(poses.size()) || !contact.surface().has_ellipsoid()) {
+    throw Failure(ExitCode::kUsage, "contact " + contact.name() + ": no such joint, or not an ellipsoid");
+  }
+  const Pose& link = poses[contact.joint()];
+  const Eigen::Vector3d center = link.position + link.rotation * ToVector(contact.center_m());
+  const Eigen::Matrix3d rotation = link.rotation * ToRotation(contact.orientation());
+  const Eigen::Vector3d axes = ToVector(contact.surface().ellipsoid().semi_axes_m());
+  // The ellipsoid is { c + R diag(axes) u : |u| ≤ 1 }; its projection has the shape matrix of the kept rows.
+  const Eigen::Matrix3d shape = rotation * axes.array().square().matrix().asDiagonal() * rotation.transpose();
+  Eigen::Matrix2d projected;
+  projected << shape(0, 0), shape(0, 2), shape(2, 0), shape(2, 2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(projected);
+  Eigen::Vector2d first = eigen.eigenvectors().col(1);
+  if (first.x() < 0 || (first.x() == 0 && first.y() < 0)) first = -first;
+
+  Outline outline;
+  outline.x = center.x();
+  outline.z = center.z();
+  outline.semi_a = std::sqrt(eigen.eigenvalues()(1));
+  outline.semi_b = std::sqrt(eigen.eigenvalues()(0));
+  outline.angle_rad = std::atan2(first.y(), first.x());
+  const double depth = std::sqrt(shape(2, 2));
+  outline.lowest_x = center.x() - shape(0, 2) / depth;
+  outline.lowest_z = center.z() - depth;
+  return outline;
+}
+
+std::string PositiveDirection(const v1::Model& model, int joint) {
+  std::vector<bool> moved(model.joints_size(), false);
+  const auto center = [&](double position) {
+    std::vector<double> positions(model.joints_size(), 0.0);
+    positions[joint] = position;
+    const std::vector<Pose> poses = LinkPoses(model, positions);
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    double mass = 0;
+    for (int i = joint; i < model.joints_size(); ++i) {
+      const v1::Joint& link = model.joints(i);
+      moved[i] = i == joint || (link.parent() >= 0 && moved[link.parent()]);
+      if (!moved[i]) continue;
+      mass += link.mass_kg();
+      moment += link.mass_kg() * (poses[i].position + poses[i].rotation * ToVector(link.center_of_mass_m()));
+    }
+    return mass > 0 ? Eigen::Vector3d(moment / mass) : moment;
+  };
+  const double step = 1e-4;
+  const Eigen::Vector3d rate = (center(step) - center(-step)) / (2 * step);
+  int axis = 0;
+  if (rate.cwiseAbs().maxCoeff(&axis) < 1e-9) return "";
+  static const char* const kWords[3][2] = {{"backward", "forward"}, {"right", "left"}, {"down", "up"}};
+  return kWords[axis][rate(axis) > 0 ? 1 : 0];
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,39 @@
+// Forward kinematics of a Model message, and its picture in the x–z plane.
+#ifndef ROLLGAIT_CLIENT_REPORT_KINEMATICS_H_
+#define ROLLGAIT_CLIENT_REPORT_KINEMATICS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "rollgait/v1/model.pb.h"
+
+namespace rollgait::client {
+
+// Pose of a link frame in the world.
+struct Pose {
+  Eigen::Matrix3d rotation;  // link -> world
+  Eigen::Vector3d position;  // m
+};
+
+// Poses of all links; `positions` (rad, m) in the order of Model.joints. Throws Failure(kUsage) if the sizes differ or
+// a joint's parent does not come before it.
+std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions);
+
+// The outline of an ellipsoid seen along y, and its lowest point.
+struct Outline {
+  double x, z;                // centre, m
+  double semi_a, semi_b;      // m, semi_a ≥ semi_b
+  double angle_rad;           // of the first semi-axis, from x towards z, (−π/2, π/2]
+  double lowest_x, lowest_z;  // m; the contact point if the surface touches the ground
+};
+
+Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
+
+// In which direction a positive position moves what hangs on the joint, at the zero posture: "forward", "backward",
+// "up" or "down" for the mass centre of the subtree; "left" or "right" if it moves sideways most; "" if it does not
+// move.
+std::string PositiveDirection(const v1::Model& model, int joint);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_REPORT_KINEMATICS_H_

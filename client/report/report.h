@@ -1,0 +1,18 @@
+// The HTML report: one page without references to the network.
+#ifndef ROLLGAIT_CLIENT_REPORT_REPORT_H_
+#define ROLLGAIT_CLIENT_REPORT_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "rollgait/v1/solve.pb.h"
+
+namespace rollgait::client {
+
+// The page about finished solves, in the given order. An empty title gives "Optimal gait" or "Optimal gaits".
+// Throws Failure(kUsage) if a trajectory does not fit its model.
+std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_REPORT_REPORT_H_

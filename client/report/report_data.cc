@@ -1,0 +1,176 @@
+#include "client/report/report_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "client/accuracy_table.h"
+#include "client/failure.h"
+#include "client/json.h"
+#include "client/report/walker_data.h"
+#include "client/summary.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kStrideIntervals = 200;
+
+std::string SlopeLabel(double slope_rad) {
+  const double degrees = slope_rad * 180 / kPi;
+  const std::string number = FormatNumber(std::abs(degrees), 3);
+  return (number == "0" ? "" : degrees > 0 ? "+" : "−") + number + "°";
+}
+
+// One label a solve: the slope; with the speed, then with the name, where that is needed to tell them apart.
+std::vector<std::string> Labels(const std::vector<v1::Solve>& solves) {
+  std::vector<std::string> labels;
+  for (const v1::Solve& solve : solves) labels.push_back(SlopeLabel(solve.spec().slope_rad()));
+  const auto ambiguous = [&labels] {
+    return std::set<std::string>(labels.begin(), labels.end()).size() < labels.size();
+  };
+  if (ambiguous()) {
+    for (size_t i = 0; i < solves.size(); ++i) {
+      labels[i] += ", " + FormatNumber(solves[i].result().speed_m_s(), 3) + " m/s";
+    }
+  }
+  if (ambiguous()) {
+    for (size_t i = 0; i < solves.size(); ++i) {
+      const std::string& name = solves[i].name();
+      labels[i] += ", " + (name.empty() ? "no. " + std::to_string(i + 1) : name);
+    }
+  }
+  return labels;
+}
+
+json PairRows(const std::vector<std::pair<std::string, std::string>>& rows) {
+  json list = json::array();
+  for (const auto& [key, value] : rows) list.push_back({key, value});
+  return list;
+}
+
+json RequestRows(const v1::SolveSpec& spec) {
+  const v1::Motion& motion = spec.motion();
+  std::vector<std::pair<std::string, std::string>> rows = {{"model", spec.model().name()},
+                                                           {"slope", SlopeLabel(spec.slope_rad())}};
+  if (motion.has_speed_m_s()) rows.emplace_back("speed", FormatNumber(motion.speed_m_s()) + " m/s");
+  if (motion.free_speed()) rows.emplace_back("speed", "free");
+  if (motion.has_step_length_m()) rows.emplace_back("step length", FormatNumber(motion.step_length_m()) + " m");
+  if (motion.has_step_duration_s()) rows.emplace_back("step duration", FormatNumber(motion.step_duration_s()) + " s");
+  rows.emplace_back("cycle", spec.cycle() == v1::CYCLE_FULL ? "full" : "half, mirrored");
+  if (spec.ground_contact().has_friction_coefficient()) {
+    rows.emplace_back("friction", FormatNumber(spec.ground_contact().friction_coefficient()));
+  }
+  return PairRows(rows);
+}
+
+json CostRows(const v1::SolveResult& result) {
+  json rows = json::array();
+  for (const v1::CostValue& cost : result.costs()) {
+    rows.push_back({{"name", cost.name()},
+                    {"weight", cost.weight()},
+                    {"value", cost.value()},
+                    {"unit", cost.unit()},
+                    {"contribution", cost.contribution()}});
+  }
+  return rows;
+}
+
+json MeshRows(const v1::SolveResult& result) {
+  json rows = json::array();
+  for (const v1::MeshStatistics& mesh : result.meshes()) {
+    std::string intervals;
+    for (const int n : mesh.intervals()) intervals += (intervals.empty() ? "" : " + ") + std::to_string(n);
+    rows.push_back({{"intervals", intervals},
+                    {"unknowns", mesh.unknowns()},
+                    {"constraints", mesh.constraints()},
+                    {"jacobian", mesh.jacobian_nonzeros()},
+                    {"hessian", mesh.hessian_nonzeros()},
+                    {"iterations", mesh.iterations()},
+                    {"wall", FormatDuration(mesh.wall_time_s())},
+                    {"evaluation", FormatDuration(mesh.evaluation_time_s())},
+                    {"objective", mesh.objective()},
+                    {"kkt", mesh.kkt_error()},
+                    {"gap_mm", 1e3 * mesh.max_gap_m()},
+                    {"slip_mm_s", 1e3 * mesh.max_slip_m_s()}});
+  }
+  return rows;
+}
+
+json AccuracyRows(const v1::Solve& solve) {
+  json rows = json::array();
+  for (const AccuracyLine& line : AccuracyLines(solve)) {
+    rows.push_back({{"name", line.name},
+                    {"value", line.value},
+                    {"unit", line.unit},
+                    {"where", line.where},
+                    {"explanation", line.explanation},
+                    {"bound", line.bound ? json(*line.bound) : json()}});
+  }
+  return rows;
+}
+
+json UnmetRows(const v1::SolveResult& result) {
+  json rows = json::array();
+  for (const v1::UnmetConstraint& unmet : result.unmet_constraints()) {
+    rows.push_back({{"name", unmet.name()},
+                    {"violation", unmet.violation()},
+                    {"unit", unmet.unit()},
+                    {"phase", unmet.phase()},
+                    {"time", unmet.time_s()}});
+  }
+  return rows;
+}
+
+// The members of a solve that do not need its motion.
+json SolveData(const v1::Solve& solve, const std::string& label) {
+  const v1::SolveResult& result = solve.result();
+  int iterations = 0;
+  for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
+  const bool good = ExitCodeOf(solve) == ExitCode::kSuccess;
+  return {{"name", solve.name()},
+          {"label", label},
+          {"slope_rad", solve.spec().slope_rad()},
+          {"verdict", Verdict(solve)},
+          {"good", good},
+          {"accurate", good && result.accuracy().within_requested_accuracy()},
+          {"created", FormatTime(solve.create_time())},
+          {"from_cache", solve.from_cache()},
+          {"request", RequestRows(solve.spec())},
+          {"spec", ToJsonText(solve.spec())},
+          {"speed", result.speed_m_s()},
+          {"step_length", result.step_length_m()},
+          {"objective", result.objective()},
+          {"iterations", iterations},
+          {"wall", FormatDuration(result.wall_time_s())},
+          {"build", result.solver_build()},
+          {"scheme", SchemeName(result.trajectory().scheme())},
+          {"costs", CostRows(result)},
+          {"accuracy", result.has_accuracy() ? AccuracyRows(solve) : json::array()},
+          {"meshes", MeshRows(result)},
+          {"unmet", UnmetRows(result)},
+          {"model", ModelData(result.model())},
+          {"stride", json()}};
+}
+
+}  // namespace
+
+json ReportData(const std::vector<v1::Solve>& solves, const std::string& title) {
+  const std::vector<std::string> labels = Labels(solves);
+  json list = json::array();
+  for (size_t i = 0; i < solves.size(); ++i) {
+    json solve = SolveData(solves[i], labels[i]);
+    const v1::SolveResult& result = solves[i].result();
+    if (result.has_trajectory() && result.trajectory().phases_size() > 0 && result.has_model()) {
+      solve["stride"] = StrideData(BuildStride(result.trajectory(), result.model(), kStrideIntervals), result.model());
+    }
+    list.push_back(std::move(solve));
+  }
+  const std::string standard = solves.size() == 1 ? "Optimal gait" : "Optimal gaits";
+  return {{"title", title.empty() ? standard : title}, {"program", "rollgait " ROLLGAIT_VERSION}, {"solves", list}};
+}
+
+}  // namespace rollgait::client

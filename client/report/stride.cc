@@ -1,0 +1,147 @@
+#include "client/report/stride.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "client/failure.h"
+#include "client/report/kinematics.h"
+
+namespace rollgait::client {
+namespace {
+
+int MirrorContact(const v1::Model& model, int contact) {
+  const std::string& name = model.contacts(contact).mirror_contact();
+  for (int i = 0; i < model.contacts_size(); ++i) {
+    if (model.contacts(i).name() == name) return i;
+  }
+  throw Failure(ExitCode::kUsage, "model.contacts[" + std::to_string(contact) + "].mirror_contact is \"" + name +
+                                      "\", which is no contact of the model");
+}
+
+bool Contains(const std::vector<int>& contacts, int contact) {
+  return std::find(contacts.begin(), contacts.end(), contact) != contacts.end();
+}
+
+// The phases of the whole cycle in s, from the start of the trajectory.
+std::vector<Motion::PhaseSpan> CyclePhases(const Motion& motion, const v1::Model& model, bool half) {
+  std::vector<Motion::PhaseSpan> phases = motion.phases();
+  if (!half) return phases;
+  for (Motion::PhaseSpan span : motion.phases()) {
+    span.start_s += motion.duration_s();
+    span.end_s += motion.duration_s();
+    for (int& contact : span.contacts) contact = MirrorContact(model, contact);
+    std::sort(span.contacts.begin(), span.contacts.end());
+    phases.push_back(span);
+  }
+  return phases;
+}
+
+bool IsRight(const v1::Model& model, int contact) {
+  const std::string& joint = model.joints(model.contacts(contact).joint()).name();
+  return joint.size() > 2 && joint.compare(joint.size() - 2, 2, "_r") == 0;
+}
+
+struct Start {
+  int contact = -1;
+  size_t phase = 0;
+};
+
+// Where 0 % is: the touch-down of a right contact, else any touch-down, else the start of the trajectory.
+Start FindStart(const std::vector<Motion::PhaseSpan>& phases, const v1::Model& model) {
+  Start start;
+  for (size_t i = 0; i < phases.size(); ++i) {
+    const auto& before = phases[(i + phases.size() - 1) % phases.size()].contacts;
+    for (const int contact : phases[i].contacts) {
+      if (Contains(before, contact)) continue;
+      if (start.contact < 0) start = {contact, i};
+      if (IsRight(model, contact)) return {contact, i};
+    }
+  }
+  if (start.contact < 0 && !phases[0].contacts.empty()) start.contact = phases[0].contacts[0];
+  return start;
+}
+
+}  // namespace
+
+std::vector<double> ForwardShift(const v1::Model& model, double displacement_m) {
+  std::vector<double> shift(model.joints_size(), 0.0);
+  const std::vector<double> zero(model.joints_size(), 0.0);
+  const std::vector<Pose> poses = LinkPoses(model, zero);
+  std::vector<bool> at_root(model.joints_size(), false);
+  for (int i = 0; i < model.joints_size(); ++i) {
+    const v1::Joint& joint = model.joints(i);
+    const bool free = joint.type() == v1::Joint::TYPE_PRISMATIC && !joint.actuated();
+    at_root[i] = free && (joint.parent() < 0 || at_root[joint.parent()]);
+    const Eigen::Vector3d axis(joint.axis().x(), joint.axis().y(), joint.axis().z());
+    if (at_root[i]) shift[i] = displacement_m * (poses[i].rotation * axis).x();
+  }
+  return shift;
+}
+
+Instant Mirror(const Instant& instant, const v1::Model& model) {
+  Instant image = instant;
+  for (int i = 0; i < model.joints_size(); ++i) {
+    const int to = model.joints(i).mirror_joint();
+    const double sign = model.joints(i).mirror_sign();
+    if (to < 0 || to >= model.joints_size()) {
+      throw Failure(ExitCode::kUsage, "model.joints[" + std::to_string(i) + "].mirror_joint is " + std::to_string(to) +
+                                          ", must be in [0, " + std::to_string(model.joints_size() - 1) + "]");
+    }
+    image.position[to] = sign * instant.position[i];
+    image.velocity[to] = sign * instant.velocity[i];
+    image.effort[to] = sign * instant.effort[i];
+  }
+  for (int c = 0; c < model.contacts_size(); ++c) {
+    const int to = MirrorContact(model, c);
+    image.active[to] = instant.active[c];
+    image.force[to] = {instant.force[c][0], -instant.force[c][1], instant.force[c][2]};
+  }
+  return image;
+}
+
+Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, int intervals) {
+  const Motion motion(trajectory, model);
+  const bool half = trajectory.cycle() != v1::CYCLE_FULL;
+  const double span = motion.duration_s();
+  const auto cycle = CyclePhases(motion, model, half);
+  const Start start = FindStart(cycle, model);
+
+  Stride stride;
+  stride.duration_s = half ? 2 * span : span;
+  stride.displacement_m = half ? 2 * motion.displacement_m() : motion.displacement_m();
+  stride.reference_contact = start.contact;
+  const double zero_s = cycle[start.phase].start_s;
+  const std::vector<double> shift = ForwardShift(model, motion.displacement_m());
+
+  // The instant at time t ≥ 0 from the start of the trajectory, any number of spans later.
+  const auto at = [&](double t, bool from_left) {
+    const double tolerance = (from_left ? -1e-9 : 1e-9) * span;
+    const int spans = std::max(0, static_cast<int>(std::floor((t + tolerance) / span)));
+    Instant instant = motion.At(t - spans * span, from_left);
+    if (half && spans % 2 == 1) instant = Mirror(instant, model);
+    for (size_t i = 0; i < shift.size(); ++i) instant.position[i] += spans * shift[i];
+    return instant;
+  };
+  for (int i = 0; i <= intervals; ++i) {
+    const double time = stride.duration_s * i / intervals;
+    stride.samples.push_back({100.0 * i / intervals, time, at(zero_s + time, i == intervals)});
+  }
+  for (size_t i = 0; i < cycle.size(); ++i) {
+    const size_t current = (start.phase + i) % cycle.size();
+    const auto& contacts = cycle[current].contacts;
+    const auto& before = cycle[(current + cycle.size() - 1) % cycle.size()].contacts;
+    const double length = 100.0 * (cycle[current].end_s - cycle[current].start_s) / stride.duration_s;
+    const double from = stride.phases.empty() ? 0.0 : stride.phases.back().end_percent;
+    stride.phases.push_back({from, i + 1 == cycle.size() ? 100.0 : from + length, contacts});
+    for (const int contact : contacts) {
+      if (!Contains(before, contact)) stride.events.push_back({from, contact, true});
+    }
+    for (const int contact : before) {
+      if (!Contains(contacts, contact)) stride.events.push_back({from, contact, false});
+    }
+  }
+  return stride;
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,165 @@
+#include "client/spec_flags.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "client/failure.h"
+#include "client/json.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+// The value that the word stands for.
+template <typename Enum>
+Enum Lookup(const std::string& flag, const std::string& word, const std::map<std::string, Enum>& words) {
+  const auto found = words.find(word);
+  if (found != words.end()) return found->second;
+  std::string known;
+  for (const auto& [name, value] : words) known += (known.empty() ? "" : ", ") + name;
+  throw Failure(ExitCode::kUsage, flag + " " + word + ": must be one of " + known);
+}
+
+double ParseWeight(const std::string& cost, const std::string& text) {
+  try {
+    size_t used = 0;
+    const double weight = std::stod(text, &used);
+    if (used == text.size()) return weight;
+  } catch (const std::logic_error&) {
+    // Not a number; said below.
+  }
+  throw Failure(ExitCode::kUsage,
+                "--cost " + cost + ": the weight after the colon must be a number, for example work:0.5");
+}
+
+v1::CostTerm ParseCost(const std::string& cost) {
+  enum class Term { kTorque, kTorqueRate, kWork, kTime };
+  const size_t colon = cost.find(':');
+  v1::CostTerm term;
+  switch (Lookup<Term>(
+      "--cost", cost.substr(0, colon),
+      {{"torque", Term::kTorque}, {"torque-rate", Term::kTorqueRate}, {"work", Term::kWork}, {"time", Term::kTime}})) {
+    case Term::kTorque:
+      term.mutable_squared_torque();
+      break;
+    case Term::kTorqueRate:
+      term.mutable_squared_torque_rate();
+      break;
+    case Term::kWork:
+      term.mutable_mechanical_work();
+      break;
+    case Term::kTime:
+      term.mutable_time();
+      break;
+  }
+  if (colon != std::string::npos) term.set_weight(ParseWeight(cost, cost.substr(colon + 1)));
+  return term;
+}
+
+void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
+  if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed) return;
+  v1::Motion& motion = *spec.mutable_motion();
+  if (flags.free_speed) {
+    motion.set_free_speed(true);
+    motion.clear_speed_m_s();
+  }
+  if (flags.speed_m_s) {
+    motion.set_speed_m_s(*flags.speed_m_s);
+    if (!flags.free_speed) motion.set_free_speed(false);
+  }
+  if (flags.step_length_m) motion.set_step_length_m(*flags.step_length_m);
+  if (flags.step_duration_s) motion.set_step_duration_s(*flags.step_duration_s);
+}
+
+void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
+  using Discretization = v1::Discretization;
+  using Accuracy = v1::Accuracy;
+  if (flags.scheme) {
+    spec.mutable_discretization()->set_scheme(
+        Lookup<Discretization::Scheme>("--scheme", *flags.scheme,
+                                       {{"radau2", Discretization::SCHEME_RADAU2},
+                                        {"radau3", Discretization::SCHEME_RADAU3},
+                                        {"hermite-simpson", Discretization::SCHEME_HERMITE_SIMPSON}}));
+  }
+  if (flags.intervals) spec.mutable_discretization()->set_single_support_intervals(*flags.intervals);
+  if (flags.double_intervals) spec.mutable_discretization()->set_double_support_intervals(*flags.double_intervals);
+  if (flags.accuracy) {
+    spec.mutable_accuracy()->set_level(Lookup<Accuracy::Level>(
+        "--accuracy", *flags.accuracy,
+        {{"draft", Accuracy::LEVEL_DRAFT}, {"standard", Accuracy::LEVEL_STANDARD}, {"fine", Accuracy::LEVEL_FINE}}));
+  }
+  if (flags.tolerance) spec.mutable_accuracy()->set_kkt_tolerance(*flags.tolerance);
+  if (flags.max_refinements) spec.mutable_accuracy()->set_max_refinements(*flags.max_refinements);
+  if (flags.max_iterations) spec.mutable_solver_limits()->set_max_iterations(*flags.max_iterations);
+  if (flags.time_limit_s) spec.mutable_solver_limits()->set_max_wall_time_s(*flags.time_limit_s);
+}
+
+}  // namespace
+
+void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
+  command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
+  command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
+  command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]")->group("Body");
+}
+
+void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
+  command.add_option("--spec", flags.file, "Request as proto3 JSON of rollgait.v1.SolveSpec; flags override it");
+  command.add_option("--model", flags.model, "Model name, see `rollgait models`")->group("Body");
+  AddBodyFlags(command, flags);
+  const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {
+    return command.add_option(name, value, help)->group(group);
+  };
+  add("--slope", flags.slope_deg, "Motion", "Inclination of the ground in degrees, [-45, 45]; positive is uphill");
+  add("--speed", flags.speed_m_s, "Motion", "Mean speed along the slope in m/s, (0, 4]");
+  add("--step-length", flags.step_length_m, "Motion", "Distance of a step in m, (0, 2]");
+  add("--step-duration", flags.step_duration_s, "Motion", "Duration of a step in s, [0.1, 5]");
+  command.add_flag("--free-speed", flags.free_speed, "Leave the speed to the optimiser")->group("Motion");
+  add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
+  add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
+  add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");
+  add("--cost", flags.costs, "Cost", "torque, torque-rate, work or time, with [:WEIGHT]; may be repeated")->take_all();
+  add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
+  add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
+  add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
+  add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
+  add("--accuracy", flags.accuracy, "Numerics", "draft, standard or fine");
+  add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
+  add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 6]");
+  add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");
+  add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
+}
+
+void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
+  if (flags.model) selection.set_name(*flags.model);
+  if (flags.sex) {
+    selection.set_sex(Lookup<v1::ModelSelection::Sex>(
+        "--sex", *flags.sex, {{"female", v1::ModelSelection::SEX_FEMALE}, {"male", v1::ModelSelection::SEX_MALE}}));
+  }
+  if (flags.stature_m) selection.set_stature_m(*flags.stature_m);
+  if (flags.mass_kg) selection.set_body_mass_kg(*flags.mass_kg);
+}
+
+v1::SolveSpec BuildSpec(const SpecFlags& flags) {
+  v1::SolveSpec spec;
+  if (!flags.file.empty()) ReadJsonFile(flags.file, spec);
+  if (flags.model || flags.sex || flags.stature_m || flags.mass_kg) ApplyBodyFlags(flags, *spec.mutable_model());
+  if (flags.slope_deg) spec.set_slope_rad(*flags.slope_deg * kPi / 180.0);
+  ApplyMotion(flags, spec);
+  if (flags.cycle) {
+    spec.set_cycle(Lookup<v1::Cycle>("--cycle", *flags.cycle, {{"half", v1::CYCLE_HALF}, {"full", v1::CYCLE_FULL}}));
+  }
+  if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
+  if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
+  if (!flags.costs.empty()) spec.clear_costs();
+  for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
+  if (flags.normalization) {
+    spec.set_cost_normalization(Lookup<v1::CostNormalization>("--normalize", *flags.normalization,
+                                                              {{"distance", v1::COST_NORMALIZATION_PER_DISTANCE},
+                                                               {"time", v1::COST_NORMALIZATION_PER_TIME},
+                                                               {"none", v1::COST_NORMALIZATION_NONE}}));
+  }
+  ApplyNumerics(flags, spec);
+  return spec;
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,42 @@
+// A gait request from the command line: the only place where degrees become radians.
+#ifndef ROLLGAIT_CLIENT_SPEC_FLAGS_H_
+#define ROLLGAIT_CLIENT_SPEC_FLAGS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollgait/v1/solve_spec.pb.h"
+
+namespace CLI {
+class App;
+}
+
+namespace rollgait::client {
+
+// What was given on the command line; unset values are left to the file or to the server's defaults.
+struct SpecFlags {
+  std::string file;
+  std::optional<std::string> model, sex, scheme, cycle, accuracy, normalization;
+  std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;
+  std::optional<double> friction, clearance_m, tolerance, time_limit_s;
+  std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
+  bool free_speed = false;
+  std::vector<std::string> costs;  // "torque", "work:0.5" …
+};
+
+void AddSpecFlags(CLI::App& command, SpecFlags& flags);
+
+// Only the flags of model selection (--sex, --stature, --mass), for other commands.
+void AddBodyFlags(CLI::App& command, SpecFlags& flags);
+
+// The model selection of the flags, on top of `selection`.
+void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection);
+
+// The request: the file's content, if a file is named, overridden by the flags. Ranges are checked by the server.
+// Throws Failure(kUsage) for a word that is not in a flag's list, and for a file that is not a SolveSpec.
+v1::SolveSpec BuildSpec(const SpecFlags& flags);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_SPEC_FLAGS_H_

@@ -1,0 +1,114 @@
+#include "client/summary.h"
+
+#include <vector>
+
+#include "client/accuracy_table.h"
+#include "client/failure.h"
+#include "client/terminal.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string Section(const std::string& title, const Rows& rows, const std::string& alignment, bool color) {
+  return rows.empty() ? "" : "\n" + Paint(title, Tone::kBold, color) + "\n" + FormatTable(rows, alignment);
+}
+
+Rows GaitRows(const v1::Solve& solve) {
+  const v1::SolveResult& result = solve.result();
+  const v1::Trajectory& trajectory = result.trajectory();
+  Rows rows = {{"  slope", FormatNumber(solve.spec().slope_rad() * 180 / kPi), "°"},
+               {"  speed", FormatNumber(result.speed_m_s()), "m/s"},
+               {"  step length", FormatNumber(result.step_length_m()), "m"}};
+  for (const v1::TrajectoryPhase& phase : trajectory.phases()) {
+    const double share = trajectory.duration_s() > 0 ? 100 * phase.duration_s() / trajectory.duration_s() : 0;
+    rows.push_back({"  " + PhaseName(phase), FormatNumber(phase.duration_s()),
+                    "s (" + FormatNumber(share, 3) + " % of the " +
+                        (trajectory.cycle() == v1::CYCLE_FULL ? "cycle" : "half cycle") + ")"});
+  }
+  return rows;
+}
+
+Rows CostRows(const v1::SolveResult& result) {
+  Rows rows;
+  for (const v1::CostValue& cost : result.costs()) {
+    rows.push_back({"  " + cost.name(), FormatNumber(cost.value(), 6), cost.unit(),
+                    "weight " + FormatNumber(cost.weight()), "adds " + FormatNumber(cost.contribution(), 6)});
+  }
+  rows.push_back({"  objective", FormatNumber(result.objective(), 8)});
+  return rows;
+}
+
+Rows AccuracyRows(const v1::Solve& solve, bool color) {
+  Rows rows;
+  for (const AccuracyLine& line : AccuracyLines(solve)) {
+    std::string bound;
+    if (line.bound) {
+      const bool met = line.value <= *line.bound;
+      bound = Paint(met ? "≤ " : "exceeds ", met ? Tone::kGood : Tone::kBad, color) + FormatNumber(*line.bound);
+    }
+    std::string note = bound + (bound.empty() || line.where.empty() ? "" : "; ") + line.where;
+    rows.push_back({"  " + line.name, FormatNumber(line.value, 3), line.unit, note});
+  }
+  return rows;
+}
+
+Rows UnmetRows(const v1::SolveResult& result) {
+  Rows rows;
+  for (const v1::UnmetConstraint& unmet : result.unmet_constraints()) {
+    rows.push_back({"  " + unmet.name(), "by " + FormatNumber(unmet.violation()) + " " + unmet.unit(),
+                    "phase " + std::to_string(unmet.phase()) + " at " + FormatNumber(unmet.time_s(), 3) + " s"});
+  }
+  return rows;
+}
+
+std::string EffortLine(const v1::Solve& solve) {
+  const v1::SolveResult& result = solve.result();
+  int iterations = 0;
+  for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
+  return "\n" + std::to_string(iterations) + " iterations on " + std::to_string(result.meshes_size()) +
+         (result.meshes_size() == 1 ? " mesh, " : " meshes, ") + FormatDuration(result.wall_time_s()) + " wall, " +
+         FormatDuration(result.cpu_time_s()) + " CPU, " +
+         FormatNumber(static_cast<double>(result.peak_memory_bytes()) / 1048576.0, 3) + " MiB" +
+         (solve.from_cache() ? "; answered from an earlier, equal request" : "") + "\n";
+}
+
+}  // namespace
+
+std::string Verdict(const v1::Solve& solve) {
+  switch (solve.state()) {
+    case v1::SOLVE_STATE_SUCCEEDED:
+      return TerminationName(solve.result().termination()) +
+             (solve.result().message().empty() ? "" : ": " + solve.result().message());
+    case v1::SOLVE_STATE_FAILED:
+      return "failed (" + ErrorKindName(solve.error().kind()) + "): " + solve.error().message();
+    case v1::SOLVE_STATE_CANCELLED:
+      return "cancelled" + (solve.error().message().empty() ? "" : ": " + solve.error().message());
+    default:
+      return StateName(solve.state());
+  }
+}
+
+std::string Summarize(const v1::Solve& solve, bool color) {
+  const bool good = ExitCodeOf(solve) == ExitCode::kSuccess;
+  const bool open = solve.state() == v1::SOLVE_STATE_QUEUED || solve.state() == v1::SOLVE_STATE_RUNNING;
+  const Tone tone = good ? Tone::kGood : open ? Tone::kPlain : Tone::kBad;
+  std::string text = Paint(solve.name(), Tone::kBold, color) + "  " + Paint(Verdict(solve), tone, color) + "\n";
+  if (!solve.has_result()) return text;
+  const v1::SolveResult& result = solve.result();
+  text += Section("Constraints that are not met", UnmetRows(result), "l", color);
+  if (result.has_trajectory()) {
+    text += Section("Gait", GaitRows(solve), "lr", color);
+    text += Section("Cost", CostRows(result), "lr", color);
+  }
+  if (result.has_accuracy()) {
+    text += Section(result.accuracy().within_requested_accuracy() ? "Accuracy (within what was requested)"
+                                                                  : "Accuracy (NOT within what was requested)",
+                    AccuracyRows(solve, color), "lr", color);
+  }
+  return text + EffortLine(solve);
+}
+
+}  // namespace rollgait::client

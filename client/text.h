@@ -1,0 +1,47 @@
+// Words and numbers for people.
+#ifndef ROLLGAIT_CLIENT_TEXT_H_
+#define ROLLGAIT_CLIENT_TEXT_H_
+
+#include <google/protobuf/timestamp.pb.h>
+#include <grpcpp/support/status_code_enum.h>
+
+#include <string>
+#include <vector>
+
+#include "rollgait/v1/solve.pb.h"
+
+namespace rollgait::client {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The number with so many significant digits, without trailing zeros; "inf", "nan" as such.
+std::string FormatNumber(double value, int significant_digits = 4);
+
+// The length of time with a unit that suits it: "340 µs", "12.3 ms", "4.56 s", "3 min 20 s".
+std::string FormatDuration(double seconds);
+
+// "2026-11-21 06:31:00 UTC"; "-" if unset.
+std::string FormatTime(const google::protobuf::Timestamp& time);
+
+// Lower-case words for people: "running", "iteration limit", "double support" …
+std::string StateName(v1::SolveState state);
+std::string TerminationName(v1::Termination termination);
+std::string ErrorKindName(v1::SolveError::Kind kind);
+std::string SchemeName(v1::Discretization::Scheme scheme);
+// "INVALID_ARGUMENT", as gRPC spells it.
+std::string StatusCodeName(grpc::StatusCode code);
+
+// What a trajectory phase is called: "double support" with two contacts or more, "single support, left_foot" with one.
+std::string PhaseName(const v1::TrajectoryPhase& phase);
+
+// "solves/{id}" from "solves/{id}" or "{id}". Throws Failure(kUsage) for an empty name.
+std::string SolveName(const std::string& name);
+
+// Rows of cells as lines: columns padded to their widest cell and separated by two spaces, no trailing spaces.
+// The columns whose letter in `alignment` is 'r' are set flush right; columns beyond it are flush left.
+// Width counts UTF-8 characters, not bytes.
+std::string FormatTable(const std::vector<std::vector<std::string>>& rows, const std::string& alignment);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_TEXT_H_
