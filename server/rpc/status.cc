@@ -1,6 +1,5 @@
 #include "server/rpc/status.h"
 
-#include <algorithm>
 #include <string>
 
 #include "google/rpc/error_details.pb.h"
@@ -64,11 +63,11 @@ grpc::Status ToStatus(const Error& error) {
   details.set_message(Text(error.message));
   if (!error.violations.empty()) {
     google::rpc::BadRequest bad_request;
-    const size_t count = std::min(error.violations.size(), kMaxViolations);
-    for (size_t i = 0; i < count; ++i) {
-      auto* violation = bad_request.add_field_violations();
-      violation->set_field(Text(error.violations[i].field));
-      violation->set_description(Text(error.violations[i].message));
+    for (const Violation& violation : error.violations) {
+      if (bad_request.ByteSizeLong() > kMaxDetailBytes) break;
+      auto* field = bad_request.add_field_violations();
+      field->set_field(Text(violation.field));
+      field->set_description(Text(violation.message));
     }
     details.add_details()->PackFrom(bad_request);
   }

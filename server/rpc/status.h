@@ -8,12 +8,12 @@
 namespace rollgait::server {
 
 // The RPC status of an error. Violations go as google.rpc.BadRequest, a time to try again as google.rpc.RetryInfo, both
-// in grpc-status-details-bin; at most kMaxViolations of them and texts cut to kMaxText bytes, because clients bound the
-// size of headers.
+// in grpc-status-details-bin. Clients take 8 KiB of headers by default: texts are cut to kMaxText bytes, and violations
+// are left out from where they exceed kMaxDetailBytes (the message tells how many there are).
 grpc::Status ToStatus(const Error& error);
 
-inline constexpr size_t kMaxViolations = 20;
 inline constexpr size_t kMaxText = 300;
+inline constexpr size_t kMaxDetailBytes = 4000;
 
 }  // namespace rollgait::server
 
