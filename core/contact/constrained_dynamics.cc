@@ -59,6 +59,15 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   // In y = Lᵀ a:  y = L⁻¹ f + A λ  with A = L⁻¹ Jᵀ, and the constraint is  Aᵀ y = r.
   free_ = force;
   cholesky_.matrixL().solveInPlace(free_);
+  solution->rank = 0;
+  solution->redundant = false;
+  solution->residual = 0;
+  solution->forces.resize(m);
+  if (m == 0) {
+    solution->acceleration = free_;
+    cholesky_.matrixU().solveInPlace(solution->acceleration);
+    return;
+  }
   a_ = jacobian.transpose();
   cholesky_.matrixL().solveInPlace(a_);
   right_ = right_side;
@@ -79,27 +88,25 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
     for (int k = 0; k < i; ++k) sum -= r_(k, i) * z_[k];
     z_[i] = sum / r_(i, i);
   }
-  free_.noalias() += q_.leftCols(rank_) * z_;
+  if (rank_ > 0) free_.noalias() += q_.leftCols(rank_) * z_;
   solution->acceleration = free_;
   cholesky_.matrixU().solveInPlace(solution->acceleration);
 
   // Forces: R λ = z, square if no row is redundant, else its solution of least norm λ = Rᵀ (R Rᵀ)⁻¹ z.
   forces_.setZero(m);
-  if (rank_ < m) {
+  if (rank_ < m && rank_ > 0) {
     gram_.noalias() = r_.topRows(rank_) * r_.topRows(rank_).transpose();
-    if (rank_ > 0) forces_.noalias() = r_.topRows(rank_).transpose() * gram_.llt().solve(z_);
-  } else {
+    forces_.noalias() = r_.topRows(rank_).transpose() * gram_.llt().solve(z_);
+  } else if (rank_ == m) {
     for (int i = m - 1; i >= 0; --i) {
       double sum = z_[i];
       for (int k = i + 1; k < m; ++k) sum -= r_(i, k) * forces_[k];
       forces_[i] = sum / r_(i, i);
     }
   }
-  solution->forces.resize(m);
   for (int i = 0; i < m; ++i) solution->forces[pivots_[i]] = forces_[i] * scale_[pivots_[i]];
   solution->rank = rank_;
   solution->redundant = rank_ < m;
-  solution->residual = 0;
   for (int i = 0; i < m; ++i) {
     const double residual = std::abs(jacobian.row(i).dot(solution->acceleration) - right_side[i]);
     if (!(residual <= solution->residual)) solution->residual = residual;

@@ -117,6 +117,16 @@ TEST(ConstrainedSolver, ContradictoryRowsShowInTheResidual) {
   EXPECT_GT(solution.residual, 0.9);
 }
 
+TEST(ConstrainedSolver, RowsWithoutEffectTransmitNothing) {
+  ConstrainedSolver solver;
+  ConstrainedSolution solution;
+  solver.Solve(2 * MatrixX::Identity(3, 3), VectorX::Ones(3), MatrixX::Zero(2, 3), VectorX::Zero(2), &solution);
+  EXPECT_EQ(solution.rank, 0);
+  EXPECT_TRUE(solution.redundant);
+  EXPECT_TRUE(MatrixNear(solution.acceleration, VectorX::Constant(3, 0.5), 1e-15));
+  EXPECT_TRUE(MatrixNear(solution.forces, VectorX::Zero(2), 0));
+}
+
 TEST_F(ConstrainedDynamicsTest, BaumgarteTermsAreOffUnlessGiven) {
   ConstrainedDynamics plain(dynamics_, {surfaces_[0]}), corrected(dynamics_, {surfaces_[0]}, Baumgarte{3, 0.7, 2});
   const auto rate_of_slip = [&](ConstrainedDynamics& constrained) {
