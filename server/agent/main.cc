@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "server/agent/agent.h"
-#include "server/solve/solver_build.h"
+#include "server/base/solver_build.h"
 #include "server/store/sqlite_store.h"
 
 namespace rollgait::server {

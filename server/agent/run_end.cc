@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "server/solve/solver_build.h"
+#include "server/base/solver_build.h"
 
 namespace rollgait::server {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "server/agent/solver_process.h"
-#include "server/solve/wire.pb.h"
+#include "server/base/wire.pb.h"
 #include "server/store/solve_store.h"
 
 namespace rollgait::server {

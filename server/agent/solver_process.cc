@@ -13,7 +13,7 @@
 #include <cstring>
 #include <utility>
 
-#include "server/solve/process_limits.h"
+#include "server/base/process_limits.h"
 
 extern char** environ;
 

@@ -12,7 +12,7 @@
 #include <iterator>
 
 #include "server/base/framing.h"
-#include "server/solve/wire.pb.h"
+#include "server/base/wire.pb.h"
 
 namespace rollgait::server {
 namespace {

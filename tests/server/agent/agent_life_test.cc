@@ -1,0 +1,142 @@
+// How an agent begins, ends, and takes over from another one.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include "server/agent/agent.h"
+#include "tests/server/agent/agent_fixture.h"
+
+namespace rollgait::server {
+namespace {
+
+using ::testing::SizeIs;
+
+class AgentLifeTest : public AgentFixture {};
+
+bool Exists(pid_t pid) { return kill(pid, 0) == 0; }
+
+TEST_F(AgentLifeTest, KeepsIdleSolversReady) {
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return agent->IdleProcesses().size() == 2; }));
+  // One that dies is replaced.
+  const pid_t first = agent->IdleProcesses()[0];
+  kill(first, SIGKILL);
+  EXPECT_TRUE(StepUntil(*agent, [&] {
+    const std::vector<pid_t> pids = agent->IdleProcesses();
+    return pids.size() == 2 && std::find(pids.begin(), pids.end(), first) == pids.end();
+  }));
+}
+
+TEST_F(AgentLifeTest, StopGivesTheSolvesBackAndLeavesNoProcess) {
+  const std::string id = Queue("hang");
+  auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 1; }));
+  const std::vector<pid_t> idle = agent->IdleProcesses();
+  EXPECT_THAT(idle, SizeIs(1));
+  ASSERT_EQ(write(stop_[1], "x", 1), 1);
+  EXPECT_FALSE(agent->Step(std::chrono::seconds(5)));
+  EXPECT_EQ(Get(id).state, SolveState::kQueued);
+  EXPECT_EQ(Get(id).crashes, 0);
+  for (const pid_t pid : idle) EXPECT_FALSE(Exists(pid));
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no child is left";
+  const std::string lock = DataDir{directory_}.AgentLock(agent->owner());
+  EXPECT_TRUE(std::filesystem::exists(lock));
+  agent.reset();
+  EXPECT_FALSE(std::filesystem::exists(lock));
+}
+
+TEST_F(AgentLifeTest, WithoutRollgaitdItFinishesWhatRunsAndClaimsNothing) {
+  const std::string running = Queue("iterations 1 sleep 200 iterations 1 result");
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(running) == 1; }));
+  close(std::exchange(lifeline_[1], -1));
+  agent->Step(std::chrono::milliseconds(0));
+  const std::string queued = Queue("result");
+  while (agent->Step(std::chrono::seconds(1))) {
+  }
+  EXPECT_EQ(Get(running).state, SolveState::kSucceeded);
+  EXPECT_EQ(CountIterations(running), 2);
+  EXPECT_EQ(Get(queued).state, SolveState::kQueued);
+}
+
+TEST_F(AgentLifeTest, AnIdleAgentWithoutRollgaitdGoesAtOnce) {
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return agent->IdleProcesses().size() == 2; }));
+  close(std::exchange(lifeline_[1], -1));
+  EXPECT_FALSE(agent->Step(std::chrono::seconds(5)));
+}
+
+TEST_F(AgentLifeTest, TwoAgentsKeepToTheSlotsTogether) {
+  Agent::Options options = Options();
+  options.slots = 1;
+  const auto first = MakeAgent(options), second = MakeAgent(options);
+  const std::string one = Queue("hang"), two = Queue("result");
+  ASSERT_TRUE(StepUntil(*first, [&] { return CountIterations(one) == 1; }));
+  for (int i = 0; i < 20; ++i) second->Step(std::chrono::milliseconds(20));
+  EXPECT_EQ(second->running(), 0);
+  EXPECT_EQ(Get(two).state, SolveState::kQueued);
+}
+
+TEST_F(AgentLifeTest, TheSolvesOfADeadAgentAreRunAgain) {
+  const std::string id = Queue("result");
+  // An agent that was killed: it holds a lease and no lock.
+  ASSERT_TRUE(store_->ClaimNext("agent-dead", kLeaseDuration).value().has_value());
+  ASSERT_EQ(Get(id).state, SolveState::kRunning);
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 2);
+  EXPECT_EQ(record.crashes, 0) << "the request is not to blame";
+}
+
+TEST_F(AgentLifeTest, ALivingAgentKeepsItsSolves) {
+  const std::string id = Queue("result");
+  const auto lock = FileLock::TryAcquire(directory_ + "/ignored");
+  ASSERT_TRUE(std::filesystem::create_directory(DataDir{directory_}.AgentsDir()));
+  const auto alive = FileLock::TryAcquire(DataDir{directory_}.AgentLock("agent-alive"));
+  ASSERT_TRUE(alive.ok() && alive.value());
+  ASSERT_TRUE(store_->ClaimNext("agent-alive", kLeaseDuration).value().has_value());
+  const auto agent = MakeAgent();
+  for (int i = 0; i < 20; ++i) agent->Step(std::chrono::milliseconds(10));
+  EXPECT_EQ(Get(id).state, SolveState::kRunning);
+  EXPECT_EQ(Get(id).attempts, 1);
+}
+
+TEST_F(AgentLifeTest, AResultInTheSpoolOfADeadAgentIsCommittedAndNotComputedAgain) {
+  const std::string id = Queue("crash");
+  const ClaimedSolve claimed = *store_->ClaimNext("agent-dead", kLeaseDuration).value();
+  v1::SolveResult result;
+  result.set_objective(42);
+  ASSERT_TRUE(Spool::Open(directory_ + "/spool")
+                  .value()
+                  .Put({claimed.lease, {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}})
+                  .ok());
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 1);
+  EXPECT_EQ(ResultOf(record).objective(), 42);
+  EXPECT_TRUE(std::filesystem::is_empty(directory_ + "/spool"));
+}
+
+TEST_F(AgentLifeTest, ALostLeaseKillsTheSolverAndWritesNothing) {
+  const std::string id = Queue("iterations 1 sleep 100 iterations 1 hang");
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 1; }));
+  ASSERT_TRUE(store_->ReclaimOwner(agent->owner()).ok());
+  ASSERT_TRUE(store_->ClaimNext("another", kLeaseDuration).value().has_value());
+  EXPECT_TRUE(StepUntil(*agent, [&] { return agent->running() == 0; }));
+  EXPECT_EQ(CountIterations(id), 1);
+  EXPECT_EQ(Get(id).state, SolveState::kRunning) << "it is the other agent's now";
+}
+
+TEST_F(AgentLifeTest, PokesRollgaitd) {
+  NotifyReceiver rollgaitd = std::move(NotifyReceiver::Create(directory_, kServerSocket)).value();
+  const std::string id = Queue("result");
+  const auto agent = MakeAgent();
+  RunToEnd(*agent, id);
+  EXPECT_THAT(rollgaitd.Drain(), ::testing::Contains(id));
+}
+
+}  // namespace
+}  // namespace rollgait::server

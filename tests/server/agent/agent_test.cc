@@ -1,0 +1,164 @@
+// What becomes of a solve, for every way in which its solver can end.
+#include "server/agent/agent.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/server/agent/agent_fixture.h"
+
+namespace rollgait::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+class AgentTest : public AgentFixture {};
+
+TEST_F(AgentTest, RelaysIterationsInOrderAndThenTheResult) {
+  const std::string id = Queue("iterations 40 sleep 30 iterations 2 result");
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 1);
+  const v1::SolveResult result = ResultOf(record);
+  EXPECT_EQ(result.termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_GT(result.cpu_time_s(), 0);
+  EXPECT_GT(result.peak_memory_bytes(), 100'000);
+  EXPECT_THAT(result.solver_build(), HasSubstr("rollgait "));
+  int next = 0;
+  for (const v1::SolveEvent& event : Events(id)) {
+    if (!event.has_iteration()) continue;
+    EXPECT_EQ(event.iteration().index(), next < 40 ? next : next - 40);
+    EXPECT_GT(event.time().seconds(), 0);
+    ++next;
+  }
+  EXPECT_EQ(next, 42);
+  EXPECT_TRUE(std::filesystem::is_empty(directory_ + "/spool"));
+}
+
+TEST_F(AgentTest, TheFirstIterationDoesNotWaitForTheEnd) {
+  const std::string id = Queue("iterations 1 obey");
+  const auto agent = MakeAgent();
+  EXPECT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) >= 1; }));
+  EXPECT_EQ(Get(id).state, SolveState::kRunning);
+}
+
+TEST_F(AgentTest, ANumericalFailureIsAResult) {
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, Queue("infeasible"));
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 1);
+  EXPECT_EQ(ResultOf(record).termination(), v1::TERMINATION_INFEASIBLE);
+}
+
+TEST_F(AgentTest, AResultCountsWhateverTheExitStatus) {
+  const auto agent = MakeAgent();
+  EXPECT_EQ(RunToEnd(*agent, Queue("result crash")).state, SolveState::kSucceeded);
+}
+
+TEST_F(AgentTest, ASolverThatDoesNotEndAfterItsResultIsKilled) {
+  const auto agent = MakeAgent();
+  EXPECT_EQ(RunToEnd(*agent, Queue("result hang")).state, SolveState::kSucceeded);
+}
+
+TEST_F(AgentTest, ACrashIsRetriedThreeTimesAndLeavesItsEvidence) {
+  const std::string id = Queue("iterations 2 print out-of-cheese crash");
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kFailed);
+  EXPECT_EQ(record.attempts, 3);
+  EXPECT_EQ(Error(record).kind(), v1::SolveError::KIND_CRASH);
+  EXPECT_THAT(Error(record).message(), HasSubstr("signal 11"));
+  EXPECT_THAT(Error(record).message(), HasSubstr("out-of-cheese"));
+}
+
+TEST_F(AgentTest, ExitStatusZeroWithoutAResultIsACrash) {
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, Queue("iterations 3"));
+  EXPECT_EQ(record.state, SolveState::kFailed);
+  EXPECT_EQ(record.crashes, 3);
+  EXPECT_THAT(Error(record).message(), HasSubstr("exit status 0 without a result"));
+}
+
+TEST_F(AgentTest, TheSecondAttemptMaySucceed) {
+  const std::string id = Queue("iterations 2 once " + directory_ + "/died iterations 3 result");
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 2);
+  EXPECT_EQ(record.crashes, 1);
+  EXPECT_GE(CountIterations(id), 5) << "numbers go on over attempts";
+}
+
+TEST_F(AgentTest, GarbageOnTheStreamIsACrash) {
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, Queue("garbage hang"));
+  EXPECT_EQ(record.state, SolveState::kFailed);
+  EXPECT_THAT(Error(record).message(), HasSubstr("not a frame"));
+}
+
+TEST_F(AgentTest, AClosedStreamIsACrash) {
+  const auto agent = MakeAgent();
+  EXPECT_EQ(Error(RunToEnd(*agent, Queue("close"))).kind(), v1::SolveError::KIND_CRASH);
+}
+
+TEST_F(AgentTest, MemoryAndTimeLimitsAreNotRetried) {
+  const auto agent = MakeAgent();
+  SolveRecord record = RunToEnd(*agent, Queue("memory"));
+  EXPECT_EQ(Error(record).kind(), v1::SolveError::KIND_MEMORY_LIMIT);
+  EXPECT_EQ(record.attempts, 1);
+  record = RunToEnd(*agent, Queue("xcpu"));
+  EXPECT_EQ(Error(record).kind(), v1::SolveError::KIND_TIME_LIMIT);
+  EXPECT_EQ(record.attempts, 1);
+}
+
+TEST_F(AgentTest, ASolverThatIgnoresItsWallTimeIsKilled) {
+  Agent::Options options = Options();
+  options.wall_grace = std::chrono::milliseconds(50);
+  const auto agent = MakeAgent(options);
+  const SolveRecord record = RunToEnd(*agent, Queue("hang", 0.1));
+  EXPECT_EQ(record.state, SolveState::kFailed);
+  EXPECT_EQ(Error(record).kind(), v1::SolveError::KIND_TIME_LIMIT);
+}
+
+TEST_F(AgentTest, CancellingDropsThePartialResult) {
+  const std::string id = Queue("obey");
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 1; }));
+  ASSERT_TRUE(store_->RequestCancel(id).ok());
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kCancelled);
+  EXPECT_EQ(Error(record).kind(), v1::SolveError::KIND_CANCELLED);
+  EXPECT_TRUE(record.result.empty());
+}
+
+TEST_F(AgentTest, ASolverThatIgnoresTheCancellationIsKilled) {
+  const std::string id = Queue("hang");
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 1; }));
+  ASSERT_TRUE(store_->RequestCancel(id).ok());
+  EXPECT_EQ(RunToEnd(*agent, id).state, SolveState::kCancelled);
+}
+
+TEST_F(AgentTest, ManySolvesShareTheSlots) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 12; ++i) ids.push_back(Queue("iterations 5 sleep 10 result"));
+  const auto agent = MakeAgent();
+  int most = 0;
+  EXPECT_TRUE(StepUntil(*agent, [&] {
+    most = std::max(most, agent->running());
+    return IsTerminal(Get(ids.back()).state) && agent->running() == 0;
+  }));
+  EXPECT_EQ(most, 2);
+  for (const std::string& id : ids) {
+    EXPECT_EQ(Get(id).state, SolveState::kSucceeded) << id;
+    EXPECT_EQ(CountIterations(id), 5) << id;
+  }
+}
+
+TEST_F(AgentTest, ALargeRequestGoesThroughTheSmallSocket) {
+  const std::string id = Queue("iterations 1 result" + std::string(3'000'000, ' '));
+  const auto agent = MakeAgent();
+  EXPECT_EQ(RunToEnd(*agent, id).state, SolveState::kSucceeded);
+}
+
+}  // namespace
+}  // namespace rollgait::server
