@@ -14,26 +14,33 @@ VectorX JointWeights(const Model& model, const std::map<std::string, double>& na
   return weights;
 }
 
+TrackingCost DescribeTracking(const GaitRequest::Tracking& tracking, const Model& model) {
+  TrackingCost cost;
+  for (const GaitRequest::Tracking::Channel& channel : tracking.channels) {
+    const int joint = model.Find(channel.joint);
+    ROLLGAIT_CHECK(joint >= 0);
+    cost.channels.push_back({joint, channel.weight.value(), CubicSpline(channel.positions)});
+  }
+  return cost;
+}
+
 CostDescription DescribeCost(const GaitSpec::CostTerm& term, const OptimalControlProblem& problem) {
   const PointLayout layout = problem.Layout(0);
   CostDescription description;
   description.weight = term.weight;
   if (const auto* torque = std::get_if<GaitRequest::SquaredTorque>(&term.term)) {
-    description.integrand = std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, torque->joint_weights),
-                                                                layout, problem.effort_size());
+    description.term = std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, torque->joint_weights), layout,
+                                                           problem.effort_size());
   } else if (const auto* rate = std::get_if<GaitRequest::SquaredTorqueRate>(&term.term)) {
-    description.effort_rate_weights = JointWeights(problem.model, rate->joint_weights);
-    // Efforts change by a third of their size in a tenth of a second.
-    const double typical = problem.effort_size() / 0.3;
-    description.effort_rate_typical = description.effort_rate_weights.sum() * typical * typical;
+    description.term = EffortRateCost{JointWeights(problem.model, rate->joint_weights), problem.effort_size()};
   } else if (const auto* work = std::get_if<GaitRequest::MechanicalWork>(&term.term)) {
     // About 0.5 J per newton of weight and metre.
-    description.integrand = std::make_unique<MechanicalWorkCost>(
-        work->smoothing.value(), problem.model.actuated(), layout, 0.5 * problem.force_size());
+    description.term = std::make_unique<MechanicalWorkCost>(work->smoothing.value(), problem.model.actuated(), layout,
+                                                            0.5 * problem.force_size());
   } else if (std::holds_alternative<GaitRequest::Time>(term.term)) {
-    description.integrand = std::make_unique<TimeCost>();
+    description.term = std::make_unique<TimeCost>();
   } else {
-    ROLLGAIT_CHECK(std::holds_alternative<GaitRequest::Tracking>(term.term));
+    description.term = DescribeTracking(std::get<GaitRequest::Tracking>(term.term), problem.model);
   }
   return description;
 }

@@ -27,8 +27,8 @@ std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, Colloca
   for (size_t t = 0; t < problem.costs.size(); ++t) {
     const CostDescription& term = problem.costs[t];
     CostValue value;
-    value.name = term.integrand ? term.integrand->Name() : "squared torque rate";
-    value.unit = term.integrand ? term.integrand->Unit() : "N² m²/s";
+    value.name = term.Name();
+    value.unit = term.Unit();
     value.weight = term.weight;
     value.value = integrals(static_cast<int>(t));
     value.contribution = term.weight * value.value / nlp.Denominator(x);

@@ -3,10 +3,9 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "core/ocp/point_function.h"
+#include "core/ocp/cost_description.h"
 
 namespace rollgait {
 
@@ -19,14 +18,6 @@ struct Interval {
 struct PhaseDescription {
   std::vector<int> active;
   Interval duration;  // s
-};
-
-// One cost term: an integrand, or the squared rate of the efforts (which no single instant knows).
-struct CostDescription {
-  std::unique_ptr<PointCost> integrand;   // null for the effort rate
-  VectorX effort_rate_weights;            // per actuated joint, for the effort rate
-  double effort_rate_typical = 1;         // its order of magnitude, for scaling
-  double weight = 1;
 };
 
 // What the sum of the cost integrals is divided by.

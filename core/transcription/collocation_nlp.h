@@ -8,8 +8,11 @@
 
 #include "core/nlp/problem.h"
 #include "core/trajectory/sampling.h"
+#include "core/transcription/coupling_term.h"
+#include "core/transcription/entry_rows.h"
 #include "core/transcription/interval_block.h"
 #include "core/transcription/layout.h"
+#include "core/transcription/linear_rows.h"
 
 namespace rollgait {
 
@@ -21,7 +24,8 @@ struct MotionGuess {
 };
 
 // The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).
-//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity; travel
+//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity; travel; continuous
+//   efforts
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
@@ -49,60 +53,34 @@ class CollocationNlp : public NlpProblem {
 
   VectorX MakeStart(const MotionGuess& guess) const;
   Trajectory Extract(const double* x);
-  // Unweighted integral of every cost term, and the denominator.
+  // Unweighted integral of every cost term in the order of the problem, and what their weighted sum is divided by.
   VectorX CostIntegrals(const double* x);
   double Denominator(const double* x) const;
   double displacement(const double* x) const { return x[layout_.displacement()]; }
   double duration(const double* x) const;
 
-  // What a row is, and where it is in time.
-  struct RowInfo {
-    std::string name, unit;
-    double size = 1;
-    int phase = 0;
-    double time = 0;
-  };
   RowInfo Describe(const double* x, int row) const;
 
  private:
-  // Σ coefficient · x  as a row, or an entry row at a node.
-  struct LinearRow {
-    std::string name, unit;
-    double size;
-    std::vector<std::pair<int, double>> terms;  // (unknown, coefficient of the unknown as it stands in x)
-  };
-  struct EntryRow {
-    std::unique_ptr<PointConstraint> constraint;
-    int node, phase, first_row;
-    Entries jacobian, hessian;
-  };
-  // Efforts of two consecutive points, (τ_b − τ_a)² / Δt with Δt = ratio · T_phase.
-  struct EffortLink {
-    std::vector<int> from, to;     // unknown of every actuated joint
-    std::vector<double> sign;      // of the later effort (mirror image)
-    int phase;
-    double ratio;
-  };
-
   double StepRatio(int interval) const { return layout_.length(interval); }
   double Step(const double* x, int interval) const {
     return x[layout_.duration(layout_.phase(interval))] * StepRatio(interval);
   }
   int GlobalColumn(int interval, int local) const;
-  void SetBounds();
-  void AddIntervalRows();
-  void AddEntryRows();
-  void AddLinearRow(LinearRow row, double lower, double upper);
-  void AddPeriodicityRows();
-  void AddTravelRows();
-  void AddEffortLinks();
+  void SetDenominator();
+  void SetStateBounds();
+  void SetControlBounds();
+  void SetRowBounds();
   void BuildPatterns();
+  void AddDenominatorPattern();
   void ScaleObjective();
-  void LoadEntry(const double* x, const EntryRow& row, bool second);
-  // Weighted sum of all integrals; fills the gradient by the unknowns if asked.
+  // Fills integrals_ and returns their weighted sum.
   double WeightedIntegral(const double* x);
-  void AddLinkGradient(const double* x, double factor, double* gradient) const;
-  double LinkIntegral(const double* x, const VectorX& weights) const;
+  // weights_ = factor · weight of every term.
+  void SetWeights(double factor);
+  void AddCouplingGradient(const double* x, double* gradient);
+  double* IntervalHessians(const double* x, const double* lambda, double* values);
+  double* DenominatorHessian(const double* x, double factor, double* values);
 
   const OptimalControlProblem& problem_;
   Scheme scheme_kind_;
@@ -111,19 +89,17 @@ class CollocationNlp : public NlpProblem {
   DecisionLayout layout_;
   PointWorkspace workspace_;
   std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase
-  std::vector<EntryRow> entries_;
-  std::vector<LinearRow> linear_;
-  std::vector<EffortLink> links_;
-  VectorX link_weights_;              // Σ over effort-rate terms of weight · joint weights
-  std::vector<int> denominator_;      // unknowns whose sum divides the integrals; empty: nothing
-  std::vector<int> cost_unknowns_;    // unknowns with a cost gradient, without the durations
+  std::vector<std::unique_ptr<CouplingTerm>> coupling_;  // one a cost term, null for those with an integrand
+  EntryRows entries_;
+  LinearRows linear_;
+  std::vector<int> denominator_;    // unknowns whose sum divides the integrals; empty: nothing
+  std::vector<int> cost_unknowns_;  // unknowns with a cost gradient, without the durations
   int rows_ = 0, first_entry_row_ = 0, first_linear_row_ = 0;
   VectorX lower_, upper_, row_lower_, row_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
   double objective_scale_ = 1;
 
-  VectorX integrals_, weights_, local_gradient_, cost_gradient_, entry_z_, entry_lambda_;
-  MatrixX entry_jacobian_, entry_hessian_;
+  VectorX integrals_, weights_, local_gradient_, cost_gradient_;
 };
 
 }  // namespace rollgait

@@ -18,7 +18,7 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
     set_node(k, guess.motion(p, layout_.start(k)));
     for (int i = 0; i < scheme_.points(); ++i) {
       const MotionSample sample = guess.motion(p, layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k));
-      if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / 10;
+      if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
       int index = 0;
       for (const ActiveContact& active : problem_.ActiveContacts(p)) {

@@ -1,213 +1,12 @@
 #include "core/transcription/interval_block.h"
 
-#include <algorithm>
-#include <map>
-#include <set>
-
 namespace rollgait {
 namespace {
 
 using Kind = EliminatedScheme::Kind;
 constexpr Kind kKinds[] = {EliminatedScheme::kPosition, EliminatedScheme::kVelocity, EliminatedScheme::kAcceleration};
-constexpr double kAccelerationScale = 10;  // m/s², rad/s²
 
 }  // namespace
-
-PointWorkspace::PointWorkspace(const OptimalControlProblem& problem, bool with_dual) : tree(problem.model) {
-  for (const ContactSurface& contact : problem.contacts) {
-    contacts.emplace_back(problem.model, contact);
-    if (with_dual) dual_contacts.emplace_back(problem.model, contact);
-  }
-}
-
-IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
-                             PointWorkspace* workspace)
-    : problem_(problem),
-      scheme_(scheme),
-      workspace_(workspace),
-      layout_(problem.Layout(phase)),
-      points_count_(scheme.points()),
-      controls_(layout_.efforts + layout_.forces),
-      regular_(problem.PointConstraints(phase, false)),
-      active_contacts_(problem.phases[phase].active) {
-  if (scheme.tableau().starts_at_node()) at_node_ = problem.PointConstraints(phase, true);
-  for (int c = 0; c < static_cast<int>(problem.contacts.size()); ++c) used_contacts_.push_back(c);
-  local_size_ = 4 * layout_.n + (points_count_ - 2) * layout_.n + points_count_ * controls_;
-  scale_ = VectorX::Ones(local_size_);
-  scale_.segment(2 * layout_.n, (points_count_ - 2) * layout_.n).setConstant(kAccelerationScale);
-  for (int i = 0; i < points_count_; ++i) {
-    scale_.segment(ControlOffset(i), layout_.efforts).setConstant(problem.effort_size());
-    scale_.segment(ControlOffset(i) + layout_.efforts, layout_.forces).setConstant(problem.force_size());
-  }
-  for (auto* m : {value_, first_, second_}) {
-    for (int k = 0; k < 3; ++k) m[k] = MatrixX::Zero(points_count_, scheme.sources());
-  }
-  context_.tree = &workspace->tree;
-  context_.contacts = &workspace->contacts;
-  context_.dual_contacts = &workspace->dual_contacts;
-  z_ = VectorX::Zero(layout_.size());
-  context_.z = z_.data();
-  z_rate_ = z_curve_ = VectorX::Zero(3 * layout_.n);
-  hessian_ = MatrixX::Zero(layout_.size(), layout_.size());
-  gradient_ = cost_gradient_ = VectorX::Zero(layout_.size());
-  local_ = MatrixX::Zero(local_size_ + 1, local_size_ + 1);
-  block_ = MatrixX::Zero(layout_.n, controls_);
-  turned_ = VectorX::Zero(3 * layout_.n);
-  BuildPoints();
-  BuildJacobianPattern();
-  BuildHessianPattern();
-}
-
-void IntervalBlock::BuildPoints() {
-  int largest = 0;
-  for (int i = 0; i < points_count_; ++i) {
-    Point point;
-    point.at_node = i == 0 && !at_node_.empty();
-    for (const auto& constraint : point.at_node ? at_node_ : regular_) {
-      point.constraints.push_back(constraint.get());
-      point.rows += constraint->rows();
-    }
-    point.first_row = rows_;
-    rows_ += point.rows;
-    point.row_size.resize(point.rows);
-    int row = 0;
-    for (PointConstraint* constraint : point.constraints) {
-      for (int r = 0; r < constraint->rows(); ++r) point.row_size(row++) = constraint->Size(r);
-    }
-    largest = std::max(largest, point.rows);
-    points_.push_back(std::move(point));
-  }
-  jacobian_ = MatrixX::Zero(largest, layout_.size());
-  scaled_lambda_.resize(largest);
-}
-
-int IntervalBlock::SourceOffset(int source) const {
-  const int n = layout_.n;
-  if (source < 2) return source * n;
-  if (source < 4) return local_size_ - 2 * n + (source - 2) * n;
-  return 2 * n + (source - 4) * n;
-}
-
-void IntervalBlock::BuildJacobianPattern() {
-  const int n = layout_.n;
-  for (int i = 0; i < points_count_; ++i) {
-    Point& point = points_[i];
-    int row0 = 0;
-    std::map<std::pair<int, int>, int> kinds;  // (row, coordinate) -> bit set of q, v, a
-    for (PointConstraint* constraint : point.constraints) {
-      for (const auto& [row, column] : constraint->JacobianPattern()) {
-        if (column >= 3 * n) {
-          point.control_entries.emplace_back(row0 + row, column);
-        } else {
-          kinds[{row0 + row, column % n}] |= 1 << (column / n);
-        }
-      }
-      row0 += constraint->rows();
-    }
-    std::set<int> dense_rows;
-    for (const auto& [where, bits] : kinds) {
-      for (int source = 0; source < scheme_.sources(); ++source) {
-        bool depends = false;
-        for (Kind kind : kKinds) depends |= ((bits >> kind) & 1) != 0 && scheme_.Depends(kind, i, source);
-        if (depends) point.state_entries.push_back({where.first, where.second, source});
-      }
-      dense_rows.insert(where.first);
-    }
-    point.dense_rows.assign(dense_rows.begin(), dense_rows.end());
-    for (const auto& e : point.state_entries) {
-      jacobian_pattern_.emplace_back(point.first_row + e.row, SourceOffset(e.source) + e.coordinate);
-    }
-    for (const auto& [row, column] : point.control_entries) {
-      jacobian_pattern_.emplace_back(point.first_row + row, ControlOffset(i) + column - 3 * n);
-    }
-    for (int row : point.dense_rows) jacobian_pattern_.emplace_back(point.first_row + row, local_size_);
-  }
-}
-
-void IntervalBlock::BuildHessianPattern() {
-  const int n = layout_.n;
-  std::set<std::pair<int, int>> lower;
-  std::set<int> cost;
-  const auto add = [&lower](int a, int b) { lower.emplace(std::max(a, b), std::min(a, b)); };
-  // Local variables behind variable `column` of z at point i.
-  const auto behind = [&](int i, int column) {
-    std::vector<int> locals;
-    if (column >= 3 * n) return std::vector<int>{ControlOffset(i) + column - 3 * n};
-    for (int source = 0; source < scheme_.sources(); ++source) {
-      if (scheme_.Depends(static_cast<Kind>(column / n), i, source)) locals.push_back(SourceOffset(source) + column % n);
-    }
-    return locals;
-  };
-  for (int i = 0; i < points_count_; ++i) {
-    Entries pairs;
-    std::set<int> step_coupled;  // variables of z that meet h: all that enter anything nonlinear
-    for (PointConstraint* constraint : points_[i].constraints) {
-      const Entries p = constraint->HessianPattern();
-      pairs.insert(pairs.end(), p.begin(), p.end());
-      for (const auto& [row, column] : constraint->JacobianPattern()) {
-        if (column < 3 * n) step_coupled.insert(column);
-      }
-    }
-    for (const CostDescription& term : problem_.costs) {
-      if (!term.integrand) continue;
-      for (const auto& [a, b] : term.integrand->HessianPattern()) {
-        pairs.emplace_back(a, b);
-        for (int column : {a, b}) {
-          step_coupled.insert(column);
-          for (int local : behind(i, column)) cost.insert(local);
-        }
-      }
-    }
-    for (const auto& [a, b] : pairs) {
-      for (int x : behind(i, a)) {
-        for (int y : behind(i, b)) add(x, y);
-      }
-      if (a < 3 * n) step_coupled.insert(b);
-      if (b < 3 * n) step_coupled.insert(a);
-    }
-    for (int column : step_coupled) {
-      for (int x : behind(i, column)) add(local_size_, x);
-    }
-  }
-  add(local_size_, local_size_);
-  hessian_pattern_.assign(lower.begin(), lower.end());
-  // Column by column, as the dense local matrix is stored.
-  std::sort(hessian_pattern_.begin(), hessian_pattern_.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
-  cost_variables_.assign(cost.begin(), cost.end());
-}
-
-void IntervalBlock::Bounds(double start, double length, bool last, double* lower, double* upper) const {
-  for (int i = 0; i < points_count_; ++i) {
-    const Point& point = points_[i];
-    const double fraction = start + scheme_.tableau().c(i) * length;
-    int row = point.first_row;
-    for (PointConstraint* constraint : point.constraints) {
-      constraint->Bounds(fraction, lower + row, upper + row);
-      // A gap at the end of its phase is the business of the next phase: touch-down fixes it.
-      const bool end_of_phase = last && i == points_count_ - 1;
-      for (int r = 0; r < constraint->rows(); ++r, ++row) {
-        if (end_of_phase && constraint->Unit(r) == "m") lower[row] = -kInfinity;
-        lower[row] /= constraint->Size(r);
-        upper[row] /= constraint->Size(r);
-      }
-    }
-  }
-}
-
-IntervalBlock::RowInfo IntervalBlock::Describe(int row) const {
-  for (int i = 0; i < points_count_; ++i) {
-    int first = points_[i].first_row;
-    for (PointConstraint* constraint : points_[i].constraints) {
-      if (row < first + constraint->rows()) {
-        const int r = row - first;
-        return {constraint->Name(r), constraint->Unit(r), constraint->Size(r), i};
-      }
-      first += constraint->rows();
-    }
-  }
-  ROLLGAIT_CHECK(false);
-}
 
 void IntervalBlock::SetStep(double h) {
   if (h == step_) return;
@@ -251,9 +50,9 @@ void IntervalBlock::UpdateWorkspace(int i, bool dynamics, bool second) {
   } else {
     workspace_->tree.UpdateKinematics(z_.data(), z_.data() + n);
   }
-  for (int c : used_contacts_) {
-    workspace_->contacts[c].Update(workspace_->tree);
-    if (second) workspace_->contacts[c].UpdateSecond();
+  for (auto& contact : workspace_->contacts) {
+    contact.Update(workspace_->tree);
+    if (second) contact.UpdateSecond();
   }
   if (!points_[i].at_node) return;
   for (int c : active_contacts_) {
@@ -272,9 +71,8 @@ void IntervalBlock::Integrals(const double* y, double h, double* integrals) {
   SetStep(h);
   for (int i = 0; i < points_count_; ++i) {
     LoadPoint(y, i);
-    for (size_t t = 0; t < problem_.costs.size(); ++t) {
-      PointCost* integrand = problem_.costs[t].integrand.get();
-      if (integrand != nullptr) integrals[t] += h * scheme_.tableau().b(i) * integrand->Value(context_);
+    for (size_t t = 0; t < costs_.size(); ++t) {
+      if (costs_[t] != nullptr) integrals[t] += h * scheme_.tableau().b(i) * costs_[t]->Value(context_);
     }
   }
 }
@@ -287,8 +85,8 @@ void IntervalBlock::CostGradient(const double* y, double h, const double* weight
     LoadPoint(y, i);
     cost_gradient_.setZero();
     const double b = scheme_.tableau().b(i);
-    for (size_t t = 0; t < problem_.costs.size(); ++t) {
-      PointCost* integrand = problem_.costs[t].integrand.get();
+    for (size_t t = 0; t < costs_.size(); ++t) {
+      PointCost* integrand = costs_[t];
       if (integrand == nullptr) continue;
       gradient(local_size_) += weights[t] * b * integrand->Value(context_);
       integrand->AddGradient(context_, weights[t] * h * b, cost_gradient_);
@@ -368,8 +166,8 @@ void IntervalBlock::Hessian(const double* y, double h, const double* lambda, con
     const double b = scheme_.tableau().b(i);
     hessian_.setZero();
     cost_gradient_.setZero();
-    for (size_t t = 0; t < problem_.costs.size(); ++t) {
-      PointCost* integrand = problem_.costs[t].integrand.get();
+    for (size_t t = 0; t < costs_.size(); ++t) {
+      PointCost* integrand = costs_[t];
       if (integrand == nullptr) continue;
       integrand->AddGradient(context_, weights[t] * b, cost_gradient_);  // without the factor h
       integrand->AddHessian(context_, weights[t] * h * b, hessian_);

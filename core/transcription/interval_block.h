@@ -6,16 +6,9 @@
 
 #include "core/math/collocation.h"
 #include "core/ocp/problem.h"
+#include "core/transcription/point_workspace.h"
 
 namespace rollgait {
-
-// Tree and contacts at the instant under evaluation; shared by all blocks of a problem, so one problem serves one thread.
-struct PointWorkspace {
-  PointWorkspace(const OptimalControlProblem& problem, bool with_dual);
-  TreeDynamics tree;
-  std::vector<ContactDerivatives<double>> contacts;
-  std::vector<ContactDerivatives<Dual>> dual_contacts;
-};
 
 // All collocation points of one interval of a phase, as a function of the slice of unknowns from the node before it to the node
 // after it (local variables, scaled) and of its length h (the last local variable, in s). Position, velocity and acceleration
@@ -46,7 +39,7 @@ class IntervalBlock {
   };
   RowInfo Describe(int row) const;
 
-  // integrals (one per cost term; zero for effort rates) are added to.
+  // integrals (one per cost term; those without an integrand are left alone) are added to.
   void Integrals(const double* y, double h, double* integrals);
   // gradient (local_size() + 1) = ∂/∂(y, h) of Σ_t weights[t] · integral_t.
   void CostGradient(const double* y, double h, const double* weights, Eigen::Ref<VectorX> gradient);
@@ -92,7 +85,8 @@ class IntervalBlock {
   PointLayout layout_;
   int points_count_, controls_, local_size_, rows_ = 0;
   std::vector<std::unique_ptr<PointConstraint>> regular_, at_node_;
-  std::vector<int> used_contacts_, active_contacts_;
+  std::vector<PointCost*> costs_;  // one per cost term, null for a CouplingTerm
+  std::vector<int> active_contacts_;
   std::vector<Point> points_;
   VectorX scale_;
   Entries jacobian_pattern_, hessian_pattern_;

@@ -16,6 +16,9 @@ struct Mesh {
   std::vector<int> Intervals() const;
 };
 
+// Unknown accelerations are in units of this, m/s² or rad/s²; efforts and forces in those of the problem's sizes.
+inline constexpr double kAccelerationScale = 10;
+
 // The only place that knows where unknowns sit in the decision vector. Stage order:
 //   node 0, interior of interval 0, node 1, interior of interval 1, … , node N, durations T_0 … T_P−1, displacement D.
 // A node is (q, v); the interior of an interval is the accelerations of its first s − 2 points, then (τ, f) point by point.
@@ -39,6 +42,12 @@ class DecisionLayout {
   int interior(int interval) const { return node_[interval] + 2 * n_; }
   int interior_size(int phase) const { return (points_ - 2) * n_ + points_ * per_point_[phase]; }
   int free_acceleration(int interval, int point) const { return interior(interval) + point * n_; }
+  // First unknown of a source of EliminatedScheme: node states before and after, free accelerations; and its unit.
+  int source(int interval, int source) const {
+    if (source >= 4) return free_acceleration(interval, source - 4);
+    return node_[interval + source / 2] + source % 2 * n_;
+  }
+  static double source_scale(int source) { return source >= 4 ? kAccelerationScale : 1; }
   int efforts(int interval, int point) const {
     return interior(interval) + (points_ - 2) * n_ + point * per_point_[phase_of_[interval]];
   }

@@ -21,6 +21,8 @@ GaitRequest PlanarRequest() {
   request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
   request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
   request.costs.push_back({GaitRequest::Time{}, 100.0});
+  request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}},
+                           5e4});
   return request;
 }
 
