@@ -17,12 +17,12 @@
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
 #include "server/base/notify.h"
+#include "server/base/solver_build.h"
 #include "server/base/supervisor.h"
 #include "server/rpc/rpc_server.h"
 #include "server/service/core_knowledge.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
-#include "server/solve/solver_build.h"
 #include "server/store/sqlite_store.h"
 
 namespace rollgait::server {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <ostream>
 
+#include "server/base/solver_build.h"
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/result_convert.h"
-#include "server/solve/solver_build.h"
 
 namespace rollgait::server {
 namespace {

@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "core/gait/optimizing_gait_solver.h"
+#include "server/base/process_limits.h"
+#include "server/base/solver_build.h"
 #include "server/solve/local_solve.h"
-#include "server/solve/process_limits.h"
-#include "server/solve/solver_build.h"
 #include "server/solve/worker.h"
 
 namespace rollgait::server {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "server/base/framing.h"
+#include "server/base/solver_build.h"
+#include "server/base/wire.pb.h"
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/result_convert.h"
-#include "server/solve/solver_build.h"
-#include "server/solve/wire.pb.h"
 
 namespace rollgait::server {
 namespace {
@@ -53,7 +53,10 @@ WorkerExit SolveAndSend(int fd, const GaitSpec& spec, GaitSolver& solver, StopFl
 int memory_limit_fd = -1;
 std::string* memory_limit_frame = nullptr;
 
-void SendMemoryLimit() {
+}  // namespace
+
+void OnFailedAllocation() {
+  if (memory_limit_frame == nullptr) return;
   const char* bytes = memory_limit_frame->data();
   size_t left = memory_limit_frame->size();
   while (left > 0) {
@@ -65,13 +68,11 @@ void SendMemoryLimit() {
   _exit(kWorkerDone);
 }
 
-}  // namespace
-
 void ReportMemoryLimitOn(int fd) {
   memory_limit_fd = fd;
   delete memory_limit_frame;
   memory_limit_frame = new std::string(EncodeFrame(EncodeError(v1::SolveError::KIND_MEMORY_LIMIT, kMemoryMessage)));
-  std::set_new_handler(SendMemoryLimit);
+  std::set_new_handler(OnFailedAllocation);
 }
 
 WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,

@@ -21,9 +21,12 @@ enum WorkerExit : int {
 WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
                            const std::function<void(const GaitSpec&)>& on_request);
 
-// Makes a failed `new` anywhere in this process send KIND_MEMORY_LIMIT on `fd` and end the process: libraries catch
-// std::bad_alloc and carry on with something else.
+// From now on a failed allocation sends KIND_MEMORY_LIMIT on `fd` and ends the process: libraries that notice it carry
+// on with something else. Covers `new` everywhere, and malloc where malloc_guard.cc is linked.
 void ReportMemoryLimitOn(int fd);
+
+// What a failed allocation leads to; returns if ReportMemoryLimitOn was not called.
+void OnFailedAllocation();
 
 }  // namespace rollgait::server
 

@@ -1,4 +1,4 @@
-#include "server/solve/process_limits.h"
+#include "server/base/process_limits.h"
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -13,6 +13,13 @@
 
 namespace rollgait::server {
 namespace {
+
+// Sanitizers reserve terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
 
 std::string Reason(const char* call) { return std::string(call) + ": " + std::strerror(errno); }
 
@@ -42,6 +49,7 @@ std::optional<std::string> ConfineProcess() {
 }
 
 std::optional<std::string> LimitMemory(int64_t bytes) {
+  if (kSanitized) return std::nullopt;
   const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
   if (setrlimit(RLIMIT_AS, &limit) != 0) return Reason("setrlimit RLIMIT_AS");
   return std::nullopt;

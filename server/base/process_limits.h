@@ -1,5 +1,5 @@
-#ifndef ROLLGAIT_SERVER_SOLVE_PROCESS_LIMITS_H_
-#define ROLLGAIT_SERVER_SOLVE_PROCESS_LIMITS_H_
+#ifndef ROLLGAIT_SERVER_BASE_PROCESS_LIMITS_H_
+#define ROLLGAIT_SERVER_BASE_PROCESS_LIMITS_H_
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,8 @@ std::optional<std::string> EnsureOneThread(char** argv);
 // No core dumps, no new privileges, death with the parent. Returns the reason if the kernel refuses.
 std::optional<std::string> ConfineProcess();
 
-// Bounds the address space (bytes > 0). Returns the reason if the kernel refuses.
+// Bounds the address space (bytes > 0); without effect in builds with address or thread sanitizer. Returns the reason
+// if the kernel refuses.
 std::optional<std::string> LimitMemory(int64_t bytes);
 
 // Bounds the CPU time of this process, what it has used already included (s > 0): then SIGXCPU, five seconds later
@@ -26,4 +27,4 @@ std::optional<std::string> LimitCpuTime(int64_t seconds);
 
 }  // namespace rollgait::server
 
-#endif  // ROLLGAIT_SERVER_SOLVE_PROCESS_LIMITS_H_
+#endif  // ROLLGAIT_SERVER_BASE_PROCESS_LIMITS_H_

@@ -1,5 +1,5 @@
-#ifndef ROLLGAIT_SERVER_SOLVE_SOLVER_BUILD_H_
-#define ROLLGAIT_SERVER_SOLVE_SOLVER_BUILD_H_
+#ifndef ROLLGAIT_SERVER_BASE_SOLVER_BUILD_H_
+#define ROLLGAIT_SERVER_BASE_SOLVER_BUILD_H_
 
 #include <string>
 
@@ -14,4 +14,4 @@ std::string RollgaitVersion();
 
 }  // namespace rollgait::server
 
-#endif  // ROLLGAIT_SERVER_SOLVE_SOLVER_BUILD_H_
+#endif  // ROLLGAIT_SERVER_BASE_SOLVER_BUILD_H_
