@@ -61,7 +61,7 @@ ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, cons
   CtrlC ctrl_c(CtrlC::Action::kCancelSolve, progress);
   Connection connection(global);
   const v1::Solve solve = CreateSolve(connection, request);
-  progress.Note(solve.name());
+  if (!global.json) progress.Note(solve.name());
   return FollowToEnd(connection, solve.name(), {0, options.reconnect_s}, options.output, ctrl_c, progress, terminal);
 }
 

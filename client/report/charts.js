@@ -108,7 +108,7 @@ function chart(options) {
     cursor.setAttribute("x1", x(percent));
     cursor.setAttribute("x2", x(percent));
     options.series.forEach((s, i) => { readouts[i].textContent = fmt(valueAt(s.values, percent), 3); });
-    where.textContent = `at ${percent.toFixed(1)} %`;
+    where.textContent = `${options.note ? "· " : ""}${percent.toFixed(1)} %`;
   };
   cursors.push(show);
   root.addEventListener("pointermove", (event) => {

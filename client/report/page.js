@@ -14,7 +14,7 @@ function table(head, rows, numeric) {
 }
 
 const swatch = (solve) => el("span", { class: "swatch", style: `border-color:${solveColor(solve.index)}` });
-const labelOf = (solve) => el("span", {}, swatch(solve), solve.label);
+const labelOf = (solve) => el("span", { class: "label" }, swatch(solve), solve.label);
 const doubleSupports = (stride) => stride.phases.filter((phase) => phase.contacts.length > 1);
 const rightToeOff = (stride) => {
   const right = stride.contacts.filter((c) => c.right).map((c) => c.name);
@@ -93,9 +93,9 @@ function overlaid(kind, unit, scaled) {
   const joints = MOVING[0].stride[kind];
   const all = scaled ? null : MOVING.flatMap((s) => s.stride[kind].flatMap((c) => c.values));
   const range = all ? [Math.min(0, ...all), Math.max(0, ...all)] : null;
-  return el("div", { class: "grid" }, joints.map((joint, j) => chart({
+  return el("div", { class: joints.length === 4 ? "grid four" : "grid" }, joints.map((joint, j) => chart({
     title: capital(joint.title), unit, range,
-    note: joint.positive ? `+ moves the ${joint.joint.startsWith("base") ? "body" : "limb"} ${joint.positive}` : "",
+    note: joint.positive ? `+ ${joint.positive}` : "",
     bands: MOVING.length === 1 ? doubleSupports(MOVING[0].stride) : [],
     series: MOVING.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: s.stride[kind][j].values, mark: rightToeOff(s.stride) })),
   })));
@@ -113,10 +113,10 @@ function together(kind, unit) {
 
 function curves() {
   const mass = MOVING[0].model.mass;
-  section("Joint torques of the right leg", "As in Figure 2 of the paper: torque against the gait cycle from right heel strike; triangles mark the right toe-off.",
+  section("Joint torques of the right leg", "As in Figure 2 of the paper: torque against the gait cycle from right heel strike; triangles mark the right toe-off. Beside each joint's name: where a positive value moves the part that hangs on it.",
     overlaid("torques", "N m", false), el("p", { class: "note", style: "margin-top:16px" }, `The same, one panel a gait. Body mass ${fmt(mass)} kg: 1 N m/kg is ${fmt(mass)} N m.`), together("torques", "N m"));
   section("Joint angles", "Angles of the right leg and of the trunk. Zero is the upright posture with straight legs and level feet, relative to the slope's normal.",
-    overlaid("angles", "°", true));
+    overlaid("angles", "degrees", true));
   section("Joint power of the right leg", "Torque times angular velocity: positive power adds energy, negative power takes it away.", overlaid("powers", "W", false));
   const overlays = ["normal", "tangential"].map((kind) => chart({
     title: `${capital(kind)} force, right foot`, unit: "% of body weight", note: kind === "normal" ? "out of the ground" : "+ pushes forward",
@@ -141,7 +141,7 @@ function accuracy() {
       const at = solve.accuracy[i];
       const over = at.bound !== null && at.value > at.bound;
       return el("span", { class: at.bound === null ? null : `verdict ${over ? "bad" : "good"}` }, `${fmt(at.value, 3)} ${at.unit}`,
-        el("div", { class: "soft" }, [at.bound === null ? "" : `${over ? "exceeds" : "≤"} ${fmt(at.bound)}`, at.where].filter(Boolean).join("; ")));
+        el("div", { class: "soft" }, [at.bound === null ? "" : `${over ? "exceeds" : "≤"} ${fmt(at.bound)} ${at.unit}`.trim(), at.where].filter(Boolean).join("; ")));
     })]);
   section("Accuracy", "Measured by code that shares nothing with the code that computed the gait. A figure with a bound (≤) is one that the request asks for.",
     table(["", ...known.map(labelOf)], rows, known.map((_, i) => i + 1)));

@@ -1,5 +1,5 @@
 // The walker: stick figure, feet, ground, forces; as animation and as snapshots.
-const SCALE = 150; // pixels a metre in the animation
+const SCALE = 185; // pixels a metre in the animation
 const FORCE_M = 0.006; // metres of arrow for one per cent of body weight
 
 function mix(a, b, share) {

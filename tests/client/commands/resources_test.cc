@@ -1,0 +1,125 @@
+// The commands that are one call: get, list, cancel, delete, models, server-info, report, help.
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/client/client_process.h"
+#include "tests/client/fake_gait_service.h"
+
+namespace rollgait::client {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ResourceCommandTest : public testing::Test {
+ protected:
+  struct Ended {
+    int code;
+    std::string out, err;
+  };
+  Ended Run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"--server", server_.address()});
+    ClientProcess client(arguments);
+    const int code = client.Wait();
+    return {code, client.out(), client.err()};
+  }
+  void MakeSolves() const {
+    ASSERT_EQ(Run({"-q", "solve", "--model", "planar", "--slope", "10"}).code, 0);
+    ASSERT_EQ(Run({"-q", "solve", "--model", "endless", "--detach"}).code, 0);
+  }
+
+  FakeGaitService service_;
+  FakeServer server_{service_};
+};
+
+TEST_F(ResourceCommandTest, ListTurnsPages) {
+  MakeSolves();
+  const Ended list = Run({"list"});
+  EXPECT_EQ(list.code, 0);
+  EXPECT_THAT(list.out, HasSubstr("solves/planar"));
+  EXPECT_THAT(list.out, HasSubstr("solves/endless"));
+  EXPECT_THAT(list.out, HasSubstr("10°"));
+  EXPECT_THAT(Run({"list", "--state", "running"}).out, Not(HasSubstr("solves/planar")));
+  const Ended one = Run({"list", "--limit", "1"});
+  EXPECT_THAT(one.out, Not(HasSubstr("solves/planar")));
+  EXPECT_THAT(one.err, HasSubstr("there are more"));
+  EXPECT_EQ(Run({"list", "--state", "walking"}).code, 2);
+}
+
+TEST_F(ResourceCommandTest, GetByNameOrId) {
+  MakeSolves();
+  EXPECT_THAT(Run({"get", "planar"}).out, HasSubstr("solves/planar  optimal"));
+  const Ended json = Run({"get", "solves/planar", "--json"});
+  v1::Solve solve;
+  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json.out, &solve).ok());
+  EXPECT_EQ(solve.state(), v1::SOLVE_STATE_SUCCEEDED);
+  EXPECT_THAT(Run({"get", "endless"}).out, HasSubstr("solves/endless  running"));
+  const Ended missing = Run({"get", "nosuch"});
+  EXPECT_EQ(missing.code, 7);
+  EXPECT_THAT(missing.err, HasSubstr("rollgait list"));
+}
+
+TEST_F(ResourceCommandTest, CancelAndDelete) {
+  MakeSolves();
+  EXPECT_EQ(Run({"delete", "endless"}).code, 2);  // FAILED_PRECONDITION
+  EXPECT_EQ(Run({"cancel", "endless", "nosuch"}).code, 7);
+  EXPECT_THAT(service_.cancelled(), testing::ElementsAre("solves/endless"));
+  EXPECT_EQ(Run({"delete", "endless", "planar"}).code, 0);
+  EXPECT_THAT(service_.deleted(), testing::ElementsAre("solves/endless", "solves/planar"));
+  EXPECT_EQ(Run({"delete", "planar"}).code, 7);
+}
+
+TEST_F(ResourceCommandTest, Models) {
+  EXPECT_THAT(Run({"models"}).out, HasSubstr("planar"));
+  const Ended whole = Run({"models", "planar", "--sex", "female", "--stature", "1.6"});
+  EXPECT_EQ(whole.code, 0);
+  EXPECT_THAT(whole.out, HasSubstr("ankle_r"));
+  EXPECT_THAT(whole.out, HasSubstr("(0.13, 0.05, 0.06)"));
+  v1::Model model;
+  const Ended json = Run({"models", "planar", "--sex", "female", "--stature", "1.6", "--json"});
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(json.out, &model).ok());
+  EXPECT_EQ(model.selection().sex(), v1::ModelSelection::SEX_FEMALE);
+  EXPECT_EQ(model.selection().stature_m(), 1.6);
+  EXPECT_EQ(Run({"models", "cat"}).code, 7);
+}
+
+TEST_F(ResourceCommandTest, ServerInfoHelpAndVersion) {
+  EXPECT_THAT(Run({"server-info"}).out, HasSubstr("1.2.3"));
+  EXPECT_THAT(Run({"--help"}).out, HasSubstr("4  the solve ended without a solution"));
+  EXPECT_THAT(Run({"help", "solve"}).out, HasSubstr("--slope"));
+  EXPECT_EQ(Run({"help", "dance"}).code, 2);
+  EXPECT_THAT(Run({"--version"}).out, testing::StartsWith("rollgait "));
+}
+
+TEST_F(ResourceCommandTest, BadAddress) {
+  for (const std::string address : {"nonsense", "localhost:", ":50551", "127.0.0.1:70000", "127.0.0.1:0x50"}) {
+    ClientProcess client({"--server", address, "list"});
+    EXPECT_EQ(client.Wait(), 2) << address;
+    EXPECT_THAT(client.err(), HasSubstr("HOST:PORT")) << address;
+  }
+}
+
+TEST_F(ResourceCommandTest, ReportOfServerAndFile) {
+  MakeSolves();
+  const std::string page = testing::TempDir() + "report.html";
+  const std::string file = testing::TempDir() + "report_solve.json";
+  ASSERT_EQ(Run({"get", "planar", "-q", "-o", file}).code, 0);
+  const Ended report = Run({"report", "planar", file, "-o", page});
+  EXPECT_EQ(report.code, 0) << report.err;
+  std::ifstream stream(page);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  EXPECT_THAT(text.str(), HasSubstr("<title>Optimal gaits</title>"));
+  EXPECT_THAT(text.str(), HasSubstr("solves/planar"));
+  const Ended early = Run({"report", "endless", "-o", page});
+  EXPECT_EQ(early.code, 2);
+  EXPECT_THAT(early.err, HasSubstr("rollgait watch endless"));
+  EXPECT_EQ(Run({"report", "nosuch", "-o", page}).code, 7);
+}
+
+}  // namespace
+}  // namespace rollgait::client

@@ -1,0 +1,239 @@
+#include "tests/client/fake_gait_service.h"
+
+#include <google/rpc/error_details.pb.h>
+#include <google/rpc/status.pb.h>
+#include <grpcpp/security/server_credentials.h>
+#include <grpcpp/server_builder.h>
+
+#include <chrono>
+
+#include "tests/client/sample_solve.h"
+
+namespace rollgait::client {
+namespace {
+
+grpc::Status NotFound(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "no solve is called " + name}; }
+
+grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& violations) {
+  google::rpc::BadRequest details;
+  for (const auto& [field, description] : violations) {
+    auto* const violation = details.add_field_violations();
+    violation->set_field(field);
+    violation->set_description(description);
+  }
+  google::rpc::Status rich;
+  rich.set_code(static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
+  rich.set_message("the request is not valid");
+  rich.add_details()->PackFrom(details);
+  return {grpc::StatusCode::INVALID_ARGUMENT, rich.message(), rich.SerializeAsString()};
+}
+
+v1::SolveEvent NewEvent(const std::string& name, int64_t sequence) {
+  v1::SolveEvent event;
+  event.set_name(name);
+  event.set_sequence(sequence);
+  return event;
+}
+
+}  // namespace
+
+void FakeGaitService::BreakAfter(std::multiset<int64_t> sequences) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  breaks_ = std::move(sequences);
+}
+
+std::vector<v1::CreateSolveRequest> FakeGaitService::created() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return created_;
+}
+std::vector<v1::WatchSolveRequest> FakeGaitService::watched() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return watched_;
+}
+std::vector<std::string> FakeGaitService::cancelled() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return cancelled_;
+}
+std::vector<std::string> FakeGaitService::deleted() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return deleted_;
+}
+
+void FakeGaitService::Finish(Record& record, v1::SolveState state) {
+  const int64_t sequence = static_cast<int64_t>(record.events.size()) + 1;
+  record.solve.set_state(state);
+  record.solve.set_last_sequence(sequence);
+  v1::SolveEvent event = NewEvent(record.solve.name(), sequence);
+  *event.mutable_finished() = record.solve;
+  record.events.push_back(event);
+}
+
+grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::CreateSolveRequest* request,
+                                          v1::Solve* solve) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  created_.push_back(*request);
+  const std::string& model = request->spec().model().name();
+  if (model == "refused") {
+    return Refusal(
+        {{"slope_rad", "is 0.873, must be in [-0.785, 0.785]"}, {"motion.speed_m_s", "is 9, must be in (0, 4]"}});
+  }
+  if (model != "planar" && model != "infeasible" && model != "crash" && model != "endless") {
+    return Refusal({{"model.name", "is \"" + model + "\", must be one of planar"}});
+  }
+  Record record;
+  record.solve = SampleSolve("solves/" + model, request->spec().slope_rad());
+  *record.solve.mutable_spec() = request->spec();
+  v1::SolveEvent running = NewEvent(record.solve.name(), 1);
+  running.mutable_state_change()->set_state(v1::SOLVE_STATE_RUNNING);
+  running.mutable_state_change()->set_attempt(1);
+  record.events.push_back(running);
+  for (int i = 0; i < iterations_; ++i) {
+    v1::SolveEvent event = NewEvent(record.solve.name(), i + 2);
+    event.mutable_iteration()->set_index(i);
+    event.mutable_iteration()->set_objective(1000.0 - i);
+    event.mutable_iteration()->set_primal_infeasibility(1e-3);
+    event.mutable_iteration()->set_elapsed_s(0.01 * i);
+    record.events.push_back(event);
+  }
+  record.solve.set_state(v1::SOLVE_STATE_RUNNING);
+  if (model == "infeasible") {
+    v1::SolveResult& result = *record.solve.mutable_result();
+    result.set_termination(v1::TERMINATION_INFEASIBLE);
+    result.set_message("A local minimum of infeasibility.");
+    v1::UnmetConstraint& unmet = *result.add_unmet_constraints();
+    unmet.set_name("rolling left_foot");
+    unmet.set_violation(0.25);
+    unmet.set_unit("m/s");
+  }
+  if (model == "crash") {
+    record.solve.clear_result();
+    record.solve.mutable_error()->set_kind(v1::SolveError::KIND_CRASH);
+    record.solve.mutable_error()->set_message("the solver died three times");
+  }
+  if (model == "crash") Finish(record, v1::SOLVE_STATE_FAILED);
+  if (model == "planar" || model == "infeasible") Finish(record, v1::SOLVE_STATE_SUCCEEDED);
+  *solve = record.solve;
+  solve->clear_result();
+  if (request->validate_only()) {
+    solve->clear_name();
+    return grpc::Status::OK;
+  }
+  records_[record.solve.name()] = record;
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::WatchSolve(grpc::ServerContext* context, const v1::WatchSolveRequest* request,
+                                         grpc::ServerWriter<v1::SolveEvent>* writer) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  watched_.push_back(*request);
+  if (records_.count(request->name()) == 0) return NotFound(request->name());
+  for (size_t next = static_cast<size_t>(request->after_sequence()); !context->IsCancelled();) {
+    Record& record = records_[request->name()];
+    if (next >= record.events.size()) {
+      writer->Write([&] {
+        v1::SolveEvent heartbeat = NewEvent(request->name(), static_cast<int64_t>(next));
+        heartbeat.mutable_heartbeat();
+        return heartbeat;
+      }());
+      changed_.wait_for(lock, std::chrono::milliseconds(20));
+      continue;
+    }
+    const v1::SolveEvent event = record.events[next++];
+    writer->Write(event);
+    if (event.has_finished()) return grpc::Status::OK;
+    const auto broken = breaks_.find(event.sequence());
+    if (broken != breaks_.end()) {
+      breaks_.erase(broken);
+      return {grpc::StatusCode::UNAVAILABLE, "broken by the test"};
+    }
+  }
+  return grpc::Status::CANCELLED;
+}
+
+grpc::Status FakeGaitService::GetSolve(grpc::ServerContext*, const v1::GetSolveRequest* request, v1::Solve* solve) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(request->name());
+  if (found == records_.end()) return NotFound(request->name());
+  *solve = found->second.solve;
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::ListSolves(grpc::ServerContext*, const v1::ListSolvesRequest* request,
+                                         v1::ListSolvesResponse* response) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  // One solve a page, so that the client has to turn pages; the token is the name to go on with.
+  for (auto& [name, record] : records_) {
+    if (name < request->page_token()) continue;
+    if (request->state() != v1::SOLVE_STATE_UNSPECIFIED && record.solve.state() != request->state()) continue;
+    if (response->solves_size() == 1) {
+      response->set_next_page_token(name);
+      break;
+    }
+    *response->add_solves() = record.solve;
+    response->mutable_solves(0)->clear_result();
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::CancelSolve(grpc::ServerContext*, const v1::CancelSolveRequest* request,
+                                          v1::Solve* solve) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(request->name());
+  if (found == records_.end()) return NotFound(request->name());
+  cancelled_.push_back(request->name());
+  if (found->second.solve.state() == v1::SOLVE_STATE_RUNNING) {
+    found->second.solve.clear_result();
+    found->second.solve.mutable_error()->set_kind(v1::SolveError::KIND_CANCELLED);
+    Finish(found->second, v1::SOLVE_STATE_CANCELLED);
+  }
+  *solve = found->second.solve;
+  changed_.notify_all();
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::DeleteSolve(grpc::ServerContext*, const v1::DeleteSolveRequest* request,
+                                          google::protobuf::Empty*) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(request->name());
+  if (found == records_.end()) return NotFound(request->name());
+  if (found->second.solve.state() == v1::SOLVE_STATE_RUNNING) {
+    return {grpc::StatusCode::FAILED_PRECONDITION, "the solve is running"};
+  }
+  records_.erase(found);
+  deleted_.push_back(request->name());
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::ListModels(grpc::ServerContext*, const v1::ListModelsRequest*,
+                                         v1::ListModelsResponse* response) {
+  *response->add_models() = SampleModel().summary();
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::GetModel(grpc::ServerContext*, const v1::GetModelRequest* request, v1::Model* model) {
+  if (request->model().name() != "planar") return {grpc::StatusCode::NOT_FOUND, "no such model"};
+  *model = SampleModel();
+  *model->mutable_selection() = request->model();
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
+                                            v1::ServerInfo* info) {
+  info->set_version("1.2.3");
+  info->set_solver_slots(2);
+  info->set_store("sqlite");
+  return grpc::Status::OK;
+}
+
+FakeServer::FakeServer(FakeGaitService& service, int port) {
+  grpc::ServerBuilder builder;
+  builder.AddListeningPort("127.0.0.1:" + std::to_string(port), grpc::InsecureServerCredentials(), &port_);
+  builder.RegisterService(&service);
+  server_ = builder.BuildAndStart();
+}
+
+FakeServer::~FakeServer() {
+  if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now());
+}
+
+}  // namespace rollgait::client

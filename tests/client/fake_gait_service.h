@@ -1,0 +1,78 @@
+// A GaitService in the test's process whose answers depend on the model's name, and which keeps what it was asked.
+#ifndef ROLLGAIT_TESTS_CLIENT_FAKE_GAIT_SERVICE_H_
+#define ROLLGAIT_TESTS_CLIENT_FAKE_GAIT_SERVICE_H_
+
+#include <grpcpp/server.h>
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rollgait/v1/gait_service.grpc.pb.h"
+
+namespace rollgait::client {
+
+// Model "planar" walks; "infeasible" and "crash" end as they say; "endless" runs until cancelled;
+// "refused" is INVALID_ARGUMENT with two violations; every other model is refused as unknown. The id of a solve is its
+// model's name. Thread-safe.
+class FakeGaitService : public v1::GaitService::Service {
+ public:
+  // Streams break with UNAVAILABLE after the event with this number, once for each entry.
+  void BreakAfter(std::multiset<int64_t> sequences);
+  // Number of iterations of every solve made from now on; 5 if not called.
+  void SetIterations(int iterations) { iterations_ = iterations; }
+
+  std::vector<v1::CreateSolveRequest> created() const;
+  std::vector<v1::WatchSolveRequest> watched() const;
+  std::vector<std::string> cancelled() const;
+  std::vector<std::string> deleted() const;
+
+  grpc::Status CreateSolve(grpc::ServerContext*, const v1::CreateSolveRequest*, v1::Solve*) override;
+  grpc::Status WatchSolve(grpc::ServerContext*, const v1::WatchSolveRequest*,
+                          grpc::ServerWriter<v1::SolveEvent>*) override;
+  grpc::Status GetSolve(grpc::ServerContext*, const v1::GetSolveRequest*, v1::Solve*) override;
+  grpc::Status ListSolves(grpc::ServerContext*, const v1::ListSolvesRequest*, v1::ListSolvesResponse*) override;
+  grpc::Status CancelSolve(grpc::ServerContext*, const v1::CancelSolveRequest*, v1::Solve*) override;
+  grpc::Status DeleteSolve(grpc::ServerContext*, const v1::DeleteSolveRequest*, google::protobuf::Empty*) override;
+  grpc::Status ListModels(grpc::ServerContext*, const v1::ListModelsRequest*, v1::ListModelsResponse*) override;
+  grpc::Status GetModel(grpc::ServerContext*, const v1::GetModelRequest*, v1::Model*) override;
+  grpc::Status GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*, v1::ServerInfo*) override;
+
+ private:
+  struct Record {
+    v1::Solve solve;
+    std::vector<v1::SolveEvent> events;
+  };
+  void Finish(Record& record, v1::SolveState state);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  int iterations_ = 5;
+  std::map<std::string, Record> records_;
+  std::multiset<int64_t> breaks_;
+  std::vector<v1::CreateSolveRequest> created_;
+  std::vector<v1::WatchSolveRequest> watched_;
+  std::vector<std::string> cancelled_, deleted_;
+};
+
+// The service behind a loopback port.
+class FakeServer {
+ public:
+  // Port 0: any free one.
+  FakeServer(FakeGaitService& service, int port = 0);
+  ~FakeServer();
+  int port() const { return port_; }
+  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+
+ private:
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_TESTS_CLIENT_FAKE_GAIT_SERVICE_H_
