@@ -4,56 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
 
 #include "core/contact/constrained_dynamics.h"
 #include "core/validation/integrator.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/roller.h"
 #include "tests/support/rolling_body.h"
 
 namespace rollgait {
 namespace {
-
-// A body that rolls, integrated from one time to another.
-class Roller {
- public:
-  Roller(const RollingBody& body, const Vector3& gravity, double tolerance)
-      : dynamics_(body.model), constrained_(dynamics_, {body.surface}), gravity_(gravity) {
-    options_.tolerance = tolerance;
-  }
-
-  void Advance(double from, double to, VectorX* q, VectorX* v) {
-    const int n = dynamics_.size();
-    VectorX x(2 * n);
-    x << *q, *v;
-    const auto right_side = [&](double, const VectorX& state, VectorX* derivative) {
-      derivative->head(n) = state.tail(n);
-      derivative->tail(n) =
-          constrained_.Evaluate(state.head(n), state.tail(n), VectorX::Zero(n), gravity_).acceleration;
-    };
-    options_.first_step = integrator_.proposed_step();
-    ASSERT_EQ(integrator_.Integrate(right_side, from, to, options_, &x), IntegrationStatus::kReachedEnd);
-    *q = x.head(n);
-    *v = x.tail(n);
-    // Leaves contact and state at the end.
-    constrained_.Evaluate(*q, *v, VectorX::Zero(n), gravity_);
-  }
-
-  double Energy() const {
-    return dynamics_.KineticEnergy(constrained_.state()) + dynamics_.PotentialEnergy(constrained_.state(), gravity_);
-  }
-  Matrix3 Orientation() const { return constrained_.state().back().R_WL; }
-  Vector3 Omega() const { return Orientation() * constrained_.state().back().twist.angular; }
-  const RollingContact& contact() const { return constrained_.contact(0); }
-  Vector3 CenterOfMass() const { return dynamics_.CenterOfMass(constrained_.state()); }
-
- private:
-  BodyDynamics dynamics_;
-  ConstrainedDynamics constrained_;
-  Dop853 integrator_;
-  Dop853::Options options_;
-  Vector3 gravity_;
-};
 
 TEST(RollingMotion, BallOnAnInclineInClosedForm) {
   const double radius = 0.25, slope = 10 * M_PI / 180;
@@ -95,41 +54,14 @@ TEST(RollingMotion, TriaxialEllipsoidOnATiltedPlaneFollowsTheReference) {
   }
 }
 
+// From a late row of the reference; the whole way is in rattleback_slow_test.
 TEST(RollingMotion, RattlebackReversesWhenItMust) {
-  const Vector3 axes(0.2, 0.03, 0.02);
-  Matrix3 inertia;
-  inertia << 2e-4, -2e-5, 0, -2e-5, 1.6e-3, 0, 0, 0, 1.7e-3;
-  const RollingBody stone = MakeRollingBody(axes, 1.0, Vector3(0, 0, 0.01), inertia);
-  Roller roller(stone, Vector3(0, 0, -9.81), 1e-11);
   const auto rows = ReadReference(ROLLGAIT_TEST_DATA "/rattleback_KL82_undamped.csv");
+  ASSERT_EQ(rows.size(), 3u);
+  Roller roller(Rattleback(), Vector3(0, 0, -9.81), 1e-12);
   VectorX q, v;
-  SetRolling(axes, rows[0].R, rows[0].R * rows[0].omega, 0, 0, &q, &v);
-  roller.Advance(0, rows[1].t, &q, &v);
-  EXPECT_TRUE(MatrixNear(roller.CenterOfMass(), rows[1].com, 1e-11));
-
-  // The first zero of the spin about the vertical, by a secant iteration after the step that brackets it.
-  // Three zeros follow each other within 0.05 s, so the last stretch goes in short steps.
-  roller.Advance(rows[1].t, 2.7, &q, &v);
-  double t = 2.7, spin = roller.Omega().z();
-  const double sign = spin > 0 ? 1 : -1;
-  VectorX q_before = q, v_before = v;
-  double t_before = t, spin_before = spin;
-  while (spin * sign > 0 && t < 4) {
-    q_before = q, v_before = v, t_before = t, spin_before = spin;
-    t = t_before + 0.01;
-    roller.Advance(t_before, t, &q, &v);
-    spin = roller.Omega().z();
-  }
-  double low = t_before, low_spin = spin_before, high = t, high_spin = spin;
-  for (int i = 0; i < 12 && std::abs(high_spin) > 1e-13; ++i) {
-    const double next = high - high_spin * (high - low) / (high_spin - low_spin);
-    low = high, low_spin = high_spin;
-    high = next;
-    q = q_before, v = v_before;
-    roller.Advance(t_before, high, &q, &v);
-    high_spin = roller.Omega().z();
-  }
-  EXPECT_NEAR(high, 2.761109153800631, 1e-8);
+  SetRolling(kRattlebackAxes, rows[2].R, rows[2].R * rows[2].omega, rows[2].x, rows[2].y, &q, &v);
+  EXPECT_NEAR(NextReversal(rows[2].t, 2.75, &roller, &q, &v), 2.761109153800631, 1e-10);
 }
 
 // An unactuated chain without contact keeps its energy.
