@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <exception>
 #include <new>
 #include <string>
@@ -61,6 +62,7 @@ void OnFailedAllocation() {
   size_t left = memory_limit_frame->size();
   while (left > 0) {
     const ssize_t count = write(memory_limit_fd, bytes, left);
+    if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     bytes += count;
     left -= static_cast<size_t>(count);

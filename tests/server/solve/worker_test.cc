@@ -1,0 +1,151 @@
+#include "server/solve/worker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "server/base/framing.h"
+#include "server/base/wire.pb.h"
+#include "tests/server/solve/scripted_solver.h"
+
+namespace rollgait::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+class WorkerTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends_.data()), 0); }
+  void TearDown() override {
+    for (const int fd : ends_) {
+      if (fd >= 0) close(fd);
+    }
+  }
+  int parent() const { return ends_[0]; }
+  int child() const { return ends_[1]; }
+  void HangUp() { close(std::exchange(ends_[0], -1)); }
+
+  void SendRequest(const std::string& model = "planar") {
+    v1::SolveSpec spec;
+    spec.mutable_model()->set_name(model);
+    spec.mutable_motion()->set_speed_m_s(1.1);
+    ASSERT_EQ(WriteFrame(parent(), spec.SerializeAsString()), FrameStatus::kOk);
+  }
+  WorkerExit Serve(const ScriptedSolver::Script& script) {
+    ScriptedSolver solver(script);
+    return ServeOneRequest(child(), solver, stop_, [&](const GaitSpec&) { ++requests_; });
+  }
+  wire::SolverMessage Receive() {
+    std::string payload;
+    wire::SolverMessage message;
+    EXPECT_EQ(ReadFrame(parent(), &payload), FrameStatus::kOk);
+    EXPECT_TRUE(message.ParseFromString(payload));
+    return message;
+  }
+
+  std::array<int, 2> ends_ = {-1, -1};
+  StopFlag stop_;
+  int requests_ = 0;
+};
+
+GaitSolution Optimal(const GaitSpec&, const SolveControl&) { return EndedWith(Termination::kOptimal); }
+
+TEST_F(WorkerTest, SendsIterationsAndThenTheResult) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec& spec, const SolveControl& control) {
+              EXPECT_EQ(spec.speed, 1.1);
+              for (int i = 0; i < 3; ++i) {
+                IterationInfo iteration;
+                iteration.index = i;
+                control.observer(iteration);
+              }
+              return EndedWith(Termination::kOptimal);
+            }),
+            kWorkerDone);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(Receive().iteration().index(), i);
+  const wire::SolverMessage last = Receive();
+  EXPECT_EQ(last.result().termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_THAT(last.result().solver_build(), HasSubstr("Ipopt"));
+  EXPECT_GT(last.result().model().joints_size(), 0);
+  EXPECT_EQ(requests_, 1);
+}
+
+TEST_F(WorkerTest, EndsQuietlyWithoutARequest) {
+  HangUp();
+  EXPECT_EQ(Serve(Optimal), kWorkerDone);
+  EXPECT_EQ(requests_, 0);
+}
+
+TEST_F(WorkerTest, GarbageIsNoRequest) {
+  ASSERT_EQ(write(parent(), "GET / HTTP/1.1\r\n\r\n", 18), 18);
+  EXPECT_EQ(Serve(Optimal), kWorkerNoRequest);
+  EXPECT_EQ(Receive().error().kind(), v1::SolveError::KIND_INTERNAL);
+}
+
+TEST_F(WorkerTest, AFrameThatIsNoSpecIsNoRequest) {
+  ASSERT_EQ(WriteFrame(parent(), "\xff\xff\xff"), FrameStatus::kOk);
+  EXPECT_EQ(Serve(Optimal), kWorkerNoRequest);
+  EXPECT_THAT(Receive().error().message(), HasSubstr("not a SolveSpec"));
+}
+
+TEST_F(WorkerTest, ARefusedRequestNamesItsField) {
+  SendRequest("horse");
+  EXPECT_EQ(Serve(Optimal), kWorkerDone);
+  EXPECT_THAT(Receive().error().message(), HasSubstr("model.name"));
+}
+
+TEST_F(WorkerTest, ExceptionsBecomeErrors) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec&, const SolveControl&) -> GaitSolution { throw std::runtime_error("oops"); }),
+            kWorkerDone);
+  const wire::SolverMessage message = Receive();
+  EXPECT_EQ(message.error().kind(), v1::SolveError::KIND_INTERNAL);
+  EXPECT_THAT(message.error().message(), HasSubstr("oops"));
+}
+
+TEST_F(WorkerTest, RunningOutOfMemoryIsTheMemoryLimit) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec&, const SolveControl&) -> GaitSolution { throw std::bad_alloc(); }), kWorkerDone);
+  EXPECT_EQ(Receive().error().kind(), v1::SolveError::KIND_MEMORY_LIMIT);
+}
+
+TEST_F(WorkerTest, StopsWhenNobodyReads) {
+  SendRequest();
+  EXPECT_EQ(Serve([&](const GaitSpec&, const SolveControl& control) {
+              HangUp();
+              int iterations = 0;
+              while (!control.stop->requested() && ++iterations < 1000) control.observer({});
+              EXPECT_LT(iterations, 1000);
+              return EndedWith(Termination::kCancelled);
+            }),
+            kWorkerNoReader);
+  EXPECT_TRUE(stop_.requested());
+}
+
+// In a child process, since the handler ends it: a `new` that a library would have caught.
+TEST_F(WorkerTest, AFailedNewAnywhereReportsTheMemoryLimit) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers end the process at a failed new";
+#endif
+  const pid_t pid = fork();
+  if (pid == 0) {
+    ReportMemoryLimitOn(child());
+    try {
+      void* volatile block = ::operator new(PTRDIFF_MAX);
+      ::operator delete(block);
+    } catch (...) {
+    }
+    _exit(99);
+  }
+  EXPECT_EQ(Receive().error().kind(), v1::SolveError::KIND_MEMORY_LIMIT);
+}
+
+}  // namespace
+}  // namespace rollgait::server
