@@ -22,12 +22,15 @@ std::string StateLine(const v1::SolveEvent::StateChange& change) {
 }  // namespace
 
 std::string IterationHeader() {
-  return "mesh  iter     objective  primal inf    dual inf   barrier      step  alpha   elapsed";
+  char buffer[160];
+  std::snprintf(buffer, sizeof(buffer), "%4s %5s   %13s  %10s  %10s  %8s  %8s  %5s  %8s", "mesh", "iter", "objective",
+                "primal inf", "dual inf", "barrier", "step", "alpha", "elapsed");
+  return buffer;
 }
 
 std::string FormatIteration(const v1::Iteration& iteration) {
   char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), "%4d %5d%s  %12.6e  %10.2e  %10.2e  %8.1e  %8.1e  %5.3f  %6.2f s",
+  std::snprintf(buffer, sizeof(buffer), "%4d %5d%s  %13.6e  %10.2e  %10.2e  %8.1e  %8.1e  %5.3f  %6.2f s",
                 iteration.mesh(), iteration.index(), iteration.restoration() ? "r" : " ", iteration.objective(),
                 iteration.primal_infeasibility(), iteration.dual_infeasibility(), iteration.barrier_parameter(),
                 iteration.step_norm(), iteration.primal_step(), iteration.elapsed_s());

@@ -1,15 +1,23 @@
 #include "client/report/report.h"
 
+#include <map>
+
 #include "client/report/assets.h"
 #include "client/report/report_data.h"
 
 namespace rollgait::client {
 namespace {
 
-// Puts `value` where `mark` stands once in `text`.
-void Insert(std::string& text, const std::string& mark, const std::string& value) {
-  const size_t place = text.find(mark);
-  text.replace(place, mark.size(), value);
+// The template with each {{mark}} replaced. One pass: what is filled in is not looked at again.
+std::string Fill(const std::string& page, const std::map<std::string, std::string>& values) {
+  std::string filled;
+  size_t from = 0;
+  for (size_t open = page.find("{{"); open != std::string::npos; open = page.find("{{", from)) {
+    const size_t close = page.find("}}", open);
+    filled += page.substr(from, open - from) + values.at(page.substr(open + 2, close - open - 2));
+    from = close + 2;
+  }
+  return filled + page.substr(from);
 }
 
 std::string EscapeHtml(const std::string& text) {
@@ -31,13 +39,11 @@ std::string EscapeScript(const std::string& json) {
 
 std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title) {
   const nlohmann::json data = ReportData(solves, title);
-  std::string page = kReportHtml;
-  Insert(page, "{{title}}", EscapeHtml(data.at("title")));
-  Insert(page, "{{style}}", kReportCss);
-  Insert(page, "{{script}}", std::string(kReportChartsJs) + kReportWalkerJs + kReportPageJs);
-  // Last, so that nothing in the data can be taken for a mark.
-  Insert(page, "{{data}}", EscapeScript(data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
-  return page;
+  const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return Fill(kReportHtml, {{"title", EscapeHtml(data.at("title"))},
+                            {"style", kReportCss},
+                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportPageJs},
+                            {"data", EscapeScript(text)}});
 }
 
 }  // namespace rollgait::client

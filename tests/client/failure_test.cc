@@ -1,0 +1,67 @@
+#include "client/failure.h"
+
+#include <gmock/gmock.h>
+#include <google/rpc/error_details.pb.h>
+#include <google/rpc/status.pb.h>
+#include <gtest/gtest.h>
+
+namespace rollgait::client {
+namespace {
+
+TEST(ExitCodeTest, OfFinishedSolves) {
+  v1::Solve solve;
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kInternal);
+  solve.set_state(v1::SOLVE_STATE_SUCCEEDED);
+  const auto code = [&solve](v1::Termination termination) {
+    solve.mutable_result()->set_termination(termination);
+    return ExitCodeOf(solve);
+  };
+  EXPECT_EQ(code(v1::TERMINATION_OPTIMAL), ExitCode::kSuccess);
+  EXPECT_EQ(code(v1::TERMINATION_ACCEPTABLE), ExitCode::kSuccess);
+  EXPECT_EQ(code(v1::TERMINATION_INFEASIBLE), ExitCode::kNoSolution);
+  EXPECT_EQ(code(v1::TERMINATION_ITERATION_LIMIT), ExitCode::kNoSolution);
+  EXPECT_EQ(code(v1::TERMINATION_TIME_LIMIT), ExitCode::kNoSolution);
+  EXPECT_EQ(code(v1::TERMINATION_NUMERICAL_DIFFICULTY), ExitCode::kNoSolution);
+  EXPECT_EQ(code(v1::TERMINATION_CANCELLED), ExitCode::kCancelled);
+  solve.set_state(v1::SOLVE_STATE_FAILED);
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kRunFailed);
+  solve.set_state(v1::SOLVE_STATE_CANCELLED);
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kCancelled);
+}
+
+TEST(ExitCodeTest, OfCalls) {
+  const auto code = [](grpc::StatusCode status) { return ExitCodeOf(grpc::Status(status, "")); };
+  EXPECT_EQ(code(grpc::StatusCode::OK), ExitCode::kSuccess);
+  EXPECT_EQ(code(grpc::StatusCode::INVALID_ARGUMENT), ExitCode::kUsage);
+  EXPECT_EQ(code(grpc::StatusCode::UNAVAILABLE), ExitCode::kUnreachable);
+  EXPECT_EQ(code(grpc::StatusCode::DEADLINE_EXCEEDED), ExitCode::kUnreachable);
+  EXPECT_EQ(code(grpc::StatusCode::RESOURCE_EXHAUSTED), ExitCode::kUnreachable);
+  EXPECT_EQ(code(grpc::StatusCode::NOT_FOUND), ExitCode::kNotFound);
+  EXPECT_EQ(code(grpc::StatusCode::CANCELLED), ExitCode::kCancelled);
+  EXPECT_EQ(code(grpc::StatusCode::INTERNAL), ExitCode::kInternal);
+}
+
+TEST(DescribeTest, ShowsEveryDetail) {
+  google::rpc::RetryInfo retry;
+  retry.mutable_retry_delay()->set_seconds(2);
+  retry.mutable_retry_delay()->set_nanos(500000000);
+  google::rpc::QuotaFailure quota;
+  quota.add_violations()->set_subject("queue");
+  quota.mutable_violations(0)->set_description("holds 1000 solves, the limit is 1000");
+  google::rpc::Status rich;
+  rich.add_details()->PackFrom(retry);
+  rich.add_details()->PackFrom(quota);
+  const grpc::Status status(grpc::StatusCode::RESOURCE_EXHAUSTED, "the queue is full", rich.SerializeAsString());
+  const std::string text = Describe(status, "create the solve", "host:1");
+  EXPECT_THAT(text, testing::StartsWith("cannot create the solve: RESOURCE_EXHAUSTED: the queue is full\n"));
+  EXPECT_THAT(text, testing::HasSubstr("try again in 2.5 s"));
+  EXPECT_THAT(text, testing::HasSubstr("\n  queue: holds 1000 solves, the limit is 1000"));
+}
+
+TEST(DescribeTest, DetailsThatAreNotAStatusAreIgnored) {
+  const grpc::Status status(grpc::StatusCode::INVALID_ARGUMENT, "no", "\xff\xff garbage");
+  EXPECT_THAT(Describe(status, "x", "host:1"), testing::StartsWith("cannot x: INVALID_ARGUMENT: no\n"));
+}
+
+}  // namespace
+}  // namespace rollgait::client

@@ -1,0 +1,119 @@
+#include "client/spec_flags.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "client/failure.h"
+
+namespace rollgait::client {
+namespace {
+
+v1::SolveSpec Parse(const std::string& line) {
+  CLI::App app;
+  SpecFlags flags;
+  AddSpecFlags(app, flags);
+  app.parse(line);
+  return BuildSpec(flags);
+}
+
+TEST(SpecFlagsTest, NothingGivenIsTheEmptyRequest) {
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(Parse(""), v1::SolveSpec()));
+}
+
+TEST(SpecFlagsTest, EveryFlagReachesItsField) {
+  const v1::SolveSpec spec = Parse(
+      "--model planar --sex female --stature 1.7 --mass 61 --slope -10 --speed 1.2 --step-length 0.7 --step-duration "
+      "0.6 "
+      "--cycle full --friction 0.5 --clearance 0.02 --cost torque:2 --cost work:0.001 --cost torque-rate --cost time "
+      "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
+      "--max-refinements 2 --max-iterations 77 --time-limit 12.5");
+  EXPECT_EQ(spec.model().name(), "planar");
+  EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
+  EXPECT_EQ(spec.model().stature_m(), 1.7);
+  EXPECT_EQ(spec.model().body_mass_kg(), 61);
+  EXPECT_NEAR(spec.slope_rad(), -M_PI / 18, 1e-15);
+  EXPECT_EQ(spec.motion().speed_m_s(), 1.2);
+  EXPECT_EQ(spec.motion().step_length_m(), 0.7);
+  EXPECT_EQ(spec.motion().step_duration_s(), 0.6);
+  EXPECT_EQ(spec.cycle(), v1::CYCLE_FULL);
+  EXPECT_EQ(spec.ground_contact().friction_coefficient(), 0.5);
+  EXPECT_EQ(spec.ground_contact().swing_clearance_m(), 0.02);
+  ASSERT_EQ(spec.costs_size(), 4);
+  EXPECT_TRUE(spec.costs(0).has_squared_torque());
+  EXPECT_EQ(spec.costs(0).weight(), 2);
+  EXPECT_TRUE(spec.costs(1).has_mechanical_work());
+  EXPECT_EQ(spec.costs(1).weight(), 0.001);
+  EXPECT_TRUE(spec.costs(2).has_squared_torque_rate());
+  EXPECT_FALSE(spec.costs(2).has_weight());
+  EXPECT_TRUE(spec.costs(3).has_time());
+  EXPECT_EQ(spec.cost_normalization(), v1::COST_NORMALIZATION_PER_TIME);
+  EXPECT_EQ(spec.discretization().scheme(), v1::Discretization::SCHEME_HERMITE_SIMPSON);
+  EXPECT_EQ(spec.discretization().single_support_intervals(), 32);
+  EXPECT_EQ(spec.discretization().double_support_intervals(), 9);
+  EXPECT_EQ(spec.accuracy().level(), v1::Accuracy::LEVEL_FINE);
+  EXPECT_EQ(spec.accuracy().kkt_tolerance(), 1e-8);
+  EXPECT_EQ(spec.accuracy().max_refinements(), 2);
+  EXPECT_EQ(spec.solver_limits().max_iterations(), 77);
+  EXPECT_EQ(spec.solver_limits().max_wall_time_s(), 12.5);
+}
+
+// What the server must refuse must reach it.
+TEST(SpecFlagsTest, OutOfRangeNumbersArePassedOn) {
+  EXPECT_TRUE(std::isnan(Parse("--speed nan").motion().speed_m_s()));
+  EXPECT_NEAR(Parse("--slope 80").slope_rad(), 80 * M_PI / 180, 1e-15);
+  EXPECT_EQ(Parse("--intervals 0").discretization().single_support_intervals(), 0);
+  EXPECT_EQ(Parse("--cost torque:-1").costs(0).weight(), -1);
+}
+
+TEST(SpecFlagsTest, UnknownWordsAreRefusedWithTheKnownOnes) {
+  for (const std::string line : {"--cost pain", "--cost torque:much", "--cost work:", "--scheme euler", "--cycle third",
+                                 "--accuracy best", "--normalize mass", "--sex other"}) {
+    EXPECT_THROW(Parse(line), Failure) << line;
+  }
+  try {
+    Parse("--cycle third");
+    FAIL() << "was accepted";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::kUsage);
+    EXPECT_STREQ(failure.what(), "--cycle third: must be one of full, half");
+  }
+}
+
+class SpecFileTest : public testing::Test {
+ protected:
+  std::string Write(const std::string& json) const {
+    const std::string path = testing::TempDir() + "spec_flags_test.json";
+    std::ofstream(path) << json;
+    return path;
+  }
+};
+
+TEST_F(SpecFileTest, FlagsOverrideTheFile) {
+  const std::string file = Write(R"({"model": {"name": "planar", "sex": "SEX_FEMALE"}, "slope_rad": 0.1,
+      "motion": {"freeSpeed": true, "stepLengthM": 0.6}, "costs": [{"time": {}}, {"time": {}}]})");
+  const v1::SolveSpec plain = Parse("--spec " + file);
+  EXPECT_EQ(plain.slope_rad(), 0.1);
+  EXPECT_TRUE(plain.motion().free_speed());
+  EXPECT_EQ(plain.costs_size(), 2);
+  const v1::SolveSpec changed = Parse("--spec " + file + " --slope 0 --speed 1.1 --cost torque");
+  EXPECT_EQ(changed.slope_rad(), 0);
+  EXPECT_EQ(changed.model().sex(), v1::ModelSelection::SEX_FEMALE);
+  EXPECT_FALSE(changed.motion().free_speed());
+  EXPECT_EQ(changed.motion().step_length_m(), 0.6);
+  ASSERT_EQ(changed.costs_size(), 1);
+  EXPECT_TRUE(changed.costs(0).has_squared_torque());
+}
+
+TEST_F(SpecFileTest, RefusesWhatIsNotARequest) {
+  EXPECT_THROW(Parse("--spec " + Write("{\"sloperad\": 1}")), Failure);
+  EXPECT_THROW(Parse("--spec " + Write("not json")), Failure);
+  EXPECT_THROW(Parse("--spec no_such_file.json"), Failure);
+}
+
+}  // namespace
+}  // namespace rollgait::client

@@ -1,0 +1,58 @@
+#include "client/text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/failure.h"
+#include "client/progress.h"
+
+namespace rollgait::client {
+namespace {
+
+TEST(TextTest, Durations) {
+  EXPECT_EQ(FormatDuration(3.4e-4), "340 µs");
+  EXPECT_EQ(FormatDuration(0.0123), "12.3 ms");
+  EXPECT_EQ(FormatDuration(4.56), "4.56 s");
+  EXPECT_EQ(FormatDuration(200), "3 min 20 s");
+  EXPECT_EQ(FormatDuration(7322), "2 h 2 min");
+}
+
+TEST(TextTest, Times) {
+  google::protobuf::Timestamp time;
+  EXPECT_EQ(FormatTime(time), "-");
+  time.set_seconds(1795242660);
+  EXPECT_EQ(FormatTime(time), "2026-11-21 06:31:00 UTC");
+}
+
+TEST(TextTest, EnumeratorsAsWords) {
+  EXPECT_EQ(StateName(v1::SOLVE_STATE_RUNNING), "running");
+  EXPECT_EQ(TerminationName(v1::TERMINATION_ITERATION_LIMIT), "iteration limit");
+  EXPECT_EQ(ErrorKindName(v1::SolveError::KIND_MEMORY_LIMIT), "memory limit");
+  EXPECT_EQ(StatusCodeName(grpc::StatusCode::UNAUTHENTICATED), "UNAUTHENTICATED");
+}
+
+TEST(TextTest, SolveNames) {
+  EXPECT_EQ(SolveName("1a"), "solves/1a");
+  EXPECT_EQ(SolveName("solves/1a"), "solves/1a");
+  EXPECT_THROW(SolveName(""), Failure);
+}
+
+TEST(TextTest, TablesCountCharactersNotBytes) {
+  EXPECT_EQ(FormatTable({{"a°", "1", "x"}, {"bcd", "22"}}, "lr"), "a°    1  x\nbcd  22\n");
+}
+
+TEST(ProgressTest, IterationsFitTheirHeader) {
+  v1::Iteration iteration;
+  iteration.set_index(12345);
+  iteration.set_objective(-1234.5);
+  iteration.set_restoration(true);
+  iteration.set_elapsed_s(123.4);
+  const std::string line = FormatIteration(iteration);
+  EXPECT_EQ(line.size(), IterationHeader().size()) << IterationHeader() << "\n" << line;
+  EXPECT_NE(line.find("12345r"), std::string::npos);
+  EXPECT_EQ(FormatLiveIteration(iteration, 30).size(), 30u);
+}
+
+}  // namespace
+}  // namespace rollgait::client
