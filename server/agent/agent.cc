@@ -1,6 +1,7 @@
 #include "server/agent/agent.h"
 
 #include <poll.h>
+#include <signal.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,8 +17,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReclaim{5000};     // between looks for solves of dead agents
-constexpr milliseconds kSpawnRetry{1000};  // after a solver that did not start or died without work
+constexpr milliseconds kReclaim{5000};       // between looks for solves of dead agents
+constexpr milliseconds kSpawnRetry{1000};    // after a solver that did not start or died without work
+constexpr milliseconds kStartLimit{30'000};  // for a solver to say that it is ready
 constexpr milliseconds kLook{kNotifyPollMillis};
 
 // "agent-<pid>-<random>": unique among all agents that ever used the directory.
@@ -130,7 +132,7 @@ void Agent::Wait(milliseconds at_most) {
     entries.push_back({run->stream_ended() ? -1 : process.stream_fd(), static_cast<short>(POLLIN | writing), 0});
     entries.push_back({process.output_fd(), POLLIN, 0});
   }
-  for (const SolverProcess& process : idle_) entries.push_back({process.stream_fd(), POLLIN, 0});
+  for (const IdleProcess& idle : idle_) entries.push_back({idle.process.stream_fd(), POLLIN, 0});
   const SteadyTime now = std::chrono::steady_clock::now();
   milliseconds timeout = std::chrono::ceil<milliseconds>(NextDue(now) - now);
   timeout = std::clamp(timeout, milliseconds(0), at_most);
@@ -202,15 +204,26 @@ void Agent::ReclaimDeadOwners() {
   }
 }
 
-void Agent::KeepIdleProcesses(SteadyTime now) {
+// Notes who is ready and removes who has died.
+void Agent::HearIdleProcesses(SteadyTime now) {
   const size_t before = idle_.size();
-  std::erase_if(idle_, [](SolverProcess& process) {
-    process.ReadOutput();
-    if (!process.Reap()) return false;
-    spdlog::error("a solver died before it had work: {}", process.LastOutput());
-    return true;
+  std::erase_if(idle_, [&](IdleProcess& idle) {
+    std::vector<std::string> payloads;
+    idle.process.ReadOutput();
+    const FrameStatus status = idle.process.Receive(&payloads);
+    if (!payloads.empty() && !idle.ready) idle.ready = poked_ = true;
+    if (idle.process.Reap()) {
+      spdlog::error("a solver died before it had work: {}", idle.process.LastOutput());
+      return true;
+    }
+    if (status != FrameStatus::kNeedMore || (!idle.ready && now > idle.since + kStartLimit)) idle.process.Kill(SIGKILL);
+    return false;
   });
   if (idle_.size() < before) spawn_at_ = std::max(spawn_at_, now + kSpawnRetry);
+}
+
+void Agent::KeepIdleProcesses(SteadyTime now) {
+  HearIdleProcesses(now);
   const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
   while (idle_.size() < wanted && now >= spawn_at_) {
     Outcome<SolverProcess> process = SolverProcess::Spawn(options_.solver);
@@ -219,13 +232,14 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
       spawn_at_ = now + kSpawnRetry;
       return;
     }
-    idle_.push_back(std::move(process).value());
-    poked_ = true;
+    idle_.push_back({std::move(process).value(), now});
   }
 }
 
 void Agent::ClaimWork(SteadyTime now) {
-  while (!idle_.empty()) {
+  while (true) {
+    const auto idle = std::find_if(idle_.begin(), idle_.end(), [](const IdleProcess& i) { return i.ready; });
+    if (idle == idle_.end()) return;
     const Outcome<SolveCounts> counts = store_.Counts();
     if (!counts.ok()) {
       spdlog::warn("cannot look for work: {}", counts.error().message);
@@ -238,8 +252,8 @@ void Agent::ClaimWork(SteadyTime now) {
       return;
     }
     if (!claimed.value()) return;
-    SolverProcess process = std::move(idle_.front());
-    idle_.pop_front();
+    SolverProcess process = std::move(idle->process);
+    idle_.erase(idle);
     runs_.push_back(std::make_unique<SolveRun>(context_, std::move(*claimed.value()), std::move(process), now));
     context_.poke(runs_.back()->id());
   }
@@ -253,7 +267,9 @@ void Agent::GiveUpAll() {
 
 std::vector<pid_t> Agent::IdleProcesses() const {
   std::vector<pid_t> pids;
-  for (const SolverProcess& process : idle_) pids.push_back(process.pid());
+  for (const IdleProcess& idle : idle_) {
+    if (idle.ready) pids.push_back(idle.process.pid());
+  }
   return pids;
 }
 

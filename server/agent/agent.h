@@ -44,7 +44,7 @@ class Agent {
 
   const std::string& owner() const { return owner_; }
   int running() const { return static_cast<int>(runs_.size()); }
-  // Process ids of the solvers that wait for work.
+  // Process ids of the solvers that are ready for work.
   std::vector<pid_t> IdleProcesses() const;
 
  private:
@@ -57,6 +57,7 @@ class Agent {
   void ReclaimDeadOwners();
   void LookForCancels();
   void KeepIdleProcesses(SteadyTime now);
+  void HearIdleProcesses(SteadyTime now);
   void ClaimWork(SteadyTime now);
   void GiveUpAll();
   SteadyTime NextDue(SteadyTime now) const;
@@ -70,7 +71,12 @@ class Agent {
   const NotifySender sender_;
   const SolveRun::Context context_;
   std::vector<std::unique_ptr<SolveRun>> runs_;
-  std::deque<SolverProcess> idle_;
+  struct IdleProcess {
+    SolverProcess process;
+    SteadyTime since;
+    bool ready = false;  // it has said so
+  };
+  std::deque<IdleProcess> idle_;
   bool stopping_ = false, draining_ = false;
   bool poked_ = true;  // look into the store at once
   SteadyTime look_at_, reclaim_at_, spawn_at_;

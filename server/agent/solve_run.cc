@@ -104,6 +104,7 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     stream_end_ = FrameStatus::kGarbage;
     return;
   }
+  if (message.has_ready()) return;
   if (message.has_iteration()) {
     AddIteration(message.iteration(), now);
     return;

@@ -80,6 +80,9 @@ void ReportMemoryLimitOn(int fd) {
 WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
                            const std::function<void(const GaitSpec&)>& on_request) {
   try {
+    wire::SolverMessage ready;
+    ready.mutable_ready();
+    if (WriteFrame(fd, ready.SerializeAsString()) != FrameStatus::kOk) return kWorkerNoReader;
     std::string payload;
     const FrameStatus status = ReadFrame(fd, &payload);
     if (status == FrameStatus::kEnd) return kWorkerDone;

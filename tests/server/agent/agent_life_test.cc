@@ -9,8 +9,6 @@
 namespace rollgait::server {
 namespace {
 
-using ::testing::SizeIs;
-
 class AgentLifeTest : public AgentFixture {};
 
 bool Exists(pid_t pid) { return kill(pid, 0) == 0; }
@@ -27,12 +25,22 @@ TEST_F(AgentLifeTest, KeepsIdleSolversReady) {
   }));
 }
 
+TEST_F(AgentLifeTest, ASolverThatCannotStartIsNotTheFaultOfARequest) {
+  const std::string id = Queue("result");
+  Agent::Options options = Options();
+  options.solver.program = "/bin/false";
+  const auto agent = MakeAgent(options);
+  for (int i = 0; i < 40; ++i) agent->Step(std::chrono::milliseconds(10));
+  EXPECT_EQ(Get(id).state, SolveState::kQueued);
+  EXPECT_EQ(Get(id).attempts, 0);
+}
+
 TEST_F(AgentLifeTest, StopGivesTheSolvesBackAndLeavesNoProcess) {
   const std::string id = Queue("hang");
   auto agent = MakeAgent();
   ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 1; }));
+  ASSERT_TRUE(StepUntil(*agent, [&] { return agent->IdleProcesses().size() == 1; }));
   const std::vector<pid_t> idle = agent->IdleProcesses();
-  EXPECT_THAT(idle, SizeIs(1));
   ASSERT_EQ(write(stop_[1], "x", 1), 1);
   EXPECT_FALSE(agent->Step(std::chrono::seconds(5)));
   EXPECT_EQ(Get(id).state, SolveState::kQueued);

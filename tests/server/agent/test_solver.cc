@@ -129,6 +129,9 @@ int main(int argc, char** argv) {
   }
   // What the agent promises its children.
   if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr || HasOtherDescriptors()) return 9;
+  rollgait::wire::SolverMessage ready;
+  ready.mutable_ready();
+  Send(ready);
   std::string payload;
   rollgait::v1::SolveSpec spec;
   if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;

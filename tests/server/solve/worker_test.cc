@@ -47,7 +47,7 @@ class WorkerTest : public ::testing::Test {
     wire::SolverMessage message;
     EXPECT_EQ(ReadFrame(parent(), &payload), FrameStatus::kOk);
     EXPECT_TRUE(message.ParseFromString(payload));
-    return message;
+    return message.has_ready() ? Receive() : message;
   }
 
   std::array<int, 2> ends_ = {-1, -1};
@@ -77,9 +77,14 @@ TEST_F(WorkerTest, SendsIterationsAndThenTheResult) {
   EXPECT_EQ(requests_, 1);
 }
 
-TEST_F(WorkerTest, EndsQuietlyWithoutARequest) {
-  HangUp();
+TEST_F(WorkerTest, SaysThatItIsReadyAndEndsQuietlyWithoutARequest) {
+  shutdown(parent(), SHUT_WR);
   EXPECT_EQ(Serve(Optimal), kWorkerDone);
+  std::string payload;
+  wire::SolverMessage message;
+  EXPECT_EQ(ReadFrame(parent(), &payload), FrameStatus::kOk);
+  EXPECT_TRUE(message.ParseFromString(payload));
+  EXPECT_TRUE(message.has_ready());
   EXPECT_EQ(requests_, 0);
 }
 
