@@ -238,8 +238,9 @@ void IntervalBlock::AccumulateHessian(int i) {
                                               first_[kind](i, s) * gradient_.segment(kind * n, n).transpose();
     }
   }
-  step_row.segment(control, controls_) += rate_q.transpose() * hessian_.block(q, u, n, controls_) +
-                                          rate_v.transpose() * hessian_.block(v, u, n, controls_);
+  step_controls_.noalias() = hessian_.block(q, u, n, controls_).transpose() * rate_q;
+  step_controls_.noalias() += hessian_.block(v, u, n, controls_).transpose() * rate_v;
+  step_row.segment(control, controls_) += step_controls_.transpose();
   local_(local_size_, local_size_) += turned_.dot(z_rate_) + gradient_.head(3 * n).dot(z_curve_);
 }
 

@@ -102,6 +102,7 @@ class IntervalBlock {
   MatrixX local_;                 // dense lower Hessian of the interval
   MatrixX block_;                 // n × controls
   VectorX turned_;                // 3n
+  VectorX step_controls_;         // controls
 };
 
 }  // namespace rollgait

@@ -48,6 +48,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
   local_ = MatrixX::Zero(local_size_ + 1, local_size_ + 1);
   block_ = MatrixX::Zero(layout_.n, controls_);
   turned_ = VectorX::Zero(3 * layout_.n);
+  step_controls_ = VectorX::Zero(controls_);
   BuildPoints();
   BuildJacobianPattern();
   BuildHessianPattern();

@@ -6,46 +6,29 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "tests/core/transcription/planar_request.h"
 
 namespace rollgait {
 namespace {
 
-GaitRequest PlanarRequest() {
-  GaitRequest request;
-  request.body.model = "planar";
-  request.slope = 0.1;
-  request.motion.speed = 1.3;
-  request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
-  request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
-  request.costs.push_back({GaitRequest::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
-  request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
-  request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
-  request.costs.push_back({GaitRequest::Time{}, 100.0});
-  request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}},
-                           5e4});
-  return request;
-}
-
-struct Case {
-  Scheme scheme;
-  GaitRequest::Normalization normalization;
-  Cycle cycle;
-};
+using Normalization = GaitRequest::Normalization;
+using Case = std::tuple<Scheme, Normalization, Cycle>;
 
 class CollocationNlpTest : public ::testing::TestWithParam<Case> {
  protected:
   CollocationNlpTest() {
-    GaitRequest request = PlanarRequest();
-    request.normalization = GetParam().normalization;
-    request.cycle = GetParam().cycle;
-    request.discretization.scheme = GetParam().scheme;
+    GaitRequest request = PlanarRequestWithEveryTerm();
+    const auto [scheme, normalization, cycle] = GetParam();
+    request.normalization = normalization;
+    request.cycle = cycle;
+    request.discretization.scheme = scheme;
     spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
     problem_ = BuildProblem(*spec_);
     Mesh mesh;
     for (size_t p = 0; p < problem_->phases.size(); ++p) {
       mesh.fractions.push_back(p % 2 == 0 ? std::vector<double>{1} : std::vector<double>{0.3, 0.7});
     }
-    nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam().scheme, mesh);
+    nlp_ = std::make_unique<CollocationNlp>(*problem_, scheme, mesh);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
     std::mt19937 random(5);
     std::uniform_real_distribution<double> noise(-0.05, 0.05);
@@ -130,10 +113,9 @@ TEST_P(CollocationNlpTest, HessianMeetsDifferencesOfFirstDerivatives) {
 
 INSTANTIATE_TEST_SUITE_P(
     Schemes, CollocationNlpTest,
-    ::testing::Values(Case{Scheme::kRadau2, GaitRequest::Normalization::kPerDistance, Cycle::kHalf},
-                      Case{Scheme::kRadau3, GaitRequest::Normalization::kPerTime, Cycle::kHalf},
-                      Case{Scheme::kHermiteSimpson, GaitRequest::Normalization::kPerDistance, Cycle::kHalf},
-                      Case{Scheme::kRadau2, GaitRequest::Normalization::kNone, Cycle::kFull}));
+    ::testing::Combine(::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson),
+                       ::testing::Values(Normalization::kPerDistance, Normalization::kPerTime, Normalization::kNone),
+                       ::testing::Values(Cycle::kHalf, Cycle::kFull)));
 
 }  // namespace
 }  // namespace rollgait

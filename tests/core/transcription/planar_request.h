@@ -1,0 +1,27 @@
+#ifndef ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
+#define ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
+
+#include "core/gait/gait_request.h"
+
+namespace rollgait {
+
+// A planar walk with every kind of row and cost term, weighted to similar size.
+inline GaitRequest PlanarRequestWithEveryTerm() {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.slope = 0.1;
+  request.motion.speed = 1.3;
+  request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
+  request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
+  request.costs.push_back({GaitRequest::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
+  request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
+  request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
+  request.costs.push_back({GaitRequest::Time{}, 100.0});
+  request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}},
+                           5e4});
+  return request;
+}
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
