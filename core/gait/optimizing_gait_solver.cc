@@ -58,7 +58,28 @@ std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, dou
 
 // Feet that slip between nodes at a fair part of the walking speed: the optimiser has found a motion that exists on this mesh
 // only.
-bool IsArtefact(const GaitSolution& solution) { return solution.accuracy->max_slip > 0.2 * solution.speed; }
+bool IsArtefact(const GaitSolution& solution) {
+  return solution.accuracy && solution.accuracy->max_slip > 0.2 * solution.speed;
+}
+
+// What converged on every mesh is no motion of the body: say so, and where.
+void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
+  solution->termination = Termination::kNumericalDifficulty;
+  solution->message =
+      "Only motions that exist on the mesh were found: the feet slip between its nodes. Use more intervals, more "
+      "refinements or a less demanding request.";
+  solution->unmet_constraints.insert(
+      solution->unmet_constraints.begin(),
+      {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.max_slip, "m/s"});
+}
+
+// A gait that is periodic leaves its momentum as it was: over a cycle the ground's mean force is the weight, which on a slope
+// leans by the slope. Within the friction cone at every instant, the mean is within it too.
+std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
+  const double needed = std::hypot(spec.gravity.x(), spec.gravity.y()) / std::abs(spec.gravity.z());
+  if (needed <= spec.friction_coefficient) return std::nullopt;
+  return UnmetConstraint{"friction, mean over the cycle", 0, 0, needed - spec.friction_coefficient, "1"};
+}
 
 ValidationOptions JudgeOptions(const GaitSpec& spec) {
   ValidationOptions options;
@@ -72,6 +93,12 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   const auto begin = Clock::now();
   const auto problem = BuildProblem(spec);
   GaitSolution solution;
+  if (const auto contradiction = FindContradiction(spec)) {
+    solution.termination = Termination::kInfeasible;
+    solution.message = "No gait can meet the request: without sliding, the ground must carry the weight at this slope.";
+    solution.unmet_constraints = {*contradiction};
+    return solution;
+  }
   std::vector<int> intervals;
   for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
   Mesh mesh = Mesh::Uniform(intervals);
@@ -99,8 +126,8 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     statistics.evaluation_time = result.evaluation_time_s;
     statistics.kkt_error = result.kkt_error;
 
-    // A finer mesh that fails does not take back the answer of the coarser one.
-    const bool keep_previous = level > 0 && !Converged(result.termination);
+    // A finer mesh that fails does not take back a real answer of the coarser one.
+    const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(solution);
     if (result.x.size() > 0 && result.x.allFinite() && !keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
@@ -138,6 +165,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     mesh = RefineMesh(mesh, spec, *solution.trajectory);
     options.initial_barrier = 1e-3;
   }
+  if (Converged(solution.termination) && IsArtefact(solution)) RefuseArtefact(spec, &solution);
   solution.wall_time = Since(begin);
   return solution;
 }
