@@ -22,7 +22,7 @@ void RequireAddress(const std::string& server) {
     if (parsed.ec == std::errc() && parsed.ptr == end && port >= 1 && port <= 65535) return;
   }
   throw Failure(ExitCode::kUsage,
-                "--server " + server + ": must be HOST:PORT with a port in [1, 65535], for example 127.0.0.1:50551");
+                "--server " + server + ": must be HOST:PORT with a port in [1, 65535], for example 127.0.0.1:50051");
 }
 
 }  // namespace

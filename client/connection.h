@@ -13,7 +13,7 @@ namespace rollgait::client {
 
 // What applies to every command.
 struct GlobalOptions {
-  std::string server = "127.0.0.1:50551";
+  std::string server = "127.0.0.1:50051";
   bool json = false;
   bool quiet = false;
   // Longest wait for the answer of one call, s. Streams have no such limit.
