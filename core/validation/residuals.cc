@@ -71,6 +71,11 @@ ContactResiduals MeasureContacts(const Scene& scene, const BodyDynamics& dynamic
             RaiseTo(Slip(scene.contacts[c], contact), &residuals.max_slip);
           }
         }
+      }
+      // Forces between the points are those of the re-integrated motion; the polynomial through the points says nothing
+      // before the first of them.
+      for (double theta : trajectory.point_fractions) {
+        interval.Evaluate(theta, &sample);
         for (size_t c = 0; c < active.size(); ++c) forces->Add(sample.forces.segment<3>(3 * static_cast<int>(c)));
       }
     }

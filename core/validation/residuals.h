@@ -36,7 +36,7 @@ struct ContactResiduals {
   double min_swing_clearance = 0;  // m, least gap of inactive contacts; 0 if every contact is always active
 };
 
-// Samples every interval at k/n, k = 0 … n, and at the scheme's points, and adds the forces there to `forces`.
+// Samples every interval at k/n, k = 0 … n, and at the scheme's points, and adds the forces at the points to `forces`.
 // Contract: samples_per_interval >= 1.
 ContactResiduals MeasureContacts(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
                                  int samples_per_interval, ForceExtremes* forces);
