@@ -173,6 +173,7 @@ int Main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
   spdlog::set_default_logger(spdlog::stderr_logger_mt("rollgaitd"));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
   spdlog::set_level(spdlog::level::from_str(flags.log_level));
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.solver.empty()) flags.solver = Sibling("rollgait-solve");

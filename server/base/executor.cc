@@ -20,9 +20,14 @@ bool Executor::TryPost(std::function<void()> task) {
 
 void Executor::Post(std::function<void()> task) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (threads_.empty()) return;
+  if (stopped_) return;
   tasks_.push_back(std::move(task));
   wake_.notify_one();
+}
+
+bool Executor::WaitIdle(std::chrono::milliseconds at_most) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return idle_.wait_for(lock, at_most, [this] { return tasks_.empty() && active_ == 0; });
 }
 
 void Executor::Stop() {
@@ -34,6 +39,8 @@ void Executor::Stop() {
     wake_.notify_all();
   }
   for (std::thread& thread : threads) thread.join();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stopped_ = true;
 }
 
 void Executor::Work() {
@@ -50,6 +57,7 @@ void Executor::Work() {
     lock.lock();
     --active_;
     if (stopping_) wake_.notify_all();
+    if (active_ == 0 && tasks_.empty()) idle_.notify_all();
   }
 }
 

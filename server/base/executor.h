@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_BASE_EXECUTOR_H_
 #define ROLLGAIT_SERVER_BASE_EXECUTOR_H_
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -24,6 +25,8 @@ class Executor {
   [[nodiscard]] bool TryPost(std::function<void()> task);
   // Always takes the task: for work that has been accepted before. After Stop it is dropped.
   void Post(std::function<void()> task);
+  // Waits until nothing waits or runs, at most so long. False: there is still something.
+  bool WaitIdle(std::chrono::milliseconds at_most);
   // Runs what waits, then joins. Tasks posted by tasks still run.
   void Stop();
 
@@ -32,9 +35,9 @@ class Executor {
 
   const size_t capacity_;
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable wake_, idle_;
   std::deque<std::function<void()>> tasks_;
-  bool stopping_ = false;
+  bool stopping_ = false, stopped_ = false;
   size_t active_ = 0;
   std::vector<std::thread> threads_;
 };

@@ -3,13 +3,18 @@
 #include <arpa/inet.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/service/request_check.h"
 
 namespace rollgait::server {
 namespace {
+
+// For answers on their way to clients.
+constexpr std::chrono::milliseconds kFlushTime{300};
 
 // HOST of "HOST:PORT", without the brackets of an IPv6 address.
 std::string HostOf(const std::string& listen) {
@@ -64,7 +69,11 @@ void RpcServer::Stop(std::chrono::milliseconds grace) {
   if (server_ == nullptr) return;
   server_->GetHealthCheckService()->SetServingStatus(false);
   hub_.Stop();
-  server_->Shutdown(std::chrono::system_clock::now() + grace);
+  // Every call is answered by a task. What is left then are answers on their way and clients that do not read theirs;
+  // gRPC would also wait for idle connections whose clients do not notice that they are to be closed.
+  const bool idle = executor_.WaitIdle(grace);
+  if (!idle) spdlog::warn("calls that were not answered within {} ms are cancelled", grace.count());
+  server_->Shutdown(std::chrono::system_clock::now() + std::min(grace, kFlushTime));
   executor_.Stop();
   server_.reset();
 }

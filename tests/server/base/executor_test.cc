@@ -33,8 +33,9 @@ TEST(ExecutorTest, BoundsWhatWaits) {
   EXPECT_FALSE(executor.TryPost([] {}));
   std::atomic<bool> ran{false};
   executor.Post([&] { ran = true; });  // beyond the bound: accepted work goes on
+  EXPECT_FALSE(executor.WaitIdle(std::chrono::milliseconds(0)));
   gate.set_value();
-  executor.Stop();
+  EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
   EXPECT_TRUE(ran);
 }
 

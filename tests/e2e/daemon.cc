@@ -1,0 +1,137 @@
+#include "tests/e2e/daemon.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "core/base/check.h"
+
+extern char** environ;
+
+namespace rollgait::server {
+namespace {
+
+std::string ReadLine(int fd) {
+  std::string line;
+  char letter = 0;
+  while (read(fd, &letter, 1) == 1 && letter != '\n') line += letter;
+  return line;
+}
+
+// Arguments of a process, each followed by a zero byte; empty if it is gone.
+std::string CommandLine(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<pid_t> AllProcesses() {
+  std::vector<pid_t> pids;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") == std::string::npos) pids.push_back(std::stoi(name));
+  }
+  return pids;
+}
+
+// The parent of a living process; 0 if it is gone or a zombie.
+pid_t ParentOf(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const size_t end = text.rfind(')');
+  if (end == std::string::npos) return 0;
+  std::istringstream rest(text.substr(end + 1));
+  char state = 'Z';
+  pid_t parent = 0;
+  rest >> state >> parent;
+  return state == 'Z' ? 0 : parent;
+}
+
+}  // namespace
+
+Daemon::Daemon(const Options& options) : data_dir_(options.data_dir) {
+  int ends[2];
+  ROLLGAIT_CHECK(pipe2(ends, O_CLOEXEC) == 0);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  std::vector<std::string> arguments = {ROLLGAITD, "--data-dir", options.data_dir, "--listen", options.listen};
+  if (!options.solver.empty()) arguments.insert(arguments.end(), {"--solver", options.solver});
+  arguments.insert(arguments.end(), options.flags.begin(), options.flags.end());
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  ROLLGAIT_CHECK(posix_spawn(&pid_, pointers[0], &actions, nullptr, pointers.data(), environ) == 0);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  output_ = ends[0];
+  const std::string line = ReadLine(output_);
+  const std::string prefix = "rollgaitd listening on ";
+  if (line.rfind(prefix, 0) == 0) address_ = line.substr(prefix.size());
+}
+
+Daemon::~Daemon() {
+  Kill();
+  KillAgents(data_dir_);
+  close(output_);
+}
+
+void Daemon::Kill() {
+  if (pid_ == 0) return;
+  kill(pid_, SIGKILL);
+  ExitCode();
+}
+
+int Daemon::Terminate() {
+  kill(pid_, SIGTERM);
+  return ExitCode();
+}
+
+int Daemon::ExitCode() {
+  int status = 0;
+  ROLLGAIT_CHECK(waitpid(pid_, &status, 0) == pid_);
+  pid_ = 0;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::unique_ptr<v1::GaitService::Stub> Daemon::NewStub() const {
+  // A channel of its own: a channel of the same address may still be backing off from the server's last death.
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return v1::GaitService::NewStub(grpc::CreateCustomChannel(address_, grpc::InsecureChannelCredentials(), arguments));
+}
+
+std::vector<pid_t> AgentsOf(const std::string& data_dir) {
+  std::vector<pid_t> agents;
+  for (const pid_t pid : AllProcesses()) {
+    const std::string command = CommandLine(pid);
+    const bool is_agent = command.substr(0, command.find('\0')).find("rollgait-agent") != std::string::npos;
+    if (is_agent && command.find(data_dir + '\0') != std::string::npos && ParentOf(pid) != 0) agents.push_back(pid);
+  }
+  return agents;
+}
+
+std::vector<pid_t> ChildrenOf(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const pid_t pid : AllProcesses()) {
+    if (ParentOf(pid) == parent) children.push_back(pid);
+  }
+  return children;
+}
+
+void KillAgents(const std::string& data_dir) {
+  for (const pid_t agent : AgentsOf(data_dir)) {
+    const std::vector<pid_t> solvers = ChildrenOf(agent);
+    kill(agent, SIGKILL);
+    for (const pid_t solver : solvers) kill(solver, SIGKILL);
+  }
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,45 @@
+// Stands in for rollgait-solve in tests of the whole server: as many iterations as solver_limits.max_iterations allows
+// (default 60), 10 ms apart, then an optimal result; on SIGTERM a cancelled one. Its iterations fall from objective 1.
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "server/base/framing.h"
+#include "server/base/wire.pb.h"
+
+namespace {
+
+volatile sig_atomic_t stop_requested = 0;
+
+void HandleStop(int) { stop_requested = 1; }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace rollgait;
+  using namespace rollgait::server;
+  int stream = -1;
+  for (int i = 1; i + 1 < argc; ++i) {
+    if (std::strcmp(argv[i], "--fd") == 0) stream = std::atoi(argv[i + 1]);
+  }
+  std::string payload;
+  v1::SolveSpec spec;
+  if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;
+  signal(SIGTERM, HandleStop);
+  signal(SIGPIPE, SIG_IGN);
+  const int count = spec.solver_limits().has_max_iterations() ? spec.solver_limits().max_iterations() : 60;
+  for (int i = 0; i < count && stop_requested == 0; ++i) {
+    wire::SolverMessage message;
+    message.mutable_iteration()->set_index(i);
+    message.mutable_iteration()->set_objective(1.0 / (1 + i));
+    if (WriteFrame(stream, message.SerializeAsString()) != FrameStatus::kOk) return 1;
+    usleep(10'000);
+  }
+  wire::SolverMessage message;
+  message.mutable_result()->set_termination(stop_requested == 0 ? v1::TERMINATION_OPTIMAL : v1::TERMINATION_CANCELLED);
+  message.mutable_result()->set_message("from the test's solver");
+  return WriteFrame(stream, message.SerializeAsString()) == FrameStatus::kOk ? 0 : 1;
+}
