@@ -19,7 +19,7 @@ struct StoreKind {
   std::function<std::unique_ptr<SolveStore>(const std::string& directory, const Clock& clock)> open;
 };
 
-// The cases are in solve_store_conformance.cc.
+// The cases are in solve_store_{requests,leases}_conformance.cc.
 class SolveStoreConformance : public testing::TestWithParam<StoreKind> {};
 
 }  // namespace rollgait::server

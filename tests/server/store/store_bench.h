@@ -1,0 +1,73 @@
+#ifndef ROLLGAIT_TESTS_SERVER_STORE_STORE_BENCH_H_
+#define ROLLGAIT_TESTS_SERVER_STORE_STORE_BENCH_H_
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rollgait/v1/solve.pb.h"
+#include "tests/server/store/solve_store_conformance.h"
+#include "tests/server/store/temporary_directory.h"
+
+namespace rollgait::server {
+
+// A store of the kind under test and what the cases do again and again.
+class StoreBench {
+ public:
+  explicit StoreBench(const StoreKind& kind) : kind_(kind), store_(kind.open(directory_.path(), clock_)) {}
+
+  SolveStore& store() { return *store_; }
+  FakeClock& clock() { return clock_; }
+  std::unique_ptr<SolveStore> OpenAgain() { return kind_.open(directory_.path(), clock_); }
+  void Restart() {
+    store_.reset();
+    store_ = OpenAgain();
+  }
+
+  SolveRecord Add(const std::string& id, const std::string& key = "") {
+    return store_->Create({id, "", "spec of " + id, key}).value().record;
+  }
+  Lease Claim(const std::string& owner = "agent") {
+    return store_->ClaimNext(owner, kLeaseDuration).value().value().lease;
+  }
+  bool CanClaim() { return store_->ClaimNext("prober", kLeaseDuration).value().has_value(); }
+  SolveRecord Get(const std::string& id) { return store_->Get(id).value(); }
+  std::vector<StoredEvent> Events(const std::string& id) { return store_->ReadEvents(id, 0, 1000).value().events; }
+  v1::SolveError ErrorOf(const std::string& id) {
+    v1::SolveError error;
+    EXPECT_TRUE(error.ParseFromString(Get(id).error));
+    return error;
+  }
+
+ private:
+  TemporaryDirectory directory_;
+  FakeClock clock_;
+  const StoreKind& kind_;
+  std::unique_ptr<SolveStore> store_;
+};
+
+inline std::string Numbered(const std::string& prefix, size_t number) { return prefix + std::to_string(number); }
+
+inline StoredEvent IterationEvent(int index) {
+  v1::SolveEvent event;
+  event.mutable_iteration()->set_index(index);
+  return {0, EventKind::kIteration, event.SerializeAsString()};
+}
+
+inline v1::SolveEvent Parsed(const StoredEvent& event) {
+  v1::SolveEvent parsed;
+  EXPECT_TRUE(parsed.ParseFromString(event.payload));
+  return parsed;
+}
+
+inline void ExpectDense(const std::vector<StoredEvent>& events) {
+  for (size_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i].sequence, static_cast<int64_t>(i) + 1);
+}
+
+inline const SolveEnd kAnswer{SolveState::kSucceeded, "the result", "", true};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_TESTS_SERVER_STORE_STORE_BENCH_H_
