@@ -26,7 +26,8 @@ class CollocationNlpTest : public ::testing::TestWithParam<Case> {
     problem_ = BuildProblem(*spec_);
     Mesh mesh;
     for (size_t p = 0; p < problem_->phases.size(); ++p) {
-      mesh.fractions.push_back(p % 2 == 0 ? std::vector<double>{1} : std::vector<double>{0.3, 0.7});
+      const bool two = p == problem_->phases.size() - 1;
+      mesh.fractions.push_back(two ? std::vector<double>{0.3, 0.7} : std::vector<double>{1});
     }
     nlp_ = std::make_unique<CollocationNlp>(*problem_, scheme, mesh);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
