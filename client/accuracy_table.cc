@@ -41,6 +41,8 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
   const v1::AccuracyReport& report = solve.result().accuracy();
   const Bounds bounds = RequestedBounds(solve.spec().accuracy());
   const std::string tolerance = FormatNumber(report.integrator_tolerance(), 2);
+  const v1::GroundContact& ground = solve.spec().ground_contact();
+  const double friction = ground.has_friction_coefficient() ? ground.friction_coefficient() : 0.8;
   return {
       {"largest position defect",
        report.max_position_defect(),
@@ -62,10 +64,13 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        "Speed of the foot's material point that touches the ground; zero when it rolls without slipping.",
        Thousandfold(bounds.slip_m_s)},
       {"least normal force", report.min_normal_force_n(), "N", "", "Positive: the ground pushes and never pulls.", {}},
-      {"largest friction ratio", report.max_friction_ratio(), "", "",
-       "Tangential over normal force; must stay below the ground's friction coefficient.",
-       solve.spec().ground_contact().has_friction_coefficient() ? solve.spec().ground_contact().friction_coefficient()
-                                                                : 0.8},
+      {"largest friction ratio",
+       report.max_friction_ratio(),
+       "",
+       "the ground's coefficient is " + FormatNumber(friction),
+       "Tangential over normal force. It is held below the coefficient at the collocation points; sampled between them "
+       "too.",
+       {}},
       {"least swing clearance",
        report.min_swing_clearance_m() * 1e3,
        "mm",

@@ -47,7 +47,7 @@ function header() {
 function walkers() {
   const height = Math.max(...MOVING.map((s) => s.stride.walker.height));
   const duration = MOVING.reduce((sum, s) => sum + s.stride.duration, 0) / MOVING.length;
-  section("The walk", "Right leg in colour, left leg pale; ○ is the centre of mass, red arrows are the ground's forces at the contact points (100 % of body weight is 0.6 m long). Marks on the ground are 0.25 m apart. All gaits run by percentage of the cycle, from right heel strike to right heel strike.",
+  section("The walk", "Right leg in colour, left leg pale; ○ is the centre of mass, red arrows are the ground's forces at the contact points (100 % of body weight is 0.6 m long; arrows are cut at 200 %). Marks on the ground are 0.25 m apart. All gaits run by percentage of the cycle, from right heel strike to right heel strike.",
     controls(duration), el("div", { class: "grid" }, MOVING.map((s) => animationPanel(s, s.index, height))));
   section("Snapshots", "Nine instants of the cycle, drawn apart along the slope; percentage of the gait cycle and time from right heel strike.",
     MOVING.map((s) => snapshots(s, s.index)));

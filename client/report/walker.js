@@ -1,6 +1,7 @@
 // The walker: stick figure, feet, ground, forces; as animation and as snapshots.
 const SCALE = 185; // pixels a metre in the animation
 const FORCE_M = 0.006; // metres of arrow for one per cent of body weight
+const LONGEST_FORCE = 200; // % of body weight; longer arrows are cut
 
 function mix(a, b, share) {
   return a.map((value, i) => value * (1 - share) + b[i] * share);
@@ -73,7 +74,8 @@ function figure(stride, color, withForces) {
       const shown = fz !== 0 || fx !== 0;
       arrow.style.visibility = dot.style.visibility = shown ? "visible" : "hidden";
       if (!shown) continue;
-      const dx = fx * FORCE_M, dz = fz * FORCE_M, length = Math.hypot(dx, dz) || 1;
+      const cut = Math.min(1, LONGEST_FORCE / Math.max(Math.hypot(fx, fz), 1e-9)) * FORCE_M;
+      const dx = fx * cut, dz = fz * cut, length = Math.hypot(dx, dz) || 1;
       const head = Math.min(0.05, 0.4 * length), ux = dx / length, uz = dz / length;
       arrow.setAttribute("d", `M${x},${z} l${dx},${dz} m${-head * ux - head * 0.5 * uz},${-head * uz + head * 0.5 * ux} l${head * ux + head * 0.5 * uz},${head * uz - head * 0.5 * ux} l${-head * ux + head * 0.5 * uz},${-head * uz - head * 0.5 * ux}`);
       dot.setAttribute("cx", x); dot.setAttribute("cy", z);
