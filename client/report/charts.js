@@ -50,7 +50,9 @@ function ticks(low, high, count) {
 
 // Everything that shows the current instant: called with a percentage of the gait cycle.
 const cursors = [];
+let instant = 0;
 function showPercent(percent, except) {
+  instant = percent;
   for (const cursor of cursors) if (cursor !== except) cursor(percent);
 }
 
@@ -61,15 +63,44 @@ function valueAt(values, percent) {
   return values[index] * (1 - share) + values[index + 1] * share;
 }
 
-const BOX = { width: 372, height: 232, left: 46, right: 8, top: 10, bottom: 36 };
+const BOX = { width: 372, height: 232, left: 50, right: 8, top: 10, bottom: 36 };
 
-// A chart of curves over the gait cycle as a card.
-//   options: title, note, unit, range ([low, high] or null: from the data), bands ([{start, end}] in %),
-//   series [{label, color, dash, width, opacity, values, mark}] where `mark` is a percentage (toe-off) or null
+// The whole range of the values, and one that a few spikes do not stretch: the middle 99 % with a margin.
+function ranges(values) {
+  const sorted = values.filter((v) => v !== null && isFinite(v)).sort((a, b) => a - b);
+  const full = [Math.min(0, sorted[0]), Math.max(0, sorted[sorted.length - 1])];
+  const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
+  const low = Math.min(0, at(0.005)), high = Math.max(0, at(0.995)), margin = 0.15 * (high - low);
+  const middle = [Math.max(low - margin, full[0]), Math.min(high + margin, full[1])];
+  return { full, middle, spiky: full[1] - full[0] > 1.5 * (middle[1] - middle[0]) };
+}
+
+// A chart of curves over the gait cycle as a card. If spikes would flatten the curves they are cut, the card says so, and
+// a button shows them.
+//   options: title, note, unit, width (of the drawing), pool (values that set the range; default: those of the series),
+//   bands ([{start, end}] in %),
+//   series [{label, color, dash, opacity, values, mark}] where `mark` is a percentage (toe-off) or null
 function chart(options) {
-  const { width, height, left, right, top, bottom } = BOX;
-  const all = options.series.flatMap((s) => s.values).filter((v) => v !== null);
-  let [low, high] = options.range || [Math.min(0, ...all), Math.max(0, ...all)];
+  const range = ranges(options.pool || options.series.flatMap((s) => s.values));
+  const card = el("figure", { class: "card", style: "margin:0" });
+  const draw = (whole) => {
+    const extent = whole || !range.spiky ? range.full : range.middle;
+    card.replaceChildren(...drawChart(options, extent));
+    if (!range.spiky) return;
+    const own = options.series.flatMap((s) => s.values).filter((v) => v !== null);
+    const cut = Math.min(...own) < extent[0] || Math.max(...own) > extent[1];
+    const words = whole ? "whole range shown" : cut ? `peaks cut: ${fmt(Math.min(...own), 3)} to ${fmt(Math.max(...own), 3)} ${options.unit}` : "";
+    card.append(el("div", { class: "range" }, words, " ", el("button", { type: "button", on: { click: () => draw(!whole) } }, whole ? "cut peaks" : "show all")));
+  };
+  draw(false);
+  return card;
+}
+
+let charts = 0;
+// Heading, legend and drawing of a chart between two values.
+function drawChart(options, [low, high]) {
+  const { height, left, right, top, bottom } = BOX;
+  const width = options.width || BOX.width;
   if (!(high > low)) [low, high] = [low - 1, high + 1];
   const marks = ticks(low, high, 5);
   [low, high] = [marks[0], marks[marks.length - 1]];
@@ -89,10 +120,12 @@ function chart(options) {
     root.append(svg("text", { x: x(percent), y: height - bottom + 16, "text-anchor": "middle" }, String(percent)));
   }
   root.append(svg("text", { x: (left + width - right) / 2, y: height - 5, "text-anchor": "middle" }, "% of gait cycle"));
-  root.append(svg("text", { transform: `translate(11 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, options.unit));
+  root.append(svg("text", { transform: `translate(9 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, options.unit));
+  const clip = `plot${++charts}`;
+  root.append(svg("clipPath", { id: clip }, svg("rect", { x: left, y: top - 1, width: width - left - right, height: height - top - bottom + 2 })));
   for (const s of options.series) {
-    const points = s.values.map((v, i) => `${x((100 * i) / (s.values.length - 1)).toFixed(1)},${y(v).toFixed(1)}`);
-    root.append(svg("polyline", { class: "curve", points: points.join(" "), style: `stroke:${s.color};stroke-width:${s.width || 2};opacity:${s.opacity || 1}`, "stroke-dasharray": s.dash || "none" }));
+    const points = s.values.map((v, i) => [x((100 * i) / (s.values.length - 1)), v]).filter(([, v]) => v !== null).map(([px, v]) => `${px.toFixed(1)},${y(v).toFixed(1)}`);
+    root.append(svg("polyline", { class: "curve", "clip-path": `url(#${clip})`, points: points.join(" "), style: `stroke:${s.color};stroke-width:${s.width || 2};opacity:${s.opacity || 1}`, "stroke-dasharray": s.dash || "none" }));
     if (s.mark !== null && s.mark !== undefined) {
       root.append(svg("path", { d: `M${x(s.mark) - 4},${height - bottom} h8 l-4,-7 z`, style: `fill:${s.color}` }, svg("title", {}, `toe-off at ${fmt(s.mark, 3)} %`)));
     }
@@ -111,6 +144,7 @@ function chart(options) {
     where.textContent = `${options.note ? "· " : ""}${percent.toFixed(1)} %`;
   };
   cursors.push(show);
+  show(instant);
   root.addEventListener("pointermove", (event) => {
     const box = root.getBoundingClientRect();
     const percent = ((((event.clientX - box.left) / box.width) * width - left) / (width - left - right)) * 100;
@@ -119,6 +153,5 @@ function chart(options) {
       showPercent(percent, show);
     }
   });
-  return el("figure", { class: "card", style: "margin:0" },
-    el("h3", {}, options.title, el("span", { class: "soft" }, options.note || "", " ", where)), legend, root);
+  return [el("h3", {}, options.title, el("span", { class: "soft" }, options.note || "", " ", where)), legend, root];
 }

@@ -89,12 +89,12 @@ function phaseBar(solve) {
 }
 
 // Curves of one kind, all solves overlaid, one chart a joint.
-function overlaid(kind, unit, scaled) {
+function overlaid(kind, unit, ownScale) {
   const joints = MOVING[0].stride[kind];
-  const all = scaled ? null : MOVING.flatMap((s) => s.stride[kind].flatMap((c) => c.values));
-  const range = all ? [Math.min(0, ...all), Math.max(0, ...all)] : null;
-  return el("div", { class: joints.length === 4 ? "grid four" : "grid" }, joints.map((joint, j) => chart({
-    title: capital(joint.title), unit, range,
+  const pool = ownScale ? null : MOVING.flatMap((s) => s.stride[kind].flatMap((c) => c.values));
+  const four = joints.length === 4;
+  return el("div", { class: four ? "grid four" : "grid" }, joints.map((joint, j) => chart({
+    title: capital(joint.title), unit, pool, width: four ? 278 : null,
     note: joint.positive ? `+ ${joint.positive}` : "",
     bands: MOVING.length === 1 ? doubleSupports(MOVING[0].stride) : [],
     series: MOVING.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: s.stride[kind][j].values, mark: rightToeOff(s.stride) })),
@@ -103,9 +103,9 @@ function overlaid(kind, unit, scaled) {
 
 // Curves of one kind, all joints together, one chart a solve: the panels of the paper's Figure 2.
 function together(kind, unit) {
-  const all = MOVING.flatMap((s) => s.stride[kind].flatMap((c) => c.values));
+  const pool = MOVING.flatMap((s) => s.stride[kind].flatMap((c) => c.values));
   return el("div", { class: "grid" }, MOVING.map((s) => chart({
-    title: s.label, unit, range: [Math.min(0, ...all), Math.max(0, ...all)], bands: doubleSupports(s.stride),
+    title: s.label, unit, pool, bands: doubleSupports(s.stride),
     note: "grey: double support",
     series: s.stride[kind].map((curve, j) => ({ label: curve.title, color: jointColor(j), dash: DASHES[j % 4], values: curve.values, mark: null })),
   })));
@@ -118,12 +118,20 @@ function curves() {
   section("Joint angles", "Angles of the right leg and of the trunk. Zero is the upright posture with straight legs and level feet, relative to the slope's normal.",
     overlaid("angles", "degrees", true));
   section("Joint power of the right leg", "Torque times angular velocity: positive power adds energy, negative power takes it away.", overlaid("powers", "W", false));
-  const overlays = ["normal", "tangential"].map((kind) => chart({
-    title: `${capital(kind)} force, right foot`, unit: "% of body weight", note: kind === "normal" ? "out of the ground" : "+ pushes forward",
-    series: MOVING.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: s.stride.contacts.find((c) => c.right).normal && s.stride.contacts.find((c) => c.right)[kind], mark: rightToeOff(s.stride) })),
-  }));
+  // The foot whose heel strike is 0 %. A ratio means nothing where there is no force.
+  const right = (s) => s.stride.contacts.find((c) => c.right) || s.stride.contacts[0];
+  const ratio = (s) => right(s).normal.map((normal, i) => (normal > 0.5 ? Math.abs(right(s).tangential[i]) / normal : 0));
+  const overlay = (title, unit, note, values) => chart({
+    title, unit, note,
+    series: MOVING.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: values(s), mark: rightToeOff(s.stride) })),
+  });
+  const overlays = [
+    overlay("Normal, right foot", "% of body weight", "", (s) => right(s).normal),
+    overlay("Tangential, right foot", "% of body weight", "+ forward", (s) => right(s).tangential),
+    overlay("Friction ratio, right foot", "tangential / normal", "", ratio)];
+  const pool = MOVING.flatMap((s) => s.stride.contacts.flatMap((c) => [...c.normal, ...c.tangential]));
   const each = MOVING.map((s) => chart({
-    title: s.label, unit: "% of body weight", note: "grey: double support", bands: doubleSupports(s.stride),
+    title: s.label, unit: "% of body weight", pool, note: "grey: double support", bands: doubleSupports(s.stride),
     series: s.stride.contacts.flatMap((c) => [
       { label: `${c.name.replace("_", " ")}, normal`, color: solveColor(s.index), opacity: c.right ? 1 : 0.5, values: c.normal, mark: null },
       { label: "tangential", color: solveColor(s.index), opacity: c.right ? 1 : 0.5, dash: DASHES[2], values: c.tangential, mark: null }]),
@@ -155,10 +163,10 @@ function numerics() {
   }
   const meshed = SOLVES.filter((s) => s.meshes.length);
   if (meshed.length) {
-    section("Meshes", "One row a mesh, coarsest first; the mesh is refined until the requested accuracy is reached. Intervals are those of each phase.",
-      table(["Slope", "Scheme", "Intervals", "Unknowns", "Constraints", "Jacobian nnz", "Hessian nnz", "Iterations", "Time", "Evaluation", "Objective", "KKT error", "Gap", "Slip"],
-        meshed.flatMap((s) => s.meshes.map((m, i) => [i ? "" : labelOf(s), i ? "" : s.scheme, m.intervals, String(m.unknowns), String(m.constraints), String(m.jacobian), String(m.hessian), String(m.iterations), m.wall, m.evaluation, fmt(m.objective, 6), fmt(m.kkt, 3), `${fmt(m.gap_mm, 3)} mm`, `${fmt(m.slip_mm_s, 3)} mm/s`])),
-        [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]));
+    section("Meshes", "One row a mesh, coarsest first; the mesh is refined until the requested accuracy is reached. Intervals are those of each phase; Jacobian and Hessian are counts of nonzeros.",
+      table(["Slope", "Intervals", "Unknowns", "Constraints", "Jacobian", "Hessian", "Iterations", "Time", "Evaluation", "Objective", "KKT error", "Gap", "Slip"],
+        meshed.flatMap((s) => s.meshes.map((m, i) => [i ? "" : labelOf(s), m.intervals, String(m.unknowns), String(m.constraints), String(m.jacobian), String(m.hessian), String(m.iterations), m.wall, m.evaluation, fmt(m.objective, 6), fmt(m.kkt, 3), `${fmt(m.gap_mm, 3)} mm`, `${fmt(m.slip_mm_s, 3)} mm/s`])),
+        [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
   }
 }
 
@@ -176,7 +184,7 @@ function model() {
 
 function requests() {
   section("Requests", "What was asked for, as rollgait.v1.SolveSpec; save one as a file and repeat it with rollgait solve --spec FILE.",
-    table(["Solve", "Created", "Request", "Solver"], SOLVES.map((s) => [el("span", {}, swatch(s), s.name || s.label), s.created, s.request.map((r) => `${r[0]} ${r[1]}`).join(", "), `${s.build}${s.from_cache ? " (answered from an earlier, equal request)" : ""}`]), []),
+    table(["Solve", "Created", "Request", "Solver"], SOLVES.map((s) => [el("span", {}, swatch(s), s.name || s.label), s.created, s.request.map((r) => `${r[0]} ${r[1]}`).join(", "), `${s.scheme}; ${s.build}${s.from_cache ? " (answered from an earlier, equal request)" : ""}`]), []),
     SOLVES.map((s) => el("details", {}, el("summary", {}, `${s.label}: the request`), el("pre", {}, s.spec))));
   page.append(el("footer", {}, `Written by ${DATA.program}. Conventions: x along the ground in the direction of walking, z normal to it; a slope turns gravity, uphill is positive. Between the nodes of the mesh the curves are the collocation polynomials.`));
 }
