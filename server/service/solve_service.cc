@@ -99,8 +99,10 @@ Outcome<v1::Solve> SolveService::CancelSolve(const v1::CancelSolveRequest& reque
   if (!id.ok()) return id.error();
   const Outcome<SolveRecord> record = store_.RequestCancel(id.value());
   if (!record.ok()) return record.error();
-  spdlog::info("solves/{} is to be cancelled", id.value());
-  announce_(id.value());
+  if (record.value().cancel_requested) {
+    spdlog::info("solves/{} {}", id.value(), IsTerminal(record.value().state) ? "cancelled" : "is to be cancelled");
+    announce_(id.value());
+  }
   return ToSolve(record.value());
 }
 

@@ -34,6 +34,14 @@ std::optional<SolveRow> FindRequest(SqliteConnection& connection, const std::str
   return ReadSolve(query);
 }
 
+// What the first event of a queued solve says: why it waits, if it waits for another (single flight).
+std::string QueuedDetail(SqliteConnection& connection, const std::string& solve_key) {
+  if (solve_key.empty()) return "";
+  Query query(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
+              solve_key);
+  return query.Step() ? "waits for the result of the equal request solves/" + query.Bytes(0) : "";
+}
+
 Error QueueFull(int queued, int limit) {
   return {ErrorCode::kResourceExhausted,
           std::to_string(queued) + " solves are queued, the limit is " + std::to_string(limit) + "; try again later",
@@ -95,10 +103,11 @@ Outcome<CreatedSolve> SqliteStore::Create(const NewSolve& solve) {
     const int64_t reusable = FindReusableResult(connection, solve.solve_key);
     const int queued = CountState(connection, SolveState::kQueued);
     if (reusable == 0 && queued >= solve.max_queued) return QueueFull(queued, solve.max_queued);
+    const std::string detail = QueuedDetail(connection, solve.solve_key);
     SolveRow row;
     row.record.create_time_us = clock_.WallMicros();
     InsertSolve(connection, solve, row);
-    ChangeState(connection, row, SolveState::kQueued, "", row.record.create_time_us);
+    ChangeState(connection, row, SolveState::kQueued, detail, row.record.create_time_us);
     if (reusable != 0) {
       row.record.from_cache = true;
       EndSolve(connection, row, SolveState::kSucceeded, reusable, "", row.record.create_time_us);

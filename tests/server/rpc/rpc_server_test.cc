@@ -161,6 +161,60 @@ TEST(RpcServerTest, HealthIsServing) {
   }
 }
 
+// A stream opened with one message of hand-made bytes; answers are read one by one.
+class RawStream {
+ public:
+  RawStream(RpcBench& bench, const std::string& method, const std::string& bytes) : stub_(bench.channel()) {
+    stream_ = stub_.PrepareCall(&context_, method, &queue_);
+    stream_->StartCall(nullptr);
+    Wait();
+    grpc::Slice slice(bytes);
+    stream_->WriteLast(grpc::ByteBuffer(&slice, 1), grpc::WriteOptions(), nullptr);
+    Wait();
+  }
+  ~RawStream() {
+    context_.TryCancel();
+    grpc::Status status;
+    stream_->Finish(&status, nullptr);
+    Wait();
+  }
+  // Empty at the end of the stream.
+  std::string Read() {
+    grpc::ByteBuffer buffer;
+    stream_->Read(&buffer, nullptr);
+    grpc::Slice flat;
+    if (!Wait() || !buffer.DumpToSingleSlice(&flat).ok()) return "";
+    return {reinterpret_cast<const char*>(flat.begin()), flat.size()};
+  }
+
+ private:
+  bool Wait() {
+    void* tag = nullptr;
+    bool ok = false;
+    return queue_.Next(&tag, &ok) && ok;
+  }
+
+  grpc::GenericStub stub_;
+  grpc::ClientContext context_;
+  grpc::CompletionQueue queue_;
+  std::unique_ptr<grpc::GenericClientAsyncReaderWriter> stream_;
+};
+
+TEST(RpcServerTest, HealthSaysNotServingWhenTheServerStops) {
+  RpcBench bench;
+  RawStream health(bench, "/grpc.health.v1.Health/Watch", "");
+  EXPECT_EQ(health.Read(), "\x08\x01");
+  bench.server().Stop(std::chrono::seconds(5));
+  EXPECT_EQ(health.Read(), "\x08\x02");
+}
+
+TEST(RpcServerTest, ReflectionListsTheService) {
+  RpcBench bench;
+  // ServerReflectionRequest{list_services: "*"}: field 7.
+  RawStream reflection(bench, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", "\x3a\x01*");
+  EXPECT_NE(reflection.Read().find("rollgait.v1.GaitService"), std::string::npos);
+}
+
 TEST(RpcServerTest, GarbageIsRefusedAndTheServerGoesOn) {
   RpcBench bench;
   std::string answer;

@@ -157,6 +157,8 @@ TEST_P(SolveStoreConformance, EqualRequestsRunOnce) {
   bench.Add("c", "other");
   const Lease first = bench.Claim();
   EXPECT_EQ(bench.Claim().solve_id, "c") << "b waits for a";
+  EXPECT_NE(Parsed(bench.Events("b")[0]).state_change().detail().find("solves/a"), std::string::npos);
+  EXPECT_EQ(Parsed(bench.Events("a")[0]).state_change().detail(), "");
   EXPECT_FALSE(bench.CanClaim());
   ASSERT_TRUE(bench.store().Finish(first, {}, kAnswer).ok());
   EXPECT_EQ(bench.Get("b").state, SolveState::kSucceeded);
