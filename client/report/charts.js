@@ -88,7 +88,8 @@ function chart(options) {
     card.replaceChildren(...drawChart(options, extent));
     if (!range.spiky) return;
     const own = options.series.flatMap((s) => s.values).filter((v) => v !== null);
-    const cut = Math.min(...own) < extent[0] || Math.max(...own) > extent[1];
+    const axis = ticks(extent[0], extent[1], 5);
+    const cut = Math.min(...own) < axis[0] || Math.max(...own) > axis[axis.length - 1];
     const words = whole ? "whole range shown" : cut ? `peaks cut: ${fmt(Math.min(...own), 3)} to ${fmt(Math.max(...own), 3)} ${options.unit}` : "";
     card.append(el("div", { class: "range" }, words, " ", el("button", { type: "button", on: { click: () => draw(!whole) } }, whole ? "cut peaks" : "show all")));
   };

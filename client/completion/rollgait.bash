@@ -1,0 +1,47 @@
+# Completion of the command line client for bash: source this file, or install it as
+# share/bash-completion/completions/rollgait.
+_rollgait() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
+  local commands="solve watch get list cancel delete models report server-info help"
+  local global="--server --json --quiet --timeout --version --help"
+  local body="--sex --stature --mass"
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    if [[ " $commands " == *" $word "* ]]; then command=$word; break; fi
+  done
+  case $previous in
+    --sex) COMPREPLY=($(compgen -W "female male" -- "$current")); return ;;
+    --scheme) COMPREPLY=($(compgen -W "radau2 radau3 hermite-simpson" -- "$current")); return ;;
+    --cycle) COMPREPLY=($(compgen -W "half full" -- "$current")); return ;;
+    --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
+    --cost) COMPREPLY=($(compgen -W "torque torque-rate work time" -- "$current")); return ;;
+    --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;
+    --state) COMPREPLY=($(compgen -W "queued running succeeded failed cancelled" -- "$current")); return ;;
+    --output | -o | --spec) COMPREPLY=($(compgen -f -- "$current")); return ;;
+  esac
+  if [[ $current == -* ]]; then
+    local options=$global
+    case $command in
+      solve) options+=" $body --spec --model --slope --speed --step-length --step-duration --free-speed --cycle --friction
+        --clearance --cost --normalize --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
+        --max-iterations --time-limit --output --request-id --validate-only --detach --reconnect" ;;
+      watch) options+=" --after-sequence --output --reconnect" ;;
+      get) options+=" --output" ;;
+      list) options+=" --state --limit" ;;
+      models) options+=" $body" ;;
+      report) options+=" --output --title" ;;
+    esac
+    COMPREPLY=($(compgen -W "$options" -- "$current"))
+    return
+  fi
+  case $command in
+    "") COMPREPLY=($(compgen -W "$commands" -- "$current")) ;;
+    help) COMPREPLY=($(compgen -W "$commands" -- "$current")) ;;
+    watch | get | cancel | delete | report)
+      local names
+      names=$(rollgait --timeout 1 list --limit 100 2> /dev/null | awk 'NR > 1 { print $1 }')
+      COMPREPLY=($(compgen -W "$names" -- "$current") $( [[ $command == report ]] && compgen -f -X '!*.json' -- "$current")) ;;
+    models)
+      COMPREPLY=($(compgen -W "$(rollgait --timeout 1 models 2> /dev/null | awk 'NR > 1 { print $1 }')" -- "$current")) ;;
+  esac
+}
+complete -F _rollgait rollgait
