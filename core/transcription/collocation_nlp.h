@@ -67,6 +67,7 @@ class CollocationNlp : public NlpProblem {
     return x[layout_.duration(layout_.phase(interval))] * StepRatio(interval);
   }
   int GlobalColumn(int interval, int local) const;
+  TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
   void SetDenominator();
   void SetStateBounds();
   void SetControlBounds();

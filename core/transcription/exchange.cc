@@ -35,8 +35,7 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
 }
 
 Trajectory CollocationNlp::Extract(const double* x) {
-  const int n = problem_.model.size(), s = scheme_.points();
-  const int efforts = static_cast<int>(problem_.model.actuated().size());
+  const int s = scheme_.points();
   Trajectory trajectory;
   trajectory.scheme = scheme_kind_;
   trajectory.points_per_interval = s;
@@ -46,46 +45,50 @@ Trajectory CollocationNlp::Extract(const double* x) {
   trajectory.displacement = x[layout_.displacement()];
   double start = 0;
   for (int p = 0; p < layout_.phases(); ++p) {
-    const int count = layout_.intervals_in(p), first = layout_.first_interval(p);
-    const auto active = problem_.ActiveContacts(p);
-    TrajectoryPhase phase;
-    phase.contacts = problem_.phases[p].active;
-    phase.start = start;
-    phase.duration = x[layout_.duration(p)];
-    phase.node_positions.resize(n, count + 1);
-    phase.node_velocities.resize(n, count + 1);
-    for (MatrixX* m : {&phase.point_positions, &phase.point_velocities, &phase.point_accelerations}) {
-      m->resize(n, count * s);
-    }
-    phase.point_efforts.resize(efforts, count * s);
-    phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
-    for (int k = 0; k <= count; ++k) {
-      phase.node_times.push_back(start + phase.duration * (k < count ? layout_.start(first + k) : 1));
-      phase.node_positions.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k), n);
-      phase.node_velocities.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k) + n, n);
-    }
-    for (int k = 0; k < count; ++k) {
-      for (int i = 0; i < s; ++i) {
-        const int column = k * s + i;
-        const VectorX& z = blocks_[p]->PointState(x + layout_.node(first + k), Step(x, first + k), i);
-        phase.point_times.push_back(start + phase.duration * (layout_.start(first + k) +
-                                                              scheme_.tableau().c(i) * layout_.length(first + k)));
-        phase.point_positions.col(column) = z.head(n);
-        phase.point_velocities.col(column) = z.segment(n, n);
-        phase.point_accelerations.col(column) = z.segment(2 * n, n);
-        phase.point_efforts.col(column) = z.segment(3 * n, efforts);
-        for (size_t c = 0; c < active.size(); ++c) {
-          for (size_t d = 0; d < active[c].directions.size(); ++d) {
-            phase.point_forces(3 * static_cast<int>(c) + active[c].directions[d], column) =
-                z(3 * n + efforts + active[c].offset + static_cast<int>(d));
-          }
-        }
-      }
-    }
-    start += phase.duration;
-    trajectory.phases.push_back(std::move(phase));
+    trajectory.phases.push_back(ExtractPhase(x, p, start));
+    start += trajectory.phases.back().duration;
   }
   return trajectory;
+}
+
+TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double start) {
+  const int n = problem_.model.size(), s = scheme_.points();
+  const int efforts = static_cast<int>(problem_.model.actuated().size());
+  const int count = layout_.intervals_in(p), first = layout_.first_interval(p);
+  const auto active = problem_.ActiveContacts(p);
+  TrajectoryPhase phase;
+  phase.contacts = problem_.phases[p].active;
+  phase.start = start;
+  phase.duration = x[layout_.duration(p)];
+  phase.node_positions.resize(n, count + 1);
+  phase.node_velocities.resize(n, count + 1);
+  for (MatrixX* m : {&phase.point_positions, &phase.point_velocities, &phase.point_accelerations}) {
+    m->resize(n, count * s);
+  }
+  phase.point_efforts.resize(efforts, count * s);
+  phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
+  for (int k = 0; k <= count; ++k) {
+    phase.node_times.push_back(start + phase.duration * (k < count ? layout_.start(first + k) : 1));
+    phase.node_positions.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k), n);
+    phase.node_velocities.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k) + n, n);
+  }
+  for (int column = 0; column < count * s; ++column) {
+    const int k = first + column / s, i = column % s;
+    const VectorX& z = blocks_[p]->PointState(x + layout_.node(k), Step(x, k), i);
+    const double fraction = layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k);
+    phase.point_times.push_back(start + phase.duration * fraction);
+    phase.point_positions.col(column) = z.head(n);
+    phase.point_velocities.col(column) = z.segment(n, n);
+    phase.point_accelerations.col(column) = z.segment(2 * n, n);
+    phase.point_efforts.col(column) = z.segment(3 * n, efforts);
+    for (size_t c = 0; c < active.size(); ++c) {
+      for (size_t d = 0; d < active[c].directions.size(); ++d) {
+        phase.point_forces(3 * static_cast<int>(c) + active[c].directions[d], column) =
+            z(3 * n + efforts + active[c].offset + static_cast<int>(d));
+      }
+    }
+  }
+  return phase;
 }
 
 }  // namespace rollgait

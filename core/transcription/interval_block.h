@@ -2,6 +2,8 @@
 #define ROLLGAIT_CORE_TRANSCRIPTION_INTERVAL_BLOCK_H_
 
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "core/math/collocation.h"
@@ -75,6 +77,8 @@ class IntervalBlock {
   void BuildPoints();
   void BuildJacobianPattern();
   void BuildHessianPattern();
+  std::vector<int> Behind(int i, int column) const;
+  void PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) const;
   int SourceOffset(int source) const;
   int ControlOffset(int point) const { return 2 * layout_.n + (points_count_ - 2) * layout_.n + point * controls_; }
   void AccumulateHessian(int i);

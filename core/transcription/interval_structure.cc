@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "core/transcription/interval_block.h"
 #include "core/transcription/layout.h"
@@ -120,49 +119,64 @@ void IntervalBlock::BuildJacobianPattern() {
   }
 }
 
-void IntervalBlock::BuildHessianPattern() {
+// Local variables behind variable `column` of z at point i.
+std::vector<int> IntervalBlock::Behind(int i, int column) const {
   const int n = layout_.n;
+  if (column >= 3 * n) return {ControlOffset(i) + column - 3 * n};
+  std::vector<int> locals;
+  for (int source = 0; source < scheme_.sources(); ++source) {
+    if (scheme_.Depends(static_cast<Kind>(column / n), i, source)) locals.push_back(SourceOffset(source) + column % n);
+  }
+  return locals;
+}
+
+// Pairs of variables of z with a second derivative at point i, and the variables of z that meet h: all that enter anything
+// nonlinear.
+void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) const {
+  const int n = layout_.n;
+  for (PointConstraint* constraint : points_[i].constraints) {
+    const Entries p = constraint->HessianPattern();
+    pairs->insert(pairs->end(), p.begin(), p.end());
+    for (const auto& [row, column] : constraint->JacobianPattern()) {
+      if (column < 3 * n) step_coupled->insert(column);
+    }
+  }
+  for (PointCost* integrand : costs_) {
+    if (integrand == nullptr) continue;
+    for (const auto& [a, b] : integrand->HessianPattern()) {
+      pairs->emplace_back(a, b);
+      step_coupled->insert({a, b});
+    }
+  }
+  for (const auto& [a, b] : *pairs) {
+    if (a < 3 * n) step_coupled->insert(b);
+    if (b < 3 * n) step_coupled->insert(a);
+  }
+}
+
+void IntervalBlock::BuildHessianPattern() {
   std::set<std::pair<int, int>> lower;
   std::set<int> cost;
   const auto add = [&lower](int a, int b) { lower.emplace(std::max(a, b), std::min(a, b)); };
-  // Local variables behind variable `column` of z at point i.
-  const auto behind = [&](int i, int column) {
-    std::vector<int> locals;
-    if (column >= 3 * n) return std::vector<int>{ControlOffset(i) + column - 3 * n};
-    for (int source = 0; source < scheme_.sources(); ++source) {
-      if (scheme_.Depends(static_cast<Kind>(column / n), i, source)) locals.push_back(SourceOffset(source) + column % n);
-    }
-    return locals;
-  };
   for (int i = 0; i < points_count_; ++i) {
     Entries pairs;
-    std::set<int> step_coupled;  // variables of z that meet h: all that enter anything nonlinear
-    for (PointConstraint* constraint : points_[i].constraints) {
-      const Entries p = constraint->HessianPattern();
-      pairs.insert(pairs.end(), p.begin(), p.end());
-      for (const auto& [row, column] : constraint->JacobianPattern()) {
-        if (column < 3 * n) step_coupled.insert(column);
+    std::set<int> step_coupled;
+    PointPairs(i, &pairs, &step_coupled);
+    for (const auto& [a, b] : pairs) {
+      for (int x : Behind(i, a)) {
+        for (int y : Behind(i, b)) add(x, y);
       }
+    }
+    for (int column : step_coupled) {
+      for (int x : Behind(i, column)) add(local_size_, x);
     }
     for (PointCost* integrand : costs_) {
       if (integrand == nullptr) continue;
       for (const auto& [a, b] : integrand->HessianPattern()) {
-        pairs.emplace_back(a, b);
         for (int column : {a, b}) {
-          step_coupled.insert(column);
-          for (int local : behind(i, column)) cost.insert(local);
+          for (int local : Behind(i, column)) cost.insert(local);
         }
       }
-    }
-    for (const auto& [a, b] : pairs) {
-      for (int x : behind(i, a)) {
-        for (int y : behind(i, b)) add(x, y);
-      }
-      if (a < 3 * n) step_coupled.insert(b);
-      if (b < 3 * n) step_coupled.insert(a);
-    }
-    for (int column : step_coupled) {
-      for (int x : behind(i, column)) add(local_size_, x);
     }
   }
   add(local_size_, local_size_);
