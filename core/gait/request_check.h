@@ -74,7 +74,8 @@ struct CheckedMotion {
   std::optional<double> speed, step_length, step_duration;
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
 };
-CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity, RequestCheck& check);
+CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity,
+                          const std::vector<GaitSpec::Phase>& phases, RequestCheck& check);
 
 }  // namespace rollgait
 

@@ -11,6 +11,7 @@ namespace rollgait::server {
 //   rollgaitd.lock         flock of the one rollgaitd that serves this directory
 //   rollgaitd.sock         notifications to rollgaitd: a solve has new events (notify.h)
 //   agent.sock             notifications to the newest agent: a solve was created or is to be cancelled
+//   spool/<id>-<epoch>.end an agent's copy of how a solve ended, until the store has it
 //   agents/<owner>.lock    flock held by a living agent; `owner` is the owner of its leases (letters, digits, '-')
 //
 // Life of an agent. rollgaitd starts `rollgait-agent --data-dir DIR --slots N [--solver PATH]` with standard input
