@@ -90,6 +90,7 @@ Agent::~Agent() {
 }
 
 void Agent::Run() {
+  ReplayDead("");
   while (Step(std::chrono::hours(1))) {
   }
 }
@@ -180,6 +181,19 @@ void Agent::LookAfterOthers(SteadyTime now) {
   if (!expired.value().empty()) poked_ = true;
 }
 
+// Commits the ends that dead agents left in the spool.
+void Agent::ReplayDead(const std::string& known_dead) {
+  const DataDir directory{options_.data_dir};
+  const auto is_dead = [&](const std::string& owner) {
+    if (owner == owner_ || owner == known_dead) return owner == known_dead;
+    Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
+    if (!lock.ok() || !lock.value()) return false;
+    lock.value()->ReleaseAndRemove();
+    return true;
+  };
+  for (const std::string& id : ReplaySpool(spool_, store_, is_dead)) context_.poke(id);
+}
+
 void Agent::ReclaimDeadOwners() {
   const Outcome<std::vector<std::string>> owners = store_.LeaseOwners();
   if (!owners.ok()) {
@@ -191,7 +205,7 @@ void Agent::ReclaimDeadOwners() {
     if (owner == owner_) continue;
     Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
     if (!lock.ok() || !lock.value()) continue;  // it lives
-    for (const std::string& id : ReplaySpool(spool_, store_)) context_.poke(id);
+    ReplayDead(owner);
     const Outcome<std::vector<std::string>> ids = store_.ReclaimOwner(owner);
     if (!ids.ok()) {
       spdlog::warn("cannot take over from {}: {}", owner, ids.error().message);

@@ -55,6 +55,7 @@ class Agent {
   void ServiceRuns(SteadyTime now);
   void LookAfterOthers(SteadyTime now);
   void ReclaimDeadOwners();
+  void ReplayDead(const std::string& known_dead);
   void LookForCancels();
   void KeepIdleProcesses(SteadyTime now);
   void HearIdleProcesses(SteadyTime now);

@@ -113,9 +113,11 @@ std::vector<PendingEnd> Spool::ReadAll() const {
   return ends;
 }
 
-std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store) {
+std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store,
+                                     const std::function<bool(const std::string& owner)>& is_dead) {
   std::vector<std::string> committed;
   for (const PendingEnd& pending : spool.ReadAll()) {
+    if (!is_dead(pending.lease.owner)) continue;
     const Outcome<Done> finished = store.Finish(pending.lease, pending.events, pending.end);
     if (finished.ok()) {
       committed.push_back(pending.lease.solve_id);

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_AGENT_SPOOL_H_
 #define ROLLGAIT_SERVER_AGENT_SPOOL_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,11 @@ class Spool {
   std::string directory_;
 };
 
-// Commits what the spool holds. What the store refuses for good (the lease is lost: another run has the solve) is
-// removed; what it cannot take now stays. Returns the ids of the solves that were committed.
-std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store);
+// Commits what the spool holds of dead owners. What the store refuses for good (the lease is lost: it has the end
+// already, or another run has the solve) is removed; what it cannot take now stays. Returns the ids of the solves that
+// were committed.
+std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store,
+                                     const std::function<bool(const std::string& owner)>& is_dead);
 
 }  // namespace rollgait::server
 

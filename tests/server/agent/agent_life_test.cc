@@ -127,6 +127,19 @@ TEST_F(AgentLifeTest, AResultInTheSpoolOfADeadAgentIsCommittedAndNotComputedAgai
   EXPECT_TRUE(std::filesystem::is_empty(directory_ + "/spool"));
 }
 
+TEST_F(AgentLifeTest, AnEndThatTheStoreHadAlreadyLeavesTheSpoolAtTheStart) {
+  const std::string id = Queue("result");
+  const ClaimedSolve claimed = *store_->ClaimNext("agent-dead", kLeaseDuration).value();
+  const SolveEnd end{SolveState::kSucceeded, "", "", false};
+  ASSERT_TRUE(store_->Finish(claimed.lease, {}, end).ok());
+  ASSERT_TRUE(Spool::Open(directory_ + "/spool").value().Put({claimed.lease, {}, end}).ok());
+  const auto agent = MakeAgent();
+  ASSERT_EQ(write(stop_[1], "x", 1), 1);
+  agent->Run();
+  EXPECT_TRUE(std::filesystem::is_empty(directory_ + "/spool"));
+  EXPECT_EQ(Get(id).state, SolveState::kSucceeded);
+}
+
 TEST_F(AgentLifeTest, ALostLeaseKillsTheSolverAndWritesNothing) {
   const std::string id = Queue("iterations 1 sleep 100 iterations 1 hang");
   const auto agent = MakeAgent();

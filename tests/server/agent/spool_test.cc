@@ -71,11 +71,14 @@ TEST_F(SpoolTest, ReplayCommitsWhatIsStillOursAndDropsTheRest) {
   pending.events = {{0, EventKind::kIteration, event.SerializeAsString()}};
   ASSERT_TRUE(spool.Put(pending).ok());
   ASSERT_TRUE(spool.Put(Pending(id, claimed.lease.epoch + 5)).ok());
-  EXPECT_EQ(ReplaySpool(spool, *store_), std::vector<std::string>{id});
+  EXPECT_TRUE(ReplaySpool(spool, *store_, [](const std::string& owner) { return owner != "owner"; }).empty());
+  EXPECT_EQ(spool.ReadAll().size(), 2u) << "a living agent commits for itself";
+  const auto dead = [](const std::string&) { return true; };
+  EXPECT_EQ(ReplaySpool(spool, *store_, dead), std::vector<std::string>{id});
   EXPECT_TRUE(spool.ReadAll().empty());
   EXPECT_EQ(Get(id).state, SolveState::kSucceeded);
   EXPECT_EQ(CountIterations(id), 1);
-  EXPECT_TRUE(ReplaySpool(spool, *store_).empty()) << "a second replay finds nothing";
+  EXPECT_TRUE(ReplaySpool(spool, *store_, dead).empty()) << "a second replay finds nothing";
 }
 
 }  // namespace
