@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "core/gait/build_problem.h"
@@ -110,6 +111,41 @@ TEST_P(CollocationNlpTest, HessianMeetsDifferencesOfFirstDerivatives) {
     const double error = (difference - hessian.col(j)).cwiseAbs().maxCoeff(&row);
     EXPECT_LT(error, 1e-5 * (1 + difference.cwiseAbs().maxCoeff())) << "column " << j << " row " << row;
   }
+}
+
+TEST_P(CollocationNlpTest, ObjectiveIsTheSumOfTheTermsThatAreReported) {
+  const VectorX integrals = nlp_->CostIntegrals(x_.data());
+  ASSERT_EQ(integrals.size(), 5);
+  EXPECT_GT(integrals.minCoeff(), 0);
+  double sum = 0, objective;
+  for (int t = 0; t < 5; ++t) sum += problem_->costs[t].weight * integrals(t);
+  ASSERT_TRUE(nlp_->Objective(x_.data(), &objective));
+  EXPECT_NEAR(objective, nlp_->objective_scale() * sum / nlp_->Denominator(x_.data()), 1e-12 * objective);
+  EXPECT_NEAR(integrals(3), nlp_->duration(x_.data()), 1e-12);  // the time
+}
+
+TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
+  std::map<std::string, int> kinds;  // first word of the name -> rows
+  double time = 0;
+  bool in_intervals = true;
+  for (int row = 0; row < nlp_->constraints(); ++row) {
+    const RowInfo info = nlp_->Describe(x_.data(), row);
+    EXPECT_GT(info.size, 0) << info.name;
+    in_intervals &= info.name.rfind("touch-down", 0) != 0;
+    if (in_intervals) {
+      EXPECT_GE(info.time, time - 1e-12) << info.name;
+      time = info.time;
+    }
+    ++kinds[info.name.substr(0, info.name.find(' '))];
+  }
+  const int points = nlp_->layout().intervals() * nlp_->layout().points();
+  EXPECT_NEAR(time, nlp_->duration(x_.data()), 1e-12);
+  EXPECT_EQ(kinds["dynamics"], 9 * points);
+  EXPECT_EQ(kinds["periodicity"], 18);
+  EXPECT_EQ(kinds["touch-down"], problem_->mirrored ? 1 : 2);
+  EXPECT_EQ(kinds["speed"], 1);
+  const bool shared_instants = std::get<0>(GetParam()) == Scheme::kHermiteSimpson;
+  EXPECT_EQ(kinds["continuous"], shared_instants ? 6 * nlp_->layout().intervals() : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,164 @@
+// Every constraint of the planar walker on its own: derivatives against differences, patterns against what is delivered.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "core/gait/build_problem.h"
+#include "core/ocp/constraints/contact_point.h"
+#include "core/ocp/constraints/friction.h"
+
+namespace rollgait {
+namespace {
+
+// Tree and contacts at any z.
+class Evaluator {
+ public:
+  explicit Evaluator(const OptimalControlProblem& problem) : problem_(problem), tree_(problem.model) {
+    for (const ContactSurface& contact : problem.contacts) {
+      contacts_.emplace_back(problem.model, contact);
+      dual_contacts_.emplace_back(problem.model, contact);
+    }
+  }
+  PointContext At(const VectorX& z) {
+    const int n = problem_.model.size();
+    tree_.Update(z.data(), z.data() + n, z.data() + 2 * n, problem_.gravity);
+    for (size_t c = 0; c < contacts_.size(); ++c) {
+      contacts_[c].Update(tree_);
+      contacts_[c].UpdateSecond();
+      dual_contacts_[c].Update(tree_);
+      dual_contacts_[c].UpdateSecond();
+    }
+    return {z.data(), &tree_, &contacts_, &dual_contacts_};
+  }
+
+ private:
+  const OptimalControlProblem& problem_;
+  TreeDynamics tree_;
+  std::vector<ContactDerivatives<double>> contacts_;
+  std::vector<ContactDerivatives<Dual>> dual_contacts_;
+};
+
+class PointConstraintsTest : public ::testing::Test {
+ protected:
+  static std::unique_ptr<OptimalControlProblem> Problem() {
+    GaitRequest request;
+    request.body.model = "planar";
+    request.slope = 0.1;
+    request.motion.speed = 1.3;
+    request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
+    request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
+    return BuildProblem(CheckRequest(request).value());
+  }
+
+  void CheckDerivatives(PointConstraint& constraint, int size) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-0.4, 0.4);
+    VectorX z(size), lambda(constraint.rows());
+    for (double& value : z) value = uniform(random);
+    for (double& value : lambda) value = uniform(random);
+    const auto values_at = [&](const VectorX& at) {
+      VectorX g(constraint.rows());
+      constraint.Value(evaluator_.At(at), g.data());
+      return g;
+    };
+    const auto jacobian_at = [&](const VectorX& at) {
+      MatrixX jacobian = MatrixX::Zero(constraint.rows(), size);
+      constraint.Jacobian(evaluator_.At(at), jacobian);
+      return jacobian;
+    };
+    const MatrixX jacobian = jacobian_at(z);
+    MatrixX hessian = MatrixX::Zero(size, size);
+    constraint.AddHessian(evaluator_.At(z), lambda.data(), hessian);
+    const double step = 1e-5;
+    for (int i = 0; i < size; ++i) {
+      VectorX up = z, down = z;
+      up(i) += step;
+      down(i) -= step;
+      const VectorX column = (values_at(up) - values_at(down)) / (2 * step);
+      const VectorX curvature = (jacobian_at(up) - jacobian_at(down)).transpose() * lambda / (2 * step);
+      // Rounding 1e-16/step times values of up to 1e3; truncation step² times third derivatives.
+      EXPECT_LT((jacobian.col(i) - column).cwiseAbs().maxCoeff(), 1e-7 * (1 + column.cwiseAbs().maxCoeff()))
+          << constraint.Name(0) << " by " << i;
+      const double size_of_curvature = 1 + curvature.cwiseAbs().maxCoeff();
+      for (int j = 0; j <= i; ++j) {
+        EXPECT_NEAR(hessian(j, i), curvature(j), 1e-7 * size_of_curvature) << constraint.Name(0) << " " << j << " " << i;
+      }
+    }
+    CheckPatterns(constraint, jacobian, hessian);
+  }
+
+  static void CheckPatterns(const PointConstraint& constraint, const MatrixX& jacobian, const MatrixX& hessian) {
+    const Entries first = constraint.JacobianPattern(), second = constraint.HessianPattern();
+    const std::set<std::pair<int, int>> rows(first.begin(), first.end());
+    std::set<std::pair<int, int>> pairs(second.begin(), second.end());
+    for (const auto& [a, b] : second) pairs.emplace(b, a);
+    EXPECT_EQ(rows.size(), first.size()) << "an entry of " << constraint.Name(0) << " occurs twice";
+    for (int j = 0; j < jacobian.cols(); ++j) {
+      for (int r = 0; r < jacobian.rows(); ++r) EXPECT_TRUE(jacobian(r, j) == 0 || rows.count({r, j}) == 1);
+      for (int i = 0; i < hessian.rows(); ++i) EXPECT_TRUE(hessian(i, j) == 0 || pairs.count({i, j}) == 1);
+    }
+  }
+
+  const std::unique_ptr<OptimalControlProblem> problem_ = Problem();
+  Evaluator evaluator_{*problem_};
+};
+
+TEST_F(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
+  int checked = 0;
+  for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
+    for (bool at_node : {false, true}) {
+      for (const auto& constraint : problem_->PointConstraints(phase, at_node)) {
+        CheckDerivatives(*constraint, problem_->Layout(phase).size());
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GE(checked, 12);
+}
+
+TEST_F(PointConstraintsTest, DerivativesOfTheEntryRows) {
+  int checked = 0;
+  for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
+    for (const auto& constraint : problem_->EntryConstraints(phase)) {
+      CheckDerivatives(*constraint, 3 * problem_->model.size());
+      ++checked;
+    }
+  }
+  // Touch-down: gap, rest and point; lift-off: point.
+  EXPECT_EQ(checked, 4);
+}
+
+TEST_F(PointConstraintsTest, ClearanceIsAParabolaOverThePhase) {
+  GapConstraint gap(problem_->model, problem_->contacts, 0, problem_->Layout(0), GapConstraint::Kind::kClearance, 0.02);
+  double lower, upper;
+  gap.Bounds(0.5, &lower, &upper);
+  EXPECT_DOUBLE_EQ(lower, 0.02);
+  EXPECT_EQ(upper, kInfinity);
+  gap.Bounds(0.25, &lower, &upper);
+  EXPECT_DOUBLE_EQ(lower, 0.015);
+  gap.Bounds(1, &lower, &upper);
+  EXPECT_EQ(lower, 0);
+}
+
+TEST_F(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
+  PointLayout layout;
+  layout.forces = 3;
+  VectorX z(3);
+  z << 30, 0, 100;
+  double g[4];
+  FrictionConstraint space("foot", {0, 0, {0, 1, 2}}, layout, 0.5, 1);
+  space.Value({z.data()}, g);
+  EXPECT_NEAR(g[0], 50 / std::sqrt(2.0) + 30, 1e-12);
+  EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
+  EXPECT_NEAR(g[2], 50 / std::sqrt(2.0), 1e-12);
+  layout.forces = 2;
+  z << 30, 100, 0;
+  FrictionConstraint plane("foot", {0, 0, {0, 2}}, layout, 0.5, 1);
+  plane.Value({z.data()}, g);
+  EXPECT_NEAR(g[0], 80, 1e-12);
+  EXPECT_NEAR(g[1], 20, 1e-12);
+}
+
+}  // namespace
+}  // namespace rollgait
