@@ -25,6 +25,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--fd") == 0) stream = std::atoi(argv[i + 1]);
   }
+  wire::SolverMessage ready;
+  ready.mutable_ready();
+  if (WriteFrame(stream, ready.SerializeAsString()) != FrameStatus::kOk) return 1;
   std::string payload;
   v1::SolveSpec spec;
   if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;
