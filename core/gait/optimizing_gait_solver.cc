@@ -112,7 +112,15 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     options.mesh = level;
     options.max_iterations = iterations_left;
     options.max_wall_time_s = spec.max_wall_time - Since(begin);
-    const NlpResult result = SolveWithIpopt(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, control);
+    SolveControl unscaled = control;
+    if (control.observer) {
+      // Observers see the objective of the problem, not that of the scaled NLP.
+      unscaled.observer = [&control, scale = nlp.objective_scale()](IterationInfo info) {
+        info.objective /= scale;
+        control.observer(info);
+      };
+    }
+    const NlpResult result = SolveWithIpopt(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, unscaled);
     iterations_left = std::max(1, iterations_left - result.iterations);
 
     MeshStatistics statistics;

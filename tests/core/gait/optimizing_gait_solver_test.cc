@@ -29,8 +29,12 @@ TEST_P(ColdStart, ConvergesToTheRequestedKktError) {
   request.discretization.scheme = std::get<1>(GetParam());
   request.discretization.single_support_intervals = 8;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
-  const GaitSolution solution = Solve(request);
+  double last_objective = 0;
+  SolveControl control;
+  control.observer = [&](const IterationInfo& info) { last_objective = info.objective; };
+  const GaitSolution solution = Solve(request, control);
   EXPECT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  EXPECT_NEAR(last_objective / solution.objective, 1, 1e-12);
   EXPECT_LE(solution.kkt_error, 1e-6);
   EXPECT_LT(solution.constraint_violation, 1e-6);
   EXPECT_TRUE(solution.unmet_constraints.empty());
