@@ -16,18 +16,14 @@ namespace rollgait::server {
 //
 // Life of an agent. rollgaitd starts `rollgait-agent --data-dir DIR --slots N [--solver PATH]` with standard input
 // being the read end of a pipe that only rollgaitd can write to (nobody ever does).
-//   SIGTERM              the agent stops its solvers, gives their solves back to the queue (GiveBack, kStopping) and
-//   exits 0
-//                        within 5 s; after 10 s rollgaitd kills it.
-//   end of standard input  rollgaitd has died. The agent claims nothing more, finishes what runs (events and leases go
-//   on),
-//                        then removes its lock file and exits. So kill -9 of rollgaitd loses no work and no agent stays
-//                        behind.
-//   next start           the new agent binds agent.sock at once (the old name is replaced) and works beside an agent
-//   that is
-//                        still finishing; together they keep to N solves because it claims only while Counts().running
-//                        < N. For every owner of LeaseOwners() whose lock file it can lock, that agent is dead:
-//                        ReclaimOwner.
+//
+// - SIGTERM: the agent stops its solvers, gives their solves back to the queue (GiveBack, kStopping) and exits 0 within
+//   5 s; after 10 s rollgaitd kills it.
+// - End of standard input: rollgaitd has died. The agent claims nothing more, finishes what runs (events and leases go
+//   on), then removes its lock file and exits. So kill -9 of rollgaitd loses no work and no agent stays behind.
+// - Next start: the new agent binds agent.sock at once (the old name is replaced) and works beside an agent that is
+//   still finishing; together they keep to N solves, because it claims only while Counts().running < N. An owner of
+//   LeaseOwners() whose lock file it can lock is dead: ReclaimOwner.
 struct DataDir {
   std::string path;
 

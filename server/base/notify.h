@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_BASE_NOTIFY_H_
 #define ROLLGAIT_SERVER_BASE_NOTIFY_H_
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,5 +1,6 @@
 #include "server/store/sqlite_store.h"
 
+#include <cstdint>
 #include <utility>
 
 #include "server/store/page_token.h"
