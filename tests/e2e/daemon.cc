@@ -7,8 +7,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "core/base/check.h"
@@ -25,11 +23,21 @@ std::string ReadLine(int fd) {
   return line;
 }
 
-// Arguments of a process, each followed by a zero byte; empty if it is gone.
-std::string CommandLine(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+// A file of a process; empty if the process is gone, also when it goes between opening and reading (a stream buffer would
+// throw then).
+std::string ReadOfProcess(pid_t pid, const char* name) {
+  const std::string path = "/proc/" + std::to_string(pid) + "/" + name;
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return {};
+  std::string text;
+  char block[4096];
+  for (ssize_t count; (count = read(fd, block, sizeof block)) > 0;) text.append(block, static_cast<size_t>(count));
+  close(fd);
+  return text;
 }
+
+// Arguments of a process, each followed by a zero byte; empty if it is gone.
+std::string CommandLine(pid_t pid) { return ReadOfProcess(pid, "cmdline"); }
 
 std::vector<pid_t> AllProcesses() {
   std::vector<pid_t> pids;
@@ -42,9 +50,7 @@ std::vector<pid_t> AllProcesses() {
 
 // The parent of a living process; 0 if it is gone or a zombie.
 pid_t ParentOf(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  std::getline(file, text);
+  const std::string text = ReadOfProcess(pid, "stat");
   const size_t end = text.rfind(')');
   if (end == std::string::npos) return 0;
   std::istringstream rest(text.substr(end + 1));
