@@ -50,16 +50,17 @@ void ContactDerivatives<T>::Update(const TreeDynamics& tree) {
   const Vector3 dnu = -dR.transpose() * kNormal;
   Assign(nu_, nu, dnu);
 
-  const Ellipsoid& surface = contact_.surface;
-  const Vector3 x = surface.SupportPoint(nu);
-  const Matrix3 S = surface.SupportHessian(nu);
+  constexpr int kOrder = std::is_same_v<T, Dual> ? 3 : 2;
+  contact_.surface.Evaluate(nu, kOrder, &jet_);
+  const Vector3& x = jet_.x;
+  const Matrix3& S = jet_.S;
   const Vector3 dx = S * dnu;
   Assign(surface_point_, x, dx);
   const Vector3 p = center + R * x;
   const Vector3 dp = dcenter + dR * x + R * dx;
   Assign(point_, p, dp);
   if constexpr (std::is_same_v<T, Dual>) {
-    Assign(hessian_, S, surface.SupportThird(nu, dnu));
+    Assign(hessian_, S, jet_.Third(dnu));
   } else {
     hessian_ = S;
   }
@@ -76,7 +77,6 @@ void ContactDerivatives<T>::Update(const TreeDynamics& tree) {
 
 template <typename T>
 void ContactDerivatives<T>::UpdateSecond() {
-  const Ellipsoid& surface = contact_.surface;
   Vector3 nu, dnu = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
     if constexpr (std::is_same_v<T, Dual>) {
@@ -86,13 +86,13 @@ void ContactDerivatives<T>::UpdateSecond() {
       nu(i) = nu_(i);
     }
   }
+  constexpr int kOrder = std::is_same_v<T, Dual> ? 4 : 3;
+  contact_.surface.Evaluate(nu, kOrder, &jet_);
   for (int j = 0; j < 3; ++j) {
-    const Vector3 e = Vector3::Unit(j);
-    const Matrix3 third = surface.SupportThird(nu, e);
     if constexpr (std::is_same_v<T, Dual>) {
-      Assign(third_[j], third, surface.SupportFourth(nu, e, dnu));
+      Assign(third_[j], jet_.T[j], jet_.FourthOf(j, dnu));
     } else {
-      third_[j] = third;
+      third_[j] = jet_.T[j];
     }
   }
   const Vec3 n = kNormal.template cast<T>();

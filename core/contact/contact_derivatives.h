@@ -9,13 +9,13 @@
 
 namespace rollgait {
 
-// First and second derivatives of one contact of a tree with the plane z = 0, along the joints on the path from the world
-// to the link that carries the surface. Everything comes from the contact point p(q) (the lowest point of the surface) and
-// the bilinear form
+// First and second derivatives of one contact of a tree with the plane z = 0, along the joints on the path from the
+// world to the link that carries the surface. Everything comes from the contact point p(q) (the lowest point of the
+// surface) and the bilinear form
 //   β(q; y, u) = y · (velocity of the material point at p under the joint velocities u) = yᵀ J(q) u,
-// whose derivatives give rolling (u = v, y = multipliers), generalised forces (u = λ, y = force) and, with T = Dual along
-// (v, a), the acceleration of rolling. Indices k, m count joints on the path, root first; vectors are in world axes.
-// Source: contact-math 5, 6; eqs (2.3), (2.10), (3.5). No allocation after construction; one object a thread.
+// whose derivatives give rolling (u = v, y = multipliers), generalised forces (u = λ, y = force) and, with T = Dual
+// along (v, a), the acceleration of rolling. Indices k, m count joints on the path, root first; vectors are in world
+// axes. Source: contact-math 5, 6; eqs (2.3), (2.10), (3.5). No allocation after construction; one object a thread.
 template <typename T>
 class ContactDerivatives {
  public:
@@ -76,6 +76,7 @@ class ContactDerivatives {
   Vec3 point_, nu_, surface_point_;
   Mat3 hessian_;
   Mat3 third_[3];  // T[e_j]
+  SupportJet jet_;
 };
 
 extern template class ContactDerivatives<double>;

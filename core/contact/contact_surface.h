@@ -4,17 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/ellipsoid.h"
+#include "core/geometry/surface.h"
 
 namespace rollgait {
 
-// A surface of a model that may touch the fixed ground plane z = 0 (normal +z, world axes). See rollgait.v1.ContactSurface.
+// A surface of a model that may touch the fixed ground plane z = 0 (normal +z, world axes). See
+// rollgait.v1.ContactSurface.
 struct ContactSurface {
   std::string name;
   int joint = 0;                            // whose link carries it
-  Ellipsoid surface{Vector3::Ones()};
-  Vector3 p_LE = Vector3::Zero();           // m, centre of the surface in the link frame
-  Matrix3 R_LE = Matrix3::Identity();       // principal axes -> link frame
+  Surface surface = Sphere(1);
+  Vector3 p_LE = Vector3::Zero();           // m, origin of the surface in the link frame
+  Matrix3 R_LE = Matrix3::Identity();       // surface axes -> link frame
   int mirror_contact = 0;                   // index of the left/right mirror image
   // World axes (0 = x, 1 = y, 2 = z) in which force is transmitted and velocity forbidden; the normal z is always the
   // last. {0, 2} in the sagittal plane, {0, 1, 2} in space.

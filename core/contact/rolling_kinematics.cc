@@ -5,21 +5,6 @@
 #include "core/base/check.h"
 
 namespace rollgait {
-namespace {
-
-// Velocity of the contact point along the surface, ẋ = ν × (C ω_t) / s³ in principal axes, with C = diag(b²c², a²c², a²b²).
-// The semi-axes are divided by the largest before fourth powers are formed; ω_t is the part of ω tangent to the plane,
-// by the double cross product, which keeps its accuracy when spin dominates.
-Vector3 PointVelocityOverSurface(const Vector3& semi_axes, const Vector3& nu, const Vector3& omega) {
-  const double scale = semi_axes.maxCoeff();
-  const Vector3 d = semi_axes / scale;
-  const double s = d.cwiseProduct(nu).norm();
-  const Vector3 cofactors = Vector3(d.y() * d.z(), d.x() * d.z(), d.x() * d.y()).cwiseAbs2();
-  const Vector3 tangent = nu.cross(omega).cross(nu);
-  return nu.cross(cofactors.cwiseProduct(tangent)) * (scale / (s * s * s));
-}
-
-}  // namespace
 
 RollingContact ComputeRollingContact(const ContactSurface& surface, const BodyDynamics::State& state) {
   const BodyDynamics::Link& link = state[surface.joint];
@@ -29,17 +14,14 @@ RollingContact ComputeRollingContact(const ContactSurface& surface, const BodyDy
   const Vector3 v_WL = link.R_WL * link.twist.linear;
 
   const Vector3 nu = -R_WE.row(2).transpose();
-  const Vector3 scaled = surface.surface.semi_axes().cwiseProduct(nu);
-  const double support = scaled.norm();
-  const Vector3 r = R_WE * (surface.surface.semi_axes().cwiseProduct(scaled) / support);  // centre -> P, world
+  const Vector3 r = R_WE * surface.surface.SupportPoint(nu);  // origin of the surface -> P, world
 
   RollingContact contact;
   const Vector3 p_WE = link.p_WL + p_LE_W;
   contact.p_WP = p_WE + r;
-  contact.gap = p_WE.z() - support;
+  contact.gap = p_WE.z() - surface.surface.Support(nu);
   contact.slip = v_WL + omega.cross(p_LE_W + r);
-  const Vector3 over_surface =
-      R_WE * PointVelocityOverSurface(surface.surface.semi_axes(), nu, R_WE.transpose() * omega);
+  const Vector3 over_surface = R_WE * surface.surface.RollingVelocity(nu, R_WE.transpose() * omega);
   contact.point_velocity = contact.slip + over_surface;
 
   // Classical bias accelerations of the link, then of the material point P, then the rolling term.

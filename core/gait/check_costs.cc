@@ -38,7 +38,7 @@ struct TermCheck {
   }
 
   void operator()(GaitRequest::MechanicalWork& term) const {
-    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 1, {0.01, 1000, "W"});
+    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 20, {0.01, 1000, "W"});
   }
 
   void operator()(GaitRequest::Time&) const {}

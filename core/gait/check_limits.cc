@@ -1,4 +1,7 @@
+#include <numbers>
+
 #include "core/gait/request_check.h"
+#include "core/models/joint_limits.h"
 
 namespace rollgait {
 
@@ -13,6 +16,12 @@ std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, R
     const std::string field = Keyed("limits.joint_position", name);
     check.Range(field, range, {-kMaxPosition, kMaxPosition, "rad or m"}, false);
     if (const int joint = find(field, name, false); joint >= 0) {
+      constexpr double kMost = kLargestBaseRoll * std::numbers::pi / 180;
+      if (name == "base_roll" && (range.min < -kMost || range.max > kMost)) {
+        check.Add(field, "the range " + FormatNumber(range.min) + " to " + FormatNumber(range.max) +
+                             " leaves that of the chart of the floating base, " + FormatNumber(-kMost) + " to " +
+                             FormatNumber(kMost) + "; stay within it");
+      }
       joints[joint].position_min = range.min;
       joints[joint].position_max = range.max;
     }

@@ -11,13 +11,23 @@ constexpr const char* kPath = "phases.phases";
 
 std::string PhasePath(size_t index) { return Indexed(kPath, index); }
 
-// The standard phases: the left foot has just touched down, the right one is about to leave.
-std::vector<GaitRequest::Phase> StandardPhases(Cycle cycle) {
-  const GaitRequest::Phase both{{"left_foot", "right_foot"}, {}, {}, {}};
-  const GaitRequest::Phase left{{"left_foot"}, {}, {}, {}};
-  const GaitRequest::Phase right{{"right_foot"}, {}, {}, {}};
-  if (cycle == Cycle::kHalf) return {both, left};
-  return {both, left, both, right};
+// The standard phases: the left foot has just touched down, the right one is about to leave. Feet of two surfaces come down
+// on the heel and leave from the forefoot; the intervals of each support are shared by its two phases.
+std::vector<GaitRequest::Phase> StandardPhases(Cycle cycle, const Scene* scene, int single, int both) {
+  const bool two = scene != nullptr && scene->FindContact("left_heel") >= 0;
+  const auto step = [&](const std::string& stance, const std::string& other) -> std::vector<GaitRequest::Phase> {
+    if (!two) return {{{"left_foot", "right_foot"}, {}, {}, {}}, {{stance + "_foot"}, {}, {}, {}}};
+    const std::string heel = stance + "_heel", toe = stance + "_forefoot", leaving = other + "_forefoot";
+    const int half_both = std::max(1, (both + 1) / 2), half_single = std::max(1, (single + 1) / 2);
+    return {{{heel, leaving}, half_both, {}, {}},
+            {{heel, toe, leaving}, half_both, {}, {}},
+            {{heel, toe}, half_single, {}, {}},
+            {{toe}, half_single, {}, {}}};
+  };
+  std::vector<GaitRequest::Phase> phases = step("left", "right");
+  if (cycle == Cycle::kHalf) return phases;
+  for (GaitRequest::Phase& phase : step("right", "left")) phases.push_back(std::move(phase));
+  return phases;
 }
 
 std::vector<int> CheckContacts(const std::string& path, const std::vector<std::string>& names, const Scene& scene,
@@ -105,11 +115,13 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
     return {};
   }
   if (!request.phases && scene != nullptr &&
-      (scene->FindContact("left_foot") < 0 || scene->FindContact("right_foot") < 0)) {
+      (scene->FindContact("left_foot") < 0 || scene->FindContact("right_foot") < 0) &&
+      (scene->FindContact("left_heel") < 0 || scene->FindContact("right_forefoot") < 0)) {
     check.Add("phases", "model " + Quoted(scene->name) + " has no standard phases; give the sequence");
     return {};
   }
-  const std::vector<GaitRequest::Phase> phases = request.phases ? *request.phases : StandardPhases(request.cycle);
+  const std::vector<GaitRequest::Phase> phases = request.phases ? *request.phases
+                                                               : StandardPhases(request.cycle, scene, single, both);
   std::vector<GaitSpec::Phase> checked;
   long total = 0;
   for (size_t i = 0; i < phases.size(); ++i) {

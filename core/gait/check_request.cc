@@ -65,6 +65,10 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
   const double slope = check.Number("slope_rad", request.slope, 0, {-kSteepest, kSteepest, "rad"});
   const double gravity = check.Number("gravity_m_s2", request.gravity, 9.81, {0.1, 100, "m/s²"});
 
+  if (known != nullptr && !known->symmetric && request.cycle == Cycle::kHalf) {
+    check.Add("cycle", "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
+                       "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
+  }
   std::vector<GaitSpec::Phase> phases = CheckPhases(request, known, check);
   const CheckedMotion motion = CheckMotion(request, known, gravity, phases, check);
   std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, check);

@@ -49,48 +49,72 @@ bool Contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-// When each contact touches down and lifts off, in a full cycle of the phases.
+// The name of a joint without its side.
+std::string WithoutSide(const std::string& name) {
+  return name.ends_with("_l") || name.ends_with("_r") ? name.substr(0, name.size() - 2) : name;
+}
+
+// The legs of a body: contacts below the same hip are one leg; a contact below none is a leg of its own.
+struct Legs {
+  explicit Legs(const OptimalControlProblem& problem) {
+    std::vector<int> roots;
+    for (const ContactSurface& contact : problem.contacts) {
+      int root = -1 - static_cast<int>(of_contact.size());
+      for (int j = contact.joint; j >= 0; j = problem.model.parent(j)) {
+        if (WithoutSide(problem.model.joint(j).name) == "hip") root = j;
+      }
+      const auto known = std::find(roots.begin(), roots.end(), root);
+      of_contact.push_back(static_cast<int>(known - roots.begin()));
+      if (known == roots.end()) roots.push_back(root);
+    }
+    count = roots.size();
+  }
+  std::vector<int> of_contact;
+  size_t count = 0;
+};
+
+// When each leg touches down and lifts off, in a full cycle of the phases.
 class Footfalls {
  public:
-  Footfalls(const OptimalControlProblem& problem, const std::vector<double>& durations) {
+  Footfalls(const OptimalControlProblem& problem, const Legs& legs, const std::vector<double>& durations) {
     struct Piece {
-      std::vector<int> active;
+      std::vector<int> legs;  // that stand
       double start, end;
     };
     std::vector<Piece> pieces;
     for (int half = 0; half < (problem.mirrored ? 2 : 1); ++half) {
       for (size_t p = 0; p < problem.phases.size(); ++p) {
-        std::vector<int> active = problem.phases[p].active;
-        if (half == 1) {
-          for (int& contact : active) contact = problem.contacts[contact].mirror_contact;
+        Piece piece{{}, cycle_, cycle_ + durations[p]};
+        for (int contact : problem.phases[p].active) {
+          piece.legs.push_back(legs.of_contact[half == 1 ? problem.contacts[contact].mirror_contact : contact]);
         }
-        pieces.push_back({active, cycle_, cycle_ + durations[p]});
-        cycle_ += durations[p];
+        pieces.push_back(piece);
+        cycle_ = piece.end;
       }
     }
     const size_t count = pieces.size();
-    touch_down_.assign(problem.contacts.size(), 0);
-    stance_.assign(problem.contacts.size(), kLiftOff * cycle_);
-    for (size_t c = 0; c < problem.contacts.size(); ++c) {
-      const int contact = static_cast<int>(c);
+    touch_down_.assign(legs.count, 0);
+    stance_.assign(legs.count, kLiftOff * cycle_);
+    for (size_t l = 0; l < legs.count; ++l) {
+      const int leg = static_cast<int>(l);
       for (size_t i = 0; i < count; ++i) {
-        if (!Contains(pieces[i].active, contact) || Contains(pieces[(i + count - 1) % count].active, contact)) continue;
-        touch_down_[c] = pieces[i].start;
+        if (!Contains(pieces[i].legs, leg) || Contains(pieces[(i + count - 1) % count].legs, leg)) continue;
+        touch_down_[l] = pieces[i].start;
         double stance = 0;
-        for (size_t j = i; j < i + count && Contains(pieces[j % count].active, contact); ++j) {
+        for (size_t j = i; j < i + count && Contains(pieces[j % count].legs, leg); ++j) {
           stance += pieces[j % count].end - pieces[j % count].start;
         }
-        stance_[c] = stance;
+        stance_[l] = stance;
       }
     }
   }
 
-  // Fraction of the contact's own cycle at time t.
-  double LegFraction(int contact, double t) const {
-    double since = std::fmod(t - touch_down_[contact], cycle_);
+  // Fraction of the leg's own cycle at time t.
+  double LegFraction(int leg, double t) const {
+    double since = std::fmod(t - touch_down_[leg], cycle_);
     if (since < 0) since += cycle_;
-    if (since < stance_[contact]) return kLiftOff * since / stance_[contact];
-    return kLiftOff + (1 - kLiftOff) * (since - stance_[contact]) / (cycle_ - stance_[contact]);
+    if (since < stance_[leg]) return kLiftOff * since / stance_[leg];
+    return kLiftOff + (1 - kLiftOff) * (since - stance_[leg]) / (cycle_ - stance_[leg]);
   }
 
  private:
@@ -98,10 +122,17 @@ class Footfalls {
   std::vector<double> touch_down_, stance_;
 };
 
+// Arms swing against the leg of their side, elbows a little bent.
+constexpr double kArmSwing = -0.6, kArmMean = 5 * kDegree, kElbow = 20 * kDegree;
+
 class Walk {
  public:
   Walk(const OptimalControlProblem& problem, std::vector<double> durations, double displacement)
-      : problem_(problem), durations_(std::move(durations)), displacement_(displacement), footfalls_(problem, durations_) {
+      : problem_(problem),
+        legs_(problem),
+        durations_(std::move(durations)),
+        displacement_(displacement),
+        footfalls_(problem, legs_, durations_) {
     for (double d : durations_) total_ += d;
   }
 
@@ -111,12 +142,12 @@ class Walk {
     const Model& model = problem_.model;
     VectorX q = VectorX::Zero(model.size());
     for (size_t c = 0; c < problem_.contacts.size(); ++c) {
-      const double leg = footfalls_.LegFraction(static_cast<int>(c), time);
+      const double leg = footfalls_.LegFraction(legs_.of_contact[c], time);
       for (int j = problem_.contacts[c].joint; j >= 0; j = model.parent(j)) {
-        const std::string& name = model.joint(j).name;
-        if (name.starts_with("hip")) q(j) = LegAngle(leg, &LegPose::hip) * kDegree;
-        if (name.starts_with("knee")) q(j) = LegAngle(leg, &LegPose::knee) * kDegree;
-        if (name.starts_with("ankle")) q(j) = LegAngle(leg, &LegPose::ankle) * kDegree;
+        const std::string joint = WithoutSide(model.joint(j).name);
+        if (joint == "hip") SwingArm(j, q(j) = LegAngle(leg, &LegPose::hip) * kDegree, &q);
+        if (joint == "knee") q(j) = LegAngle(leg, &LegPose::knee) * kDegree;
+        if (joint == "ankle") q(j) = LegAngle(leg, &LegPose::ankle) * kDegree;
       }
     }
     q(problem_.forward_joint) = displacement_ * time / total_;
@@ -151,6 +182,14 @@ class Walk {
   }
 
  private:
+  // The arm on the side of a hip at the given angle.
+  void SwingArm(int hip, double angle, VectorX* q) const {
+    const std::string side = problem_.model.joint(hip).name.substr(3);
+    const int shoulder = problem_.model.Find("shoulder" + side), elbow = problem_.model.Find("elbow" + side);
+    if (shoulder >= 0) (*q)(shoulder) = kArmSwing * (angle - kArmMean);
+    if (elbow >= 0) (*q)(elbow) = kElbow;
+  }
+
   // Moves the vertical base joint so that the mean gap of the active contacts is zero.
   void LowerOntoGround(const std::vector<int>& active, VectorX* q) const {
     const int vertical = problem_.model.Find("base_z");
@@ -168,6 +207,7 @@ class Walk {
   }
 
   const OptimalControlProblem& problem_;
+  Legs legs_;
   std::vector<double> durations_;
   double displacement_;
   double total_ = 0;
@@ -196,11 +236,16 @@ MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& prob
   const Travel travel = ChooseTravel(spec, problem);
   MotionGuess guess;
   guess.displacement = travel.displacement;
-  // A double support takes a quarter of what a single support takes.
+  // A phase on both legs takes a quarter of what a phase on one leg takes.
+  const Legs legs(problem);
+  const auto part = [&legs](const PhaseDescription& phase) {
+    const int first = legs.of_contact[phase.active.front()];
+    return std::all_of(phase.active.begin(), phase.active.end(), [&](int c) { return legs.of_contact[c] == first; }) ? 4 : 1;
+  };
   double weight = 0;
-  for (const PhaseDescription& phase : problem.phases) weight += phase.active.size() > 1 ? 1 : 4;
+  for (const PhaseDescription& phase : problem.phases) weight += part(phase);
   for (const PhaseDescription& phase : problem.phases) {
-    const double share = (phase.active.size() > 1 ? 1 : 4) / weight;
+    const double share = part(phase) / weight;
     guess.durations.push_back(std::clamp(share * travel.duration, phase.duration.min, phase.duration.max));
   }
   const auto walk = std::make_shared<Walk>(problem, guess.durations, guess.displacement);

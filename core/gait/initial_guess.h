@@ -6,10 +6,11 @@
 
 namespace rollgait {
 
-// A walk to start from: each leg follows sagittal angles of human walking between its own touch-downs, the hips are carried so
-// that the feet in contact touch the ground, velocities are differences, the weight shifts linearly between the feet.
-// Works for any phases in which every contact touches down once a cycle. Joints are found by name (hip, knee, ankle) on the
-// path of each contact; others stay at zero.
+// A walk to start from: each leg follows sagittal angles of human walking between its own touch-downs, the hips are carried
+// so that the feet in contact touch the ground, arms swing against the legs, velocities are differences, the weight shifts
+// linearly between the feet. Works for any phases in which every leg touches down once a cycle. Joints are found by name:
+// hip, knee and ankle on the path of each contact, shoulder and elbow of the same side; others stay at zero, where the body
+// stands straight.
 MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem);
 
 // A solution on another mesh.

@@ -7,7 +7,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
-#include "core/nlp/ipopt_solver.h"
+#include "core/nlp/solve_nlp.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -87,6 +87,49 @@ ValidationOptions JudgeOptions(const GaitSpec& spec) {
   return options;
 }
 
+MeshStatistics Describe(const CollocationNlp& nlp, const NlpResult& result) {
+  MeshStatistics statistics;
+  statistics.intervals = nlp.mesh().Intervals();
+  statistics.unknowns = nlp.variables();
+  statistics.constraints = nlp.constraints();
+  statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
+  statistics.hessian_nonzeros = nlp.hessian_pattern().size();
+  statistics.iterations = result.iterations;
+  statistics.wall_time = result.wall_time_s;
+  statistics.evaluation_time = result.evaluation_time_s;
+  statistics.kkt_error = result.kkt_error;
+  return statistics;
+}
+
+// The solution of one mesh, judged.
+void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, CollocationNlp& nlp, const NlpResult& result,
+           GaitSolution* solution) {
+  const double* x = result.x.data();
+  solution->objective = result.objective / nlp.objective_scale();
+  solution->kkt_error = result.kkt_error;
+  solution->constraint_violation = result.constraint_violation;
+  solution->trajectory = nlp.Extract(x);
+  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
+  solution->costs = ReportCosts(problem, nlp, x);
+  solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
+  solution->speed = nlp.displacement(x) / nlp.duration(x);
+  solution->step_length = nlp.displacement(x) / (problem.mirrored ? 1 : 2);
+  solution->within_requested_accuracy = Converged(result.termination) && solution->accuracy->max_gap <= spec.max_gap &&
+                                        solution->accuracy->max_slip <= spec.max_slip;
+}
+
+// Observers see the objective of the problem, not that of the scaled NLP.
+SolveControl Unscaled(const SolveControl& control, double scale) {
+  SolveControl unscaled = control;
+  if (control.observer) {
+    unscaled.observer = [&control, scale](IterationInfo info) {
+      info.objective /= scale;
+      control.observer(info);
+    };
+  }
+  return unscaled;
+}
+
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
@@ -103,60 +146,35 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
   Mesh mesh = Mesh::Uniform(intervals);
   MotionGuess guess = WalkingGuess(spec, *problem);
-  IpoptOptions options;
+  NlpOptions options;
   options.tolerance = spec.kkt_tolerance;
   int iterations_left = spec.max_iterations;
+  std::unique_ptr<CollocationNlp> previous;  // the coarser mesh, if this one starts from its solution
+  NlpResult previous_result;
 
   for (int level = 0; level <= spec.max_refinements; ++level) {
-    CollocationNlp nlp(*problem, spec.scheme, mesh);
+    auto current = std::make_unique<CollocationNlp>(*problem, spec.scheme, mesh);
+    CollocationNlp& nlp = *current;
+    NlpStart start{nlp.MakeStart(guess), {}, {}, {}};
+    if (previous) nlp.TransferMultipliers(*previous, previous_result, &start);
     options.mesh = level;
     options.max_iterations = iterations_left;
     options.max_wall_time_s = spec.max_wall_time - Since(begin);
-    SolveControl unscaled = control;
-    if (control.observer) {
-      // Observers see the objective of the problem, not that of the scaled NLP.
-      unscaled.observer = [&control, scale = nlp.objective_scale()](IterationInfo info) {
-        info.objective /= scale;
-        control.observer(info);
-      };
-    }
-    const NlpResult result = SolveWithIpopt(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, unscaled);
+    const NlpResult result = SolveNlp(nlp, start, options, Unscaled(control, nlp.objective_scale()));
     iterations_left = std::max(1, iterations_left - result.iterations);
 
-    MeshStatistics statistics;
-    statistics.intervals = mesh.Intervals();
-    statistics.unknowns = nlp.variables();
-    statistics.constraints = nlp.constraints();
-    statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
-    statistics.hessian_nonzeros = nlp.hessian_pattern().size();
-    statistics.iterations = result.iterations;
-    statistics.wall_time = result.wall_time_s;
-    statistics.evaluation_time = result.evaluation_time_s;
-    statistics.kkt_error = result.kkt_error;
-
+    MeshStatistics statistics = Describe(nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
     const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(solution);
-    if (result.x.size() > 0 && result.x.allFinite() && !keep_previous) {
+    if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
-      solution.objective = result.objective / nlp.objective_scale();
-      solution.kkt_error = result.kkt_error;
-      solution.constraint_violation = result.constraint_violation;
-      solution.trajectory = nlp.Extract(result.x.data());
-      solution.accuracy = Validate(spec.scene, *solution.trajectory, JudgeOptions(spec));
-      solution.costs = ReportCosts(*problem, nlp, result.x.data());
-      solution.unmet_constraints = FindUnmet(nlp, result.x.data(), 10 * spec.kkt_tolerance);
-      solution.speed = nlp.displacement(result.x.data()) / nlp.duration(result.x.data());
-      solution.step_length = nlp.displacement(result.x.data()) / (problem->mirrored ? 1 : 2);
-      statistics.objective = solution.objective;
-      statistics.max_gap = solution.accuracy->max_gap;
-      statistics.max_slip = solution.accuracy->max_slip;
-      solution.within_requested_accuracy = Converged(result.termination) &&
-                                           solution.accuracy->max_gap <= spec.max_gap &&
-                                           solution.accuracy->max_slip <= spec.max_slip;
-    } else if (!keep_previous) {
-      solution.termination = result.termination;
-      solution.message = result.message;
+      if (result.x.size() > 0 && result.x.allFinite()) {
+        Adopt(spec, *problem, nlp, result, &solution);
+        statistics.objective = solution.objective;
+        statistics.max_gap = solution.accuracy->max_gap;
+        statistics.max_slip = solution.accuracy->max_slip;
+      }
     }
     solution.meshes.push_back(statistics);
     if (keep_previous) {
@@ -167,11 +185,14 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     if (IsArtefact(solution)) {
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
+      previous = nullptr;
       continue;
     }
     guess = GuessFromTrajectory(*solution.trajectory);
     mesh = RefineMesh(mesh, spec, *solution.trajectory);
     options.initial_barrier = 1e-3;
+    previous = std::move(current);
+    previous_result = result;
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);

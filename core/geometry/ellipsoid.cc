@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "core/base/check.h"
 
 namespace rollgait {
@@ -64,6 +66,47 @@ Matrix3 Ellipsoid::SupportFourth(const Vector3& nu, const Vector3& u, const Vect
   const Matrix3 outer = (third_w * u) * x.transpose() + hessian_u * hessian_w.transpose();
   return -(outer + outer.transpose() + u.dot(hessian_w) * hessian + x.dot(u) * third_w + x.dot(w) * third_u) *
          (scale_ / s);
+}
+
+Vector3 Ellipsoid::RollingVelocity(const Vector3& nu, const Vector3& omega) const {
+  const double s = unit_axes_.cwiseProduct(nu).norm();
+  const Vector3 tangent = nu.cross(omega).cross(nu);
+  return nu.cross(cofactors_.cwiseProduct(tangent)) * (scale_ / (s * s * s));
+}
+
+Eigen::Matrix2d Ellipsoid::TangentHessian(const Vector3& nu, const Eigen::Matrix<double, 3, 2>& tangents) const {
+  const double s = unit_axes_.cwiseProduct(nu).norm();
+  Eigen::Matrix<double, 3, 2> turned;
+  turned << nu.cross(tangents.col(0)), nu.cross(tangents.col(1));
+  return turned.transpose() * cofactors_.asDiagonal() * turned * (scale_ / (s * s * s));
+}
+
+// T_ijk = −(the three ways of S_ij x_k)/s,  Q_ijkl = −(the four ways of T_ijk x_l + the three ways of S_ij S_kl)/s.
+void Ellipsoid::Evaluate(const Vector3& nu, int order, SupportJet* jet) const {
+  const Vector3 d_nu = unit_axes_.cwiseProduct(nu);
+  const double s = d_nu.norm();
+  const Vector3 x = unit_axes_.cwiseProduct(d_nu / s);
+  jet->order = order;
+  jet->h = scale_ * s;
+  jet->x = semi_axes_.cwiseProduct(d_nu / s);
+  if (order < 2) return;
+  const Matrix3 S = UnitHessian(nu, s);
+  jet->S = S * scale_;
+  if (order < 3) return;
+  std::array<Matrix3, 3> T;
+  for (int k = 0; k < 3; ++k) {
+    const Matrix3 outer = S.col(k) * x.transpose();
+    T[k] = -(outer + outer.transpose() + x[k] * S) / s;
+    jet->T[k] = T[k] * scale_;
+  }
+  if (order < 4) return;
+  for (int k = 0; k < 3; ++k) {
+    for (int l = k; l < 3; ++l) {
+      const Matrix3 outer = T[l].col(k) * x.transpose() + S.col(k) * S.col(l).transpose();
+      jet->Q[SupportJet::PairIndex(k, l)] =
+          -(outer + outer.transpose() + S(k, l) * S + x[k] * T[l] + x[l] * T[k]) * (scale_ / s);
+    }
+  }
 }
 
 }  // namespace rollgait

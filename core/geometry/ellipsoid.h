@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_
 #define ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_
 
-#include "core/base/types.h"
+#include "core/geometry/support_jet.h"
 
 namespace rollgait {
 
@@ -25,6 +25,12 @@ class Ellipsoid {
   Matrix3 SupportThird(const Vector3& nu, const Vector3& u) const;
   // Q(ν)[u, w] = D² S(ν)[u, w], m.
   Matrix3 SupportFourth(const Vector3& nu, const Vector3& u, const Vector3& w) const;
+  // See Surface::RollingVelocity. Stable form  ν × (C ω_t) / s³  with ω_t = (ν × ω) × ν.
+  Vector3 RollingVelocity(const Vector3& nu, const Vector3& omega) const;
+  // See Surface::TangentHessian.
+  Eigen::Matrix2d TangentHessian(const Vector3& nu, const Eigen::Matrix<double, 3, 2>& tangents) const;
+  // All of them by components; see Surface::Evaluate.
+  void Evaluate(const Vector3& nu, int order, SupportJet* jet) const;
 
  private:
   // The same quantities of the ellipsoid divided by its largest semi-axis; s = h(nu), x = x(nu) of that ellipsoid.

@@ -1,19 +1,26 @@
 #include "core/models/catalog.h"
 
 #include <sstream>
+#include <utility>
 
-#include "core/models/planar_human.h"
+#include "core/models/human_scene.h"
 #include "core/models/segment_table.h"
 
 namespace rollgait {
 namespace {
 
-struct Maker {
+struct Entry {
   const char* name;
-  Scene (*make)(Sex sex, double stature, double mass);
+  const char* description;
+  bool planar;  // sagittal, without arms and with a rigid trunk
+  JointRanges ranges;  // by default
 };
-// Every model there is.
-constexpr Maker kMakers[] = {{"planar", PlanarHuman}};
+// Every model there is. All are the one human, reduced.
+constexpr Entry kEntries[] = {
+    {"planar", "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.", true,
+     JointRanges::kAnatomical},
+    {"human29", "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.", false, JointRanges::kWalking},
+};
 
 constexpr double kStatureMin = 1.0, kStatureMax = 2.3;  // m
 constexpr double kMassMin = 20, kMassMax = 250;         // kg
@@ -28,7 +35,7 @@ void CheckRange(const char* field, const char* unit, double value, double min, d
 std::string UnknownModel(const std::string& name) {
   std::string message = name.empty() ? "is empty" : "\"" + name + "\" is not a model of this server";
   message += "; choose one of:";
-  for (const Maker& maker : kMakers) message += std::string(" \"") + maker.name + "\"";
+  for (const Entry& entry : kEntries) message += std::string(" \"") + entry.name + "\"";
   return message;
 }
 
@@ -36,11 +43,14 @@ std::string UnknownModel(const std::string& name) {
 
 std::vector<CatalogEntry> ListCatalog() {
   std::vector<CatalogEntry> entries;
-  for (const Maker& maker : kMakers) {
-    const Scene scene = maker.make(Sex::kMale, DefaultStature(Sex::kMale), DefaultMass(Sex::kMale));
-    CatalogEntry entry{scene.name, scene.description, scene.model.size(),
-                       static_cast<int>(scene.model.actuated().size()), {}};
-    for (const ContactSurface& contact : scene.contacts) entry.contacts.push_back(contact.name);
+  for (const Entry& known : kEntries) {
+    BodyRequest request;
+    request.model = known.name;
+    const Result<Scene> scene = BuildScene(request);
+    ROLLGAIT_CHECK(scene.ok());
+    const Model& model = scene.value().model;
+    CatalogEntry entry{known.name, known.description, model.size(), static_cast<int>(model.actuated().size()), {}};
+    for (const ContactSurface& contact : scene.value().contacts) entry.contacts.push_back(contact.name);
     entries.push_back(entry);
   }
   return entries;
@@ -48,17 +58,34 @@ std::vector<CatalogEntry> ListCatalog() {
 
 Result<Scene> BuildScene(const BodyRequest& request) {
   Violations violations;
-  const Maker* chosen = nullptr;
-  for (const Maker& maker : kMakers) {
-    if (request.model == maker.name) chosen = &maker;
+  const Entry* chosen = nullptr;
+  for (const Entry& entry : kEntries) {
+    if (request.model == entry.name) chosen = &entry;
   }
   if (chosen == nullptr) violations.push_back({"name", UnknownModel(request.model)});
-  const double stature = request.stature.value_or(DefaultStature(request.sex));
-  const double mass = request.mass.value_or(DefaultMass(request.sex));
-  CheckRange("stature_m", "m", stature, kStatureMin, kStatureMax, &violations);
-  CheckRange("body_mass_kg", "kg", mass, kMassMin, kMassMax, &violations);
+  const bool planar = chosen != nullptr && chosen->planar;
+  const BodySelection selection{
+      .model = request.model,
+      .sex = request.sex,
+      .stature = request.stature.value_or(DefaultStature(request.sex)),
+      .mass = request.mass.value_or(DefaultMass(request.sex)),
+      .segment_lengths = request.segment_lengths,
+      .feet = request.feet.value_or(request.toes ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid),
+      .toes = request.toes,
+      .ranges = request.ranges.value_or(chosen == nullptr ? JointRanges::kAnatomical : chosen->ranges),
+      .sagittal = request.sagittal || planar,
+      .drop_arms = request.drop_arms || planar,
+      .rigid_trunk = request.rigid_trunk || planar,
+      .locked_joints = request.locked_joints,
+  };
+  CheckRange("stature_m", "m", selection.stature, kStatureMin, kStatureMax, &violations);
+  CheckRange("body_mass_kg", "kg", selection.mass, kMassMin, kMassMax, &violations);
   if (!violations.empty()) return violations;
-  return chosen->make(request.sex, stature, mass);
+  Result<Scene> scene = HumanScene(selection);
+  if (!scene.ok()) return scene;
+  Scene described = std::move(scene).value();
+  described.description = chosen->description;
+  return described;
 }
 
 }  // namespace rollgait

@@ -17,6 +17,12 @@ struct RigidBody {
 // The same body seen from a frame with the same axes, in which the body's frame origin is at `origin` (m).
 RigidBody Shifted(const RigidBody& body, const Vector3& origin);
 
+// The same body seen from a frame in which the body's frame has orientation R (its axes -> the new ones) and origin p (m).
+RigidBody Placed(const RigidBody& body, const Matrix3& R, const Vector3& p);
+
+// What is left of `whole` when `part` is cut off; both in the same frame. Contract: the part has less mass.
+RigidBody CutOff(const RigidBody& whole, const RigidBody& part);
+
 // The bodies fixed to each other as one, by the parallel-axis theorem; all in the same frame. Contract: total mass > 0.
 RigidBody Lumped(const std::vector<RigidBody>& bodies);
 

@@ -5,19 +5,10 @@
 #include <vector>
 
 #include "core/contact/contact_surface.h"
+#include "core/models/body_selection.h"
 #include "core/multibody/model.h"
 
 namespace rollgait {
-
-enum class Sex { kFemale, kMale };
-
-// Which body, as validated: see rollgait.v1.ModelSelection.
-struct BodySelection {
-  std::string model;
-  Sex sex = Sex::kMale;
-  double stature = 1.774;  // m
-  double mass = 75.0;      // kg
-};
 
 // What walks: a tree, the surfaces that may touch the ground z = 0, and the facts that a gait needs of it. Immutable value.
 struct Scene {
@@ -28,6 +19,7 @@ struct Scene {
   std::vector<ContactSurface> contacts;
   double leg_length;                 // m, hip to sole with straight leg
   std::vector<std::string> sources;  // where the numbers come from
+  bool symmetric = true;             // its left/right mirror image is itself; if not, it has no half cycle
 
   // Index of a contact by name, -1 if there is none.
   int FindContact(const std::string& contact_name) const;

@@ -1,5 +1,6 @@
 #include "core/models/segment_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -20,7 +21,7 @@ struct Row {
   double radii[6];  // xx, yy, zz, xy, xz, yz
 };
 
-using Rows = std::array<Row, 9>;
+using Rows = std::array<Row, kSegments>;
 
 // Dumas, Cheze, Verriest 2007, J Biomech 40:543-553, head and neck from its corrigendum (40:1651); feet as corrected in
 // Dumas, Wojtusch 2018 (ankle to the middle of the metatarsal heads 1 and 5). Lengths of the Young 1983 sample.
@@ -61,6 +62,9 @@ constexpr double kHeelFraction = 0.217;
 // Height and half distance of the shoulder joints as fractions of stature (Drillis and Contini, after Winter 2009).
 constexpr double kShoulderHeight = 0.818;
 constexpr double kHalfShoulderWidth = 0.129;
+// Metatarsal heads over the sole, as a fraction of the ankle height: 24 mm of 80 mm, an assumption. With the table's distance
+// from the ankle it puts them at 0.69 (male) and 0.65 (female) of the foot length.
+constexpr double kToeJointHeight = 0.3;
 
 const Rows& RowsOf(Sex sex) { return sex == Sex::kFemale ? kFemale : kMale; }
 const Sample& SampleOf(Sex sex) { return sex == Sex::kFemale ? kFemaleSample : kMaleSample; }
@@ -94,9 +98,16 @@ Matrix3 NearestRealisable(const Matrix3& inertia) {
 
 }  // namespace
 
-SegmentTable::SegmentTable(Sex sex, double stature, double mass)
-    : sex_(sex), length_scale_(stature / DefaultStature(sex)), stature_(stature), mass_(mass) {
+const char* SegmentName(Segment segment) {
+  constexpr const char* kNames[kSegments] = {"head_neck", "torso", "pelvis", "upper_arm", "forearm",
+                                             "hand",      "thigh", "shank",  "foot"};
+  return kNames[static_cast<size_t>(segment)];
+}
+
+SegmentTable::SegmentTable(Sex sex, double stature, double mass, const SegmentScales& scales)
+    : sex_(sex), length_scale_(stature / DefaultStature(sex)), stature_(stature), mass_(mass), scales_(scales) {
   ROLLGAIT_CHECK(std::isfinite(stature) && stature > 0 && std::isfinite(mass) && mass > 0);
+  for (double scale : scales_) ROLLGAIT_CHECK(std::isfinite(scale) && scale > 0);
 }
 
 double SegmentTable::Scaled(double length_mm) const { return length_mm * 1e-3 * length_scale_; }
@@ -121,31 +132,38 @@ RigidBody SegmentTable::Body(Segment segment, Side side) const {
   return {mass, from_table * com, from_table * NearestRealisable(inertia) * from_table.transpose()};
 }
 
-double SegmentTable::Length(Segment segment) const { return Scaled(RowOf(sex_, segment).length_mm); }
+double SegmentTable::TableLength(Segment segment) const { return Scaled(RowOf(sex_, segment).length_mm); }
+
+double SegmentTable::Length(Segment segment) const { return TableLength(segment) * Scale(segment); }
 
 Vector3 SegmentTable::LumbarToHips() const {
-  return Vector3(Scaled(SampleOf(sex_).hip_forward), 0, -Scaled(SampleOf(sex_).hip_down));
+  return Vector3(Scaled(SampleOf(sex_).hip_forward), 0, -Scaled(SampleOf(sex_).hip_down)) * Scale(Segment::kPelvis);
 }
 
-double SegmentTable::HalfHipWidth() const { return Scaled(SampleOf(sex_).half_hip_width); }
+double SegmentTable::HalfHipWidth() const { return Scaled(SampleOf(sex_).half_hip_width) * Scale(Segment::kPelvis); }
 
 Vector3 SegmentTable::CervicalToShoulder(Side side) const {
   ROLLGAIT_CHECK(side != Side::kMidline);
-  const double cervical_height = stature_ - Length(Segment::kHeadNeck);
-  return Vector3(0, (side == Side::kLeft ? 1 : -1) * kHalfShoulderWidth * stature_,
-                 kShoulderHeight * stature_ - cervical_height);
+  const double cervical_height = stature_ - TableLength(Segment::kHeadNeck);
+  const double down = cervical_height - kShoulderHeight * stature_;
+  return Vector3(0, (side == Side::kLeft ? 1 : -1) * kHalfShoulderWidth * stature_, -down * Scale(Segment::kTorso));
 }
 
 double SegmentTable::AnkleHeight() const {
-  return stature_ - Length(Segment::kHeadNeck) - Length(Segment::kTorso) + LumbarToHips().z() -
-         Length(Segment::kThigh) - Length(Segment::kShank);
+  return stature_ - TableLength(Segment::kHeadNeck) - TableLength(Segment::kTorso) -
+         Scaled(SampleOf(sex_).hip_down) - TableLength(Segment::kThigh) - TableLength(Segment::kShank);
 }
 
 double SegmentTable::LegLength() const { return Length(Segment::kThigh) + Length(Segment::kShank) + AnkleHeight(); }
 
-double SegmentTable::FootLength() const { return Scaled(SampleOf(sex_).foot_length); }
+double SegmentTable::FootLength() const { return Scaled(SampleOf(sex_).foot_length) * Scale(Segment::kFoot); }
 
 double SegmentTable::HeelToAnkle() const { return kHeelFraction * FootLength(); }
+
+Vector3 SegmentTable::AnkleToToes() const {
+  const double down = (1 - kToeJointHeight) * AnkleHeight();
+  return Vector3(std::sqrt(std::max(0.0, std::pow(Length(Segment::kFoot), 2) - down * down)), 0, -down);
+}
 
 std::vector<std::string> SegmentTable::Sources() {
   return {

@@ -23,6 +23,11 @@ Matrix3 AxisRotation(const Vector3& u, double angle) {
   return r;
 }
 
+// Rotation of the quaternion w, x, y, z after normalisation.
+Matrix3 QuaternionRotation(const double* q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+}
+
 // Inertia about a point at which the centre of mass has the position c, from the one about the centre of mass.
 Inertia InertiaAboutOrigin(double mass, const Vector3& c, const Matrix3& about_center) {
   return {mass, mass * c, about_center + mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose())};
@@ -61,25 +66,61 @@ Motion ToChild(const Motion& m, const BodyDynamics::Link& link) {
 
 }  // namespace
 
-BodyDynamics::BodyDynamics(const Model& model) : total_mass_(model.total_mass()) {
-  for (const Joint& joint : model.joints()) {
-    joints_.push_back({joint.parent, joint.type == JointType::kRevolute, joint.axis, joint.R_PJ, joint.p_PJ,
-                       InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia)});
+BodyDynamics::BodyDynamics(const Model& model) : nq_(model.nq()), nv_(model.nv()), total_mass_(model.total_mass()) {
+  for (int i = 0; i < model.size(); ++i) {
+    const Joint& joint = model.joint(i);
+    joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type), joint.axis,
+                       joint.R_PJ, joint.p_PJ, InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia)});
   }
 }
 
+Motion BodyDynamics::Column(const JointData& joint, int c) {
+  Motion unit;
+  if (joint.type == JointType::kFree) {
+    (c < 3 ? unit.angular : unit.linear)[c % 3] = 1;
+  } else {
+    (joint.type == JointType::kRevolute ? unit.angular : unit.linear) = joint.axis;
+  }
+  return unit;
+}
+
+double BodyDynamics::Along(const JointData& joint, int c, const Force& f) {
+  if (joint.type == JointType::kFree) return (c < 3 ? f.moment : f.force)[c % 3];
+  return joint.axis.dot(joint.type == JointType::kRevolute ? f.moment : f.force);
+}
+
+Motion BodyDynamics::Relative(const JointData& joint, const VectorX& v) {
+  switch (joint.type) {
+    case JointType::kFree:
+      return {v.segment<3>(joint.v_index), v.segment<3>(joint.v_index + 3)};
+    case JointType::kRevolute:
+      return {joint.axis * v[joint.v_index], Vector3::Zero()};
+    case JointType::kPrismatic:
+      break;
+  }
+  return {Vector3::Zero(), joint.axis * v[joint.v_index]};
+}
+
 void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state) const {
-  ROLLGAIT_CHECK(q.size() == size() && v.size() == size());
+  ROLLGAIT_CHECK(q.size() == nq_ && v.size() == nv_);
   state->resize(joints_.size());
   for (int i = 0; i < size(); ++i) {
     const JointData& joint = joints_[i];
+    const double* position = q.data() + joint.q_index;
     Link& link = (*state)[i];
-    if (joint.turns) {
-      link.R_PL.noalias() = joint.R_PJ * AxisRotation(joint.axis, q[i]);
-      link.p_PL = joint.p_PJ;
-    } else {
-      link.R_PL = joint.R_PJ;
-      link.p_PL = joint.p_PJ + joint.R_PJ * (joint.axis * q[i]);
+    switch (joint.type) {
+      case JointType::kRevolute:
+        link.R_PL.noalias() = joint.R_PJ * AxisRotation(joint.axis, *position);
+        link.p_PL = joint.p_PJ;
+        break;
+      case JointType::kPrismatic:
+        link.R_PL = joint.R_PJ;
+        link.p_PL = joint.p_PJ + joint.R_PJ * (joint.axis * *position);
+        break;
+      case JointType::kFree:
+        link.R_PL.noalias() = joint.R_PJ * QuaternionRotation(position);
+        link.p_PL = joint.p_PJ + joint.R_PJ * q.segment<3>(joint.q_index + 4);
+        break;
     }
     if (joint.parent < 0) {
       link.R_WL = link.R_PL;
@@ -94,34 +135,35 @@ void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state
       link.bias = ToChild(parent.bias, link);
     }
     // Joint velocity, and the velocity product V × (S v) with the V before it is added (S v × S v = 0).
-    const Vector3 rate = joint.axis * v[i];
-    if (joint.turns) {
-      link.bias.angular += link.twist.angular.cross(rate);
-      link.bias.linear += link.twist.linear.cross(rate);
-      link.twist.angular += rate;
-    } else {
-      link.bias.linear += link.twist.angular.cross(rate);
-      link.twist.linear += rate;
-    }
+    const Motion rate = Relative(joint, v);
+    link.bias.angular += link.twist.angular.cross(rate.angular);
+    link.bias.linear += link.twist.angular.cross(rate.linear) + link.twist.linear.cross(rate.angular);
+    link.twist.angular += rate.angular;
+    link.twist.linear += rate.linear;
   }
 }
 
 void BodyDynamics::MassMatrix(const State& state, Workspace* workspace, MatrixX* mass) const {
-  const int n = size();
-  mass->setZero(n, n);
-  workspace->composite.resize(n);
-  for (int i = 0; i < n; ++i) workspace->composite[i] = joints_[i].inertia;
-  for (int i = n - 1; i >= 0; --i) {
+  mass->setZero(nv_, nv_);
+  workspace->composite.resize(joints_.size());
+  for (int i = 0; i < size(); ++i) workspace->composite[i] = joints_[i].inertia;
+  for (int i = size() - 1; i >= 0; --i) {
     const JointData& joint = joints_[i];
     const Inertia& composite = workspace->composite[i];
-    Motion unit;
-    (joint.turns ? unit.angular : unit.linear) = joint.axis;
-    Force f = Momentum(composite, unit);
-    (*mass)(i, i) = joint.axis.dot(joint.turns ? f.moment : f.force);
-    for (int k = i; joints_[k].parent >= 0;) {
-      f = ToParent(f, state[k]);
-      k = joints_[k].parent;
-      (*mass)(i, k) = (*mass)(k, i) = joints_[k].axis.dot(joints_[k].turns ? f.moment : f.force);
+    for (int c = 0; c < joint.columns; ++c) {
+      const int row = joint.v_index + c;
+      Force f = Momentum(composite, Column(joint, c));
+      for (int d = 0; d <= c; ++d) {
+        (*mass)(row, joint.v_index + d) = (*mass)(joint.v_index + d, row) = Along(joint, d, f);
+      }
+      for (int k = i; joints_[k].parent >= 0;) {
+        f = ToParent(f, state[k]);
+        k = joints_[k].parent;
+        for (int d = 0; d < joints_[k].columns; ++d) {
+          const int column = joints_[k].v_index + d;
+          (*mass)(row, column) = (*mass)(column, row) = Along(joints_[k], d, f);
+        }
+      }
     }
     if (joint.parent >= 0) {
       const Inertia moved = ToParent(composite, state[i]);
@@ -136,7 +178,7 @@ void BodyDynamics::MassMatrix(const State& state, Workspace* workspace, MatrixX*
 void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vector3& gravity, Workspace* workspace,
                                VectorX* tau) const {
   const int n = size();
-  tau->resize(n);
+  tau->resize(nv_);
   workspace->acceleration.resize(n);
   workspace->force.resize(n);
   // Motion due to a alone: the velocity products are in Link::bias, and gravity is an upward acceleration of the world.
@@ -144,7 +186,11 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
     const JointData& joint = joints_[i];
     Motion& motion = workspace->acceleration[i];
     motion = joint.parent < 0 ? Motion{} : ToChild(workspace->acceleration[joint.parent], state[i]);
-    if (a != nullptr) (joint.turns ? motion.angular : motion.linear) += joint.axis * (*a)[i];
+    if (a != nullptr) {
+      const Motion relative = Relative(joint, *a);
+      motion.angular += relative.angular;
+      motion.linear += relative.linear;
+    }
 
     Motion total;
     total.angular = motion.angular + state[i].bias.angular;
@@ -159,7 +205,7 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
   for (int i = n - 1; i >= 0; --i) {
     const JointData& joint = joints_[i];
     const Force& f = workspace->force[i];
-    (*tau)[i] = joint.axis.dot(joint.turns ? f.moment : f.force);
+    for (int c = 0; c < joint.columns; ++c) (*tau)[joint.v_index + c] = Along(joint, c, f);
     if (joint.parent < 0) continue;
     const Force moved = ToParent(f, state[i]);
     workspace->force[joint.parent].moment += moved.moment;
@@ -169,12 +215,27 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
 
 void BodyDynamics::InverseDynamics(const State& state, const VectorX& a, const Vector3& gravity, Workspace* workspace,
                                    VectorX* tau) const {
-  ROLLGAIT_CHECK(a.size() == size());
+  ROLLGAIT_CHECK(a.size() == nv_);
   NewtonEuler(state, &a, gravity, workspace, tau);
 }
 
 void BodyDynamics::BiasForce(const State& state, const Vector3& gravity, Workspace* workspace, VectorX* bias) const {
   NewtonEuler(state, nullptr, gravity, workspace, bias);
+}
+
+void BodyDynamics::AddTwistJacobian(const State& state, int link, const Vector3& point, double sign,
+                                    MatrixX* jacobian) const {
+  ROLLGAIT_CHECK(jacobian->rows() == 6 && jacobian->cols() == nv_);
+  for (int j = link; j >= 0; j = joints_[j].parent) {
+    const JointData& joint = joints_[j];
+    for (int c = 0; c < joint.columns; ++c) {
+      const Motion column = Column(joint, c);
+      const Vector3 angular = state[j].R_WL * column.angular;
+      const Vector3 linear = state[j].R_WL * column.linear + angular.cross(point - state[j].p_WL);
+      jacobian->col(joint.v_index + c).head<3>() += sign * angular;
+      jacobian->col(joint.v_index + c).tail<3>() += sign * linear;
+    }
+  }
 }
 
 double BodyDynamics::KineticEnergy(const State& state) const {

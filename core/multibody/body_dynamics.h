@@ -12,7 +12,7 @@ namespace rollgait {
 // algorithm (table 5.1) and the composite rigid body algorithm (table 6.2). It is the second algorithm of the library:
 // trajectories are judged with it, and it shares no code with TreeDynamics, which makes them.
 //
-// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ.  Units: SI; rad or m for q by joint type. Gravity is a vector in world
+// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ.  Units: SI; rad or m for q by joint type (free joints: see JointType). Gravity is a vector in world
 // axes, m/s²; the world axes are fixed to the ground, so a slope turns gravity.
 // Immutable after construction; any thread may share it, with a State and a Workspace of its own.
 class BodyDynamics {
@@ -54,24 +54,30 @@ class BodyDynamics {
 
   explicit BodyDynamics(const Model& model);
 
+  // Number of joints and links; the lengths of q and v are nq() and nv(), the same number in a tree without free joints.
   int size() const { return static_cast<int>(joints_.size()); }
+  int nq() const { return nq_; }
+  int nv() const { return nv_; }
   // Parent of joint i, -1 for the world.
   int parent(int i) const { return joints_[i].parent; }
-  // Axis of joint i in its own link's axes (unit), and whether it turns (true) or slides.
+  // Axis of joint i in its own link's axes (unit), and whether it turns (true) or slides. One degree of freedom only.
   const Vector3& axis(int i) const { return joints_[i].axis; }
-  bool turns(int i) const { return joints_[i].turns; }
+  bool turns(int i) const { return joints_[i].type == JointType::kRevolute; }
   double total_mass() const { return total_mass_; }
 
-  // Poses, twists and bias accelerations at q, v (size() values each). Resizes `state`.
+  // Poses, twists and bias accelerations at q (nq), v (nv). Resizes `state`.
   void ComputeState(const VectorX& q, const VectorX& v, State* state) const;
 
-  // M (n × n), symmetric positive definite, both triangles.
+  // M (nv × nv), symmetric positive definite, both triangles.
   void MassMatrix(const State& state, Workspace* workspace, MatrixX* mass) const;
-  // τ = M a + b for a given acceleration a (n).
+  // τ = M a + b for a given acceleration a (nv).
   void InverseDynamics(const State& state, const VectorX& a, const Vector3& gravity, Workspace* workspace,
                        VectorX* tau) const;
   // b: Coriolis, centrifugal and gravity terms.
   void BiasForce(const State& state, const Vector3& gravity, Workspace* workspace, VectorX* bias) const;
+  // Adds `sign` times the Jacobian of  [angular velocity; velocity of the material point at `point`]  of a link, all in
+  // world axes, to the 6 × nv matrix `jacobian`.
+  void AddTwistJacobian(const State& state, int link, const Vector3& point, double sign, MatrixX* jacobian) const;
 
   // J.
   double KineticEnergy(const State& state) const;
@@ -85,17 +91,24 @@ class BodyDynamics {
  private:
   struct JointData {
     int parent;
-    bool turns;
+    JointType type;
+    int q_index, v_index, columns;
     Vector3 axis;
     Matrix3 R_PJ;
     Vector3 p_PJ;
     Inertia inertia;
   };
+  // Column c of the motion subspace of a joint, and the component of a force along it.
+  static Motion Column(const JointData& joint, int c);
+  static double Along(const JointData& joint, int c, const Force& force);
+  // Relative motion of a joint under the joint velocities (or accelerations) v.
+  static Motion Relative(const JointData& joint, const VectorX& v);
   // The recursion common to InverseDynamics (a given) and BiasForce (a null).
   void NewtonEuler(const State& state, const VectorX* a, const Vector3& gravity, Workspace* workspace,
                    VectorX* tau) const;
 
   std::vector<JointData> joints_;
+  int nq_ = 0, nv_ = 0;
   double total_mass_ = 0;
 };
 

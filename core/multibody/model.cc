@@ -63,12 +63,22 @@ class JointChecker {
         rotation.determinant() < 0) {
       Refuse("R_PJ", "is not a rotation; its columns must be a right-handed orthonormal basis");
     }
-    if (!joint().axis.allFinite() || std::abs(joint().axis.norm() - 1) > kUnitTolerance) {
+    const bool is_unit = joint().axis.allFinite() && std::abs(joint().axis.norm() - 1) <= kUnitTolerance;
+    if (joint().type != JointType::kFree && !is_unit) {
       RefuseValue("axis", joint().axis.transpose(), "must be a finite vector of length 1");
     }
   }
 
   void CheckRanges() {
+    if (joint().type == JointType::kFree) {
+      if (joint().actuated) Refuse("actuated", "must be false: a free joint has no motor");
+      if (joint().position_min != -kInfinity || joint().position_max != kInfinity) {
+        Refuse("position_min", "must be left out like position_max: a free joint has no range");
+      }
+      if (joint().mirror_joint != index_ || joint().mirror_sign != 1) {
+        Refuse("mirror_joint", "must be the joint itself with sign 1: a free joint has no mirror image");
+      }
+    }
     // Written so that NaN fails.
     if (!(joint().position_min <= joint().position_max)) {
       RefuseValue("position_min", joint().position_min, "must not be larger than position_max, and neither may be NaN");
@@ -154,6 +164,10 @@ Model::Model(std::vector<Joint> joints) : joints_(std::move(joints)) {
   const size_t n = joints_.size();
   ancestor_.assign(n * n, 0);
   for (size_t i = 0; i < n; ++i) {
+    q_index_.push_back(nq_);
+    v_index_.push_back(nv_);
+    nq_ += PositionCount(joints_[i].type);
+    nv_ += VelocityCount(joints_[i].type);
     if (joints_[i].actuated) actuated_.push_back(static_cast<int>(i));
     total_mass_ += joints_[i].mass;
     for (int a = static_cast<int>(i); a >= 0; a = joints_[a].parent) ancestor_[i * n + a] = 1;

@@ -9,16 +9,23 @@
 
 namespace rollgait {
 
-enum class JointType { kRevolute, kPrismatic };
+// kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and the
+// link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's origin in
+// link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
+enum class JointType { kRevolute, kPrismatic, kFree };
 
-// A joint with one degree of freedom and the link it moves. See rollgait.v1.Joint for the meaning of each field.
+// Numbers that a joint contributes to q and to v.
+constexpr int PositionCount(JointType type) { return type == JointType::kFree ? 7 : 1; }
+constexpr int VelocityCount(JointType type) { return type == JointType::kFree ? 6 : 1; }
+
+// A joint and the link it moves. See rollgait.v1.Joint for the meaning of each field.
 struct Joint {
   std::string name;
   JointType type = JointType::kRevolute;
   int parent = -1;                                 // index of a joint before this one; -1 is the world
   Vector3 p_PJ = Vector3::Zero();                  // m, origin of the joint frame in the parent's link frame
   Matrix3 R_PJ = Matrix3::Identity();              // joint frame -> parent's link frame
-  Vector3 axis = Vector3::UnitZ();                 // unit, in the joint frame
+  Vector3 axis = Vector3::UnitZ();                 // unit, in the joint frame; without meaning for a free joint
   double position_min = -kInfinity;                // rad or m
   double position_max = kInfinity;
   double velocity_max = kInfinity;                 // rad/s or m/s
@@ -36,18 +43,25 @@ struct Joint {
   double mirror_sign = 1;
 };
 
-// An immutable kinematic tree of joints with one degree of freedom, parents first; nq = nv = number of joints.
-// A floating base is a chain of such joints (its chart and range are the model's); any thread may share it.
+// An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating base
+// is a chain of joints (its chart and range are the model's); the optimal control stack takes such trees only.
+// Any thread may share it.
 class Model {
  public:
   // Refuses: a parent that does not precede its joint, an axis that is not unit, non-finite numbers, negative mass, an
   // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
   // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a joint
-  // that is not actuated, a mirror that is not an involution.
+  // that is not actuated, a mirror that is not an involution, a free joint that has ranges, is actuated or is mirrored.
   // Violations name "joints[i].field".
   static Result<Model> Create(std::vector<Joint> joints);
 
   int size() const { return static_cast<int>(joints_.size()); }
+  // Length of q and of v, and where the numbers of joint i begin in them.
+  int nq() const { return nq_; }
+  int nv() const { return nv_; }
+  int q_index(int i) const { return q_index_[i]; }
+  int v_index(int i) const { return v_index_[i]; }
+  bool HasFreeJoint() const { return nq_ != nv_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const Joint& joint(int i) const { return joints_[i]; }
   int parent(int i) const { return joints_[i].parent; }
@@ -64,7 +78,8 @@ class Model {
  private:
   explicit Model(std::vector<Joint> joints);
   std::vector<Joint> joints_;
-  std::vector<int> actuated_;
+  std::vector<int> actuated_, q_index_, v_index_;
+  int nq_ = 0, nv_ = 0;
   std::vector<char> ancestor_;
   double total_mass_ = 0;
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 namespace {
 
@@ -15,45 +17,96 @@ Matrix3 AxisRotation(const Vector3& axis, double angle) {
   return r + s * Skew(axis);
 }
 
+// B X and Bᵀ W of a composite.
+template <typename Composite>
+Vector6 ApplyCoriolis(const Composite& c, const Vector6& x) {
+  Vector6 y;
+  y.head<3>().noalias() = c.coriolis * x.head<3>();
+  y.tail<3>() = -2 * c.momentum.cross(x.head<3>());
+  return y;
+}
+
+template <typename Composite>
+Vector6 ApplyCoriolisTranspose(const Composite& c, const Vector6& w) {
+  Vector6 y;
+  y.head<3>() = c.coriolis.transpose() * w.head<3>() + 2 * c.momentum.cross(w.tail<3>());
+  y.tail<3>().setZero();
+  return y;
+}
+
 }  // namespace
 
 TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()) {
-  for (int i = 0; i < n_; ++i) {
-    parent_.push_back(model.parent(i));
-    has_mass_.push_back(model.joint(i).mass > 0);
+  ROLLGAIT_CHECK(!model.HasFreeJoint());  // q and v of one length: the optimal control stack's trees
+  for (const Joint& joint : model.joints()) {
+    JointData data;
+    data.parent = joint.parent;
+    data.revolute = joint.type == JointType::kRevolute;
+    data.massive = joint.mass > 0;
+    data.axis_index = 0;
+    data.axis_sign = joint.axis.cwiseAbs().maxCoeff(&data.axis_index);
+    data.axis_sign = joint.axis(data.axis_index) < 0 ? -1 : 1;
+    data.aligned = joint.R_PJ == Matrix3::Identity() &&
+                   joint.axis == data.axis_sign * Vector3(Vector3::Unit(data.axis_index));
+    data.p_PJ = joint.p_PJ;
+    data.axis = joint.axis;
+    data.center_of_mass = joint.center_of_mass;
+    data.R_PJ = joint.R_PJ;
+    data.inertia = joint.inertia;
+    data.mass = joint.mass;
+    joints_.push_back(data);
   }
   rotation_.assign(n_, Matrix3::Identity());
   origin_.assign(n_, Vector3::Zero());
   axis_.assign(n_, kZero6);
-  twist_ = acceleration_ = psi_ = psi2_ = virtual_twist_ = omega_ = axis_;
+  twist_ = acceleration_ = psi_ = psi2_ = force_ = virtual_twist_ = omega_ = axis_;
   link_inertia_.assign(n_, SpatialInertia());
   composite_.assign(n_, Composite());
   virtual_.assign(n_, VirtualComposite());
+  moves_.assign(n_, 0);
+  touched_ = moves_;
+  factor_ = RowMajorMatrix::Zero(n_, n_);
+  scratch_ = VectorX::Zero(n_);
+}
+
+// Pose of link i and the axis of its joint, from the pose of its parent.
+void TreeDynamics::UpdatePose(int i, double q) {
+  const JointData& joint = joints_[i];
+  const int p = joint.parent;
+  Matrix3& R = rotation_[i];
+  Vector3& origin = origin_[i];
+  if (p < 0) {
+    R = joint.R_PJ;
+    origin = joint.p_PJ;
+  } else {
+    if (joint.aligned) R = rotation_[p];
+    else R.noalias() = rotation_[p] * joint.R_PJ;
+    origin.noalias() = rotation_[p] * joint.p_PJ;
+    origin += origin_[p];
+  }
+  const int k = joint.axis_index;
+  const Vector3 axis_W = joint.aligned ? Vector3(joint.axis_sign * R.col(k)) : Vector3(R * joint.axis);
+  if (!joint.revolute) {
+    origin += q * axis_W;
+    axis_[i] << Vector3::Zero(), axis_W;
+    return;
+  }
+  axis_[i] << axis_W, origin.cross(axis_W);
+  if (!joint.aligned) {
+    R *= AxisRotation(joint.axis, q);
+    return;
+  }
+  const int l = (k + 1) % 3, m = (k + 2) % 3;
+  const double s = joint.axis_sign * std::sin(q), c = std::cos(q);
+  const Vector3 before = R.col(l);
+  R.col(l) = c * before + s * R.col(m);
+  R.col(m) = c * R.col(m) - s * before;
 }
 
 void TreeDynamics::UpdateKinematics(const double* q, const double* v) {
   for (int i = 0; i < n_; ++i) {
-    const Joint& joint = model_->joint(i);
-    const int p = parent_[i];
-    Matrix3 R_WJ;
-    Vector3 p_WJ;
-    if (p < 0) {
-      R_WJ = joint.R_PJ;
-      p_WJ = joint.p_PJ;
-    } else {
-      R_WJ.noalias() = rotation_[p] * joint.R_PJ;
-      p_WJ.noalias() = origin_[p] + rotation_[p] * joint.p_PJ;
-    }
-    const Vector3 axis_W = R_WJ * joint.axis;
-    if (joint.type == JointType::kRevolute) {
-      rotation_[i].noalias() = R_WJ * AxisRotation(joint.axis, q[i]);
-      origin_[i] = p_WJ;
-      axis_[i] << axis_W, p_WJ.cross(axis_W);
-    } else {
-      rotation_[i] = R_WJ;
-      origin_[i] = p_WJ + q[i] * axis_W;
-      axis_[i] << Vector3::Zero(), axis_W;
-    }
+    UpdatePose(i, q[i]);
+    const int p = joints_[i].parent;
     if (p < 0) {
       psi_[i].setZero();
       twist_[i] = axis_[i] * v[i];
@@ -62,86 +115,114 @@ void TreeDynamics::UpdateKinematics(const double* q, const double* v) {
       twist_[i] = twist_[p] + axis_[i] * v[i];
     }
   }
+  has_forces_ = has_composites_ = false;
 }
 
 void TreeDynamics::Update(const double* q, const double* v, const double* a, const Vector3& gravity) {
   UpdateKinematics(q, v);
   root_acceleration_ << Vector3::Zero(), -gravity;
   for (int i = 0; i < n_; ++i) {
-    const int p = parent_[i];
-    const Vector6& from = p < 0 ? root_acceleration_ : acceleration_[p];
-    psi2_[i] = CrossMotion(from, axis_[i]);
-    if (p >= 0) psi2_[i] += CrossMotion(twist_[p], psi_[i]);
-    acceleration_[i] = from + axis_[i] * a[i] + psi_[i] * v[i];
+    const int p = joints_[i].parent;
+    acceleration_[i] = (p < 0 ? root_acceleration_ : acceleration_[p]) + axis_[i] * a[i] + psi_[i] * v[i];
   }
-  UpdateComposites();
+}
+
+// Newton and Euler for each link about its centre of mass, then the sums over subtrees.
+void TreeDynamics::UpdateForces() {
+  if (has_forces_) return;
+  for (int i = 0; i < n_; ++i) {
+    const JointData& joint = joints_[i];
+    if (!joint.massive) {
+      force_[i].setZero();
+      continue;
+    }
+    const Matrix3& R = rotation_[i];
+    const Vector3 com = origin_[i] + R * joint.center_of_mass;
+    const Vector3 w = twist_[i].head<3>(), alpha = acceleration_[i].head<3>();
+    const Vector3 velocity = twist_[i].tail<3>() + w.cross(com);
+    // Classical acceleration of the material point at the centre of mass: that of the spatial field, and ω × its velocity.
+    const Vector3 f = joint.mass * (acceleration_[i].tail<3>() + alpha.cross(com) + w.cross(velocity));
+    const Vector3 w_L = R.transpose() * w;
+    const Vector3 turned = joint.inertia * w_L;
+    const Vector3 moment_L = joint.inertia * (R.transpose() * alpha) + w_L.cross(turned);
+    force_[i] << R * moment_L + com.cross(f), f;
+  }
+  for (int i = n_ - 1; i > 0; --i) {
+    if (joints_[i].parent >= 0) force_[joints_[i].parent] += force_[i];
+  }
+  has_forces_ = true;
+}
+
+// Inertia of each link about the world origin, and of each subtree.
+void TreeDynamics::UpdateInertias() {
+  for (int i = 0; i < n_; ++i) {
+    const JointData& joint = joints_[i];
+    SpatialInertia& inertia = link_inertia_[i];
+    if (joint.massive) {
+      const Matrix3& R = rotation_[i];
+      const Vector3 com = origin_[i] + R * joint.center_of_mass;
+      inertia.mass = joint.mass;
+      inertia.moment = joint.mass * com;
+      const Matrix3 turned = R * joint.inertia;
+      inertia.rotational.noalias() = turned * R.transpose();
+      inertia.rotational.noalias() -= inertia.moment * com.transpose();
+      inertia.rotational.diagonal().array() += inertia.moment.dot(com);
+    }
+    composite_[i].inertia = inertia;
+  }
+  for (int i = n_ - 1; i > 0; --i) {
+    if (joints_[i].parent >= 0) composite_[joints_[i].parent].inertia += composite_[i].inertia;
+  }
 }
 
 void TreeDynamics::UpdateComposites() {
+  if (has_composites_) return;
+  UpdateForces();
+  UpdateInertias();
   for (int i = 0; i < n_; ++i) {
+    const int p = joints_[i].parent;
+    psi2_[i] = CrossMotion(p < 0 ? root_acceleration_ : acceleration_[p], axis_[i]);
+    if (p >= 0) psi2_[i] += CrossMotion(twist_[p], psi_[i]);
     Composite& c = composite_[i];
-    if (!has_mass_[i]) {
-      c = Composite();
-      link_inertia_[i] = SpatialInertia();
+    if (!joints_[i].massive) {
+      c.coriolis.setZero();
+      c.momentum.setZero();
       continue;
     }
-    const Joint& joint = model_->joint(i);
-    const Matrix3& R = rotation_[i];
-    const Vector3 com = origin_[i] + R * joint.center_of_mass;
-    SpatialInertia& inertia = link_inertia_[i];
-    inertia.mass = joint.mass;
-    inertia.moment = joint.mass * com;
-    inertia.rotational.noalias() = R * joint.inertia * R.transpose();
-    inertia.rotational -= inertia.moment * com.transpose();
-    inertia.rotational.diagonal().array() += inertia.moment.dot(com);
-
-    const Vector6& twist = twist_[i];
-    const Vector6 momentum = inertia * twist;
-    c.inertia = inertia;
-    c.force = inertia * acceleration_[i] + CrossForce(twist, momentum);
-    c.momentum = momentum.tail<3>();
-    const Matrix3 spin = Skew(twist.head<3>());
-    c.coriolis.noalias() = 2 * spin * inertia.rotational - 2 * Skew(inertia.moment) * Skew(twist.tail<3>());
-    c.coriolis -= inertia.rotational.trace() * spin;
+    const SpatialInertia& inertia = link_inertia_[i];
+    const Vector3 w = twist_[i].head<3>(), v = twist_[i].tail<3>(), &h = inertia.moment;
+    c.momentum = inertia.mass * v - h.cross(w);
+    // 2 [ω] J − 2 [h][v] − tr(J) [ω], with [h][v] = v hᵀ − (h·v) 1.
+    const Matrix3 doubled = 2 * inertia.rotational;
+    for (int k = 0; k < 3; ++k) c.coriolis.col(k) = w.cross(doubled.col(k)) - (2 * h(k)) * v;
+    c.coriolis.diagonal().array() += 2 * h.dot(v);
+    c.coriolis -= Skew(inertia.rotational.trace() * w);
   }
   for (int i = n_ - 1; i > 0; --i) {
-    const int p = parent_[i];
+    const int p = joints_[i].parent;
     if (p < 0) continue;
-    composite_[p].inertia += composite_[i].inertia;
     composite_[p].coriolis += composite_[i].coriolis;
     composite_[p].momentum += composite_[i].momentum;
-    composite_[p].force += composite_[i].force;
   }
+  has_composites_ = true;
 }
 
-Vector6 TreeDynamics::ApplyCoriolis(const Composite& c, const Vector6& x) const {
-  Vector6 y;
-  y.head<3>().noalias() = c.coriolis * x.head<3>();
-  y.tail<3>() = -2 * c.momentum.cross(x.head<3>());
-  return y;
-}
-
-Vector6 TreeDynamics::ApplyCoriolisTranspose(const Composite& c, const Vector6& w) const {
-  Vector6 y;
-  y.head<3>() = c.coriolis.transpose() * w.head<3>() + 2 * c.momentum.cross(w.tail<3>());
-  y.tail<3>().setZero();
-  return y;
-}
-
-void TreeDynamics::InverseDynamics(double* tau) const {
-  for (int i = 0; i < n_; ++i) tau[i] = axis_[i].dot(composite_[i].force);
+void TreeDynamics::InverseDynamics(double* tau) {
+  UpdateForces();
+  for (int i = 0; i < n_; ++i) tau[i] = axis_[i].dot(force_[i]);
 }
 
 void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> dv, Eigen::Ref<MatrixX> da) {
+  UpdateComposites();
   for (int k = 0; k < n_; ++k) {
     const Composite& c = composite_[k];
     const Vector6& s = axis_[k];
     const Vector6 u = c.inertia * s;
     const Vector6 b = ApplyCoriolisTranspose(c, s);
     const Vector6 column_v = 2 * (c.inertia * psi_[k]) + ApplyCoriolis(c, s);
-    const Vector6 column_q = CrossForce(s, c.force) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi_[k]);
+    const Vector6 column_q = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi_[k]);
     // Row k against its ancestors and itself; column k against its proper ancestors.
-    for (int m = k; m >= 0; m = parent_[m]) {
+    for (int m = k; m >= 0; m = joints_[m].parent) {
       dq(k, m) = u.dot(psi2_[m]) + b.dot(psi_[m]);
       dv(k, m) = 2 * u.dot(psi_[m]) + b.dot(axis_[m]);
       da(k, m) = u.dot(axis_[m]);
@@ -155,19 +236,19 @@ void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> 
 
 void TreeDynamics::UpdateVirtual(const double* lambda) {
   for (int i = 0; i < n_; ++i) {
-    const int p = parent_[i];
-    if (p < 0) {
+    const int p = joints_[i].parent;
+    VirtualComposite& c = virtual_[i];
+    moves_[i] = lambda[i] != 0 || (p >= 0 && moves_[p]);
+    touched_[i] = moves_[i];
+    if (!moves_[i] || !joints_[i].massive) c = VirtualComposite();
+    if (p < 0 || !moves_[p]) {
       omega_[i].setZero();
       virtual_twist_[i] = axis_[i] * lambda[i];
     } else {
       omega_[i] = CrossMotion(virtual_twist_[p], axis_[i]);
       virtual_twist_[i] = virtual_twist_[p] + axis_[i] * lambda[i];
     }
-    VirtualComposite& c = virtual_[i];
-    if (!has_mass_[i]) {
-      c = VirtualComposite();
-      continue;
-    }
+    if (!moves_[i] || !joints_[i].massive) continue;
     const SpatialInertia& inertia = link_inertia_[i];
     const Vector6& w = virtual_twist_[i];
     const Vector6& v = twist_[i];
@@ -179,8 +260,9 @@ void TreeDynamics::UpdateVirtual(const double* lambda) {
     c.e.noalias() = k * Skew(w.head<3>()) + 2 * Skew(w.tail<3>()) * Skew(inertia.moment);
   }
   for (int i = n_ - 1; i > 0; --i) {
-    const int p = parent_[i];
-    if (p < 0) continue;
+    const int p = joints_[i].parent;
+    if (p < 0 || !touched_[i]) continue;
+    touched_[p] = 1;
     virtual_[p].momentum += virtual_[i].momentum;
     virtual_[p].z += virtual_[i].z;
     virtual_[p].e += virtual_[i].e;
@@ -189,8 +271,10 @@ void TreeDynamics::UpdateVirtual(const double* lambda) {
 
 void TreeDynamics::AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX> h_qq, Eigen::Ref<MatrixX> h_qv,
                                         Eigen::Ref<MatrixX> h_qa, Eigen::Ref<MatrixX> h_vv) {
+  UpdateComposites();
   UpdateVirtual(lambda);
   for (int k = 0; k < n_; ++k) {
+    if (!touched_[k]) continue;
     const Composite& c = composite_[k];
     const VirtualComposite& w = virtual_[k];
     const Vector6& s = axis_[k];
@@ -202,14 +286,14 @@ void TreeDynamics::AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX
       return y;
     };
     // Covectors of ∂L/∂q_k, ∂L/∂v_k, ∂L/∂a_k on the triple (Ω, Ψ, Ψ2); see the class comment.
-    const Vector6 q_omega = CrossForce(s, c.force) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi);
+    const Vector6 q_omega = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi);
     const Vector6 q_psi = ApplyCoriolisTranspose(c, omega_[k]) + 2 * CrossForce(psi, w.momentum) + CrossForce(s, w.z) +
                           e_transpose(psi);
     const Vector6 q_psi2 = c.inertia * omega_[k] + CrossForce(s, w.momentum);
     const Vector6 v_omega = 2 * (c.inertia * psi) + ApplyCoriolis(c, s);
     const Vector6 v_psi = 2 * CrossForce(s, w.momentum) + e_transpose(s);
     const Vector6 a_omega = c.inertia * s;
-    for (int m = k; m >= 0; m = parent_[m]) {
+    for (int m = k; m >= 0; m = joints_[m].parent) {
       const double qq = q_omega.dot(omega_[m]) + q_psi.dot(psi_[m]) + q_psi2.dot(psi2_[m]);
       const double vv = v_psi.dot(axis_[m]);
       h_qq(k, m) += qq;

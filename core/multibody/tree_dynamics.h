@@ -8,11 +8,15 @@
 
 namespace rollgait {
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 // Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ ID,
-// all from one pass of world-frame spatial quantities. The derivation is in docs/derivatives.md; in short, turning joint k
-// moves everything beyond it rigidly, so every derivative along joint m is one linear map of three six-vectors:
+// all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that. The
+// derivation is in docs/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every derivative
+// along joint m is one linear map of three six-vectors:
 //   ψ̇_m = V_p(m) × S_m,  ψ̈_m = A_p(m) × S_m + V_p(m) × ψ̇_m,  ω_m = W_p(m) × S_m,   W = Σ S λ  ("virtual velocity").
-// Cost O(n d) for tree depth d, no allocation after construction. Not thread-safe: one object a thread.
+// Cost O(n d) for tree depth d (factorising: O(n d²)), no allocation after construction. What Update leaves out is made when
+// it is first asked for. Not thread-safe: one object a thread. Contract: no free joints.
 class TreeDynamics {
  public:
   explicit TreeDynamics(const Model& model);
@@ -26,15 +30,28 @@ class TreeDynamics {
   void UpdateKinematics(const double* q, const double* v);
 
   // τ (n) = ID(q, v, a), N m or N.
-  void InverseDynamics(double* tau) const;
+  void InverseDynamics(double* tau);
 
   // ∂ID/∂q, ∂ID/∂v, ∂ID/∂a = M; each n × n, written where (row, column) are related, zero elsewhere on entry and exit.
   void FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> dv, Eigen::Ref<MatrixX> da);
 
-  // Adds the second derivatives of  λᵀ ID(q, v, a)  to n × n blocks: H_qq and H_vv symmetric and full, H_qv (row q, column v),
-  // H_qa (row q, column a). H_va and H_aa are zero.
+  // Adds the second derivatives of  λᵀ ID(q, v, a)  to n × n blocks: H_qq and H_vv symmetric and full, H_qv (row q, column
+  // v), H_qa (row q, column a). H_va and H_aa are zero. Cheaper for a λ that is zero on some branches.
   void AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX> h_qq, Eigen::Ref<MatrixX> h_qv,
                             Eigen::Ref<MatrixX> h_qa, Eigen::Ref<MatrixX> h_vv);
+
+  // M(q), both triangles, written as in FirstDerivatives. Moves the tree to (q, at rest): Update before anything else.
+  void MassMatrix(const double* q, Eigen::Ref<MatrixX> mass);
+
+  // a (n) = M⁻¹ (τ − b(q, v)) for generalized forces τ (n). Moves the tree to (q, v, 0) and factorises its mass matrix.
+  // Contract: M is positive definite.
+  void ForwardDynamics(const double* q, const double* v, const double* tau, const Vector3& gravity, double* a);
+  // Factorises M = Lᵀ D L at the point of Update; SolveMass then replaces x (n) by M⁻¹ x.
+  // Source: Featherstone 2008, section 6.5: L has no entries where joints are unrelated.
+  void FactoriseMass();
+  void SolveMass(double* x) const;
+  // The same for every column of x (n rows).
+  void SolveMassRows(RowMajorMatrix& x) const;
 
   // World pose of link i and its twist, joint axes, spatial accelerations (gravity included as −g at the root).
   const Matrix3& rotation(int i) const { return rotation_[i]; }
@@ -44,13 +61,23 @@ class TreeDynamics {
   const Vector6& acceleration(int i) const { return acceleration_[i]; }
 
  private:
+  // What never changes of a joint and its link.
+  struct JointData {
+    int parent;
+    bool revolute, massive;
+    bool aligned;          // R_PJ is the identity and the axis is ± a coordinate axis
+    int axis_index;        // of an aligned joint
+    double axis_sign;
+    Vector3 p_PJ, axis, center_of_mass;
+    Matrix3 R_PJ, inertia;
+    double mass;
+  };
   // Composite (subtree) quantities of one joint. B X = [b x_ω; −2 p × x_ω] is the Coriolis operator of the subtree,
   // p its linear momentum.
   struct Composite {
     SpatialInertia inertia;
     Matrix3 coriolis = Matrix3::Zero();
     Vector3 momentum = Vector3::Zero();
-    Vector6 force = Vector6::Zero();
   };
   // The same for the virtual velocity W: momentum P, Z = BᵀW, and E X = [e x_ω − 2 P_v × x_v; 0].
   struct VirtualComposite {
@@ -58,24 +85,27 @@ class TreeDynamics {
     Vector6 z = Vector6::Zero();
     Matrix3 e = Matrix3::Zero();
   };
-
-  Vector6 ApplyCoriolis(const Composite& c, const Vector6& x) const;
-  Vector6 ApplyCoriolisTranspose(const Composite& c, const Vector6& w) const;
+  void UpdatePose(int i, double q);
+  void UpdateForces();
+  void UpdateInertias();
   void UpdateComposites();
   void UpdateVirtual(const double* lambda);
 
   const Model* model_;
   int n_;
-  std::vector<int> parent_;
-  std::vector<char> has_mass_;
+  std::vector<JointData> joints_;
+  bool has_forces_ = false, has_composites_ = false;
   std::vector<Matrix3> rotation_;
   std::vector<Vector3> origin_;
-  std::vector<Vector6> axis_, twist_, acceleration_, psi_, psi2_;
+  std::vector<Vector6> axis_, twist_, acceleration_, psi_, psi2_, force_;  // force_: of the subtree
   std::vector<SpatialInertia> link_inertia_;
   std::vector<Composite> composite_;
   std::vector<Vector6> virtual_twist_, omega_;
   std::vector<VirtualComposite> virtual_;
+  std::vector<char> moves_, touched_;  // joints with a virtual velocity; joints of which a derivative may differ from zero
   Vector6 root_acceleration_ = Vector6::Zero();
+  RowMajorMatrix factor_;  // row i: L_ij of the ancestors j of i, and D_i
+  VectorX scratch_;
 };
 
 }  // namespace rollgait

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/nlp/termination.h"
+
 namespace rollgait {
 namespace {
 
@@ -17,20 +19,9 @@ using Clock = std::chrono::steady_clock;
 
 double Seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-// Adds the time of its own life to a total.
-class Stopwatch {
- public:
-  explicit Stopwatch(double* total) : total_(total), start_(Clock::now()) {}
-  ~Stopwatch() { *total_ += Seconds(Clock::now() - start_); }
-
- private:
-  double* total_;
-  Clock::time_point start_;
-};
-
 class Adapter : public Ipopt::TNLP {
  public:
-  Adapter(NlpProblem& problem, const NlpStart& start, const IpoptOptions& options, const SolveControl& control,
+  Adapter(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control,
           NlpResult* result)
       : problem_(problem), start_(start), options_(options), control_(control), result_(result), begin_(Clock::now()) {}
 
@@ -65,15 +56,12 @@ class Adapter : public Ipopt::TNLP {
   }
 
   bool eval_f(Index, const Number* x, bool, Number& value) override {
-    const Stopwatch watch(&result_->evaluation_time_s);
     return problem_.Objective(x, &value);
   }
   bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
-    const Stopwatch watch(&result_->evaluation_time_s);
     return problem_.Gradient(x, gradient);
   }
   bool eval_g(Index, const Number* x, bool, Index, Number* g) override {
-    const Stopwatch watch(&result_->evaluation_time_s);
     return problem_.Constraints(x, g);
   }
   bool eval_jac_g(Index, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
@@ -82,7 +70,6 @@ class Adapter : public Ipopt::TNLP {
       std::copy(problem_.jacobian_pattern().columns.begin(), problem_.jacobian_pattern().columns.end(), columns);
       return true;
     }
-    const Stopwatch watch(&result_->evaluation_time_s);
     return problem_.Jacobian(x, values);
   }
   bool eval_h(Index, const Number* x, bool, Number sigma, Index, const Number* lambda, bool, Index, Index* rows,
@@ -92,7 +79,6 @@ class Adapter : public Ipopt::TNLP {
       std::copy(problem_.hessian_pattern().columns.begin(), problem_.hessian_pattern().columns.end(), columns);
       return true;
     }
-    const Stopwatch watch(&result_->evaluation_time_s);
     return problem_.Hessian(x, sigma, lambda, values);
   }
 
@@ -140,14 +126,14 @@ class Adapter : public Ipopt::TNLP {
  private:
   NlpProblem& problem_;
   const NlpStart& start_;
-  const IpoptOptions& options_;
+  const NlpOptions& options_;
   const SolveControl& control_;
   NlpResult* result_;
   Clock::time_point begin_;
   bool out_of_time_ = false;
 };
 
-void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const IpoptOptions& options) {
+void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const NlpOptions& options) {
   auto& o = *app.Options();
   o.SetIntegerValue("print_level", 0);
   o.SetStringValue("sb", "yes");
@@ -178,46 +164,31 @@ void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const Ipopt
 }
 
 Termination Interpret(Ipopt::ApplicationReturnStatus status, const Adapter& adapter, const SolveControl& control,
-                      const IpoptOptions& options, NlpResult* result) {
+                      const NlpOptions& options, const NlpResult& result) {
   switch (status) {
     case Ipopt::Solve_Succeeded:
-      result->message = "The optimality conditions hold to the requested tolerance.";
       return Termination::kOptimal;
     case Ipopt::User_Requested_Stop:
-      if (adapter.out_of_time()) {
-        result->message = "The time limit was reached; raise solver_limits.max_wall_time_s or use a coarser mesh.";
-        return Termination::kTimeLimit;
-      }
-      result->message = "The solve was cancelled.";
-      return Termination::kCancelled;
+      return adapter.out_of_time() ? Termination::kTimeLimit : Termination::kCancelled;
     case Ipopt::Infeasible_Problem_Detected:
-      result->message = "No motion near the last iterate meets all constraints; unmet_constraints names the worst.";
       return Termination::kInfeasible;
     case Ipopt::Maximum_Iterations_Exceeded:
-      result->message = "The iteration limit was reached before convergence.";
       return Termination::kIterationLimit;
     default:
       break;
   }
-  if (control.stop != nullptr && control.stop->requested()) {
-    result->message = "The solve was cancelled.";
-    return Termination::kCancelled;
-  }
-  if (result->x.size() > 0 && result->kkt_error <= 100 * options.tolerance) {
-    result->message = "No further progress; the optimality conditions hold to 100 times the requested tolerance.";
-    return Termination::kAcceptable;
-  }
-  if (status == Ipopt::Restoration_Failed && result->constraint_violation > 100 * options.tolerance) {
-    result->message = "The constraints could not be met from the last iterate; unmet_constraints names the worst.";
+  if (control.stop != nullptr && control.stop->requested()) return Termination::kCancelled;
+  if (result.x.size() > 0 && result.kkt_error <= kAcceptableFactor * options.tolerance) return Termination::kAcceptable;
+  if (status == Ipopt::Restoration_Failed &&
+      result.constraint_violation > kAcceptableFactor * options.tolerance) {
     return Termination::kInfeasible;
   }
-  result->message = "The solver stopped with Ipopt status " + std::to_string(static_cast<int>(status)) + ".";
   return Termination::kNumericalDifficulty;
 }
 
 }  // namespace
 
-NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const IpoptOptions& options,
+NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
                          const SolveControl& control) {
   NlpResult result;
   const auto begin = Clock::now();
@@ -228,7 +199,8 @@ NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const Ipopt
   Adapter* adapter = new Adapter(problem, start, options, control, &result);
   const Ipopt::SmartPtr<Ipopt::TNLP> keep = adapter;
   if (status == Ipopt::Solve_Succeeded) status = app->OptimizeTNLP(keep);
-  result.termination = Interpret(status, *adapter, control, options, &result);
+  result.termination = Interpret(status, *adapter, control, options, result);
+  result.message = Explain(result.termination);
   result.wall_time_s = Seconds(Clock::now() - begin);
   return result;
 }

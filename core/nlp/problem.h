@@ -18,6 +18,12 @@ struct SparsityPattern {
   }
 };
 
+// Which group of unknowns and multipliers a variable and a row belong to when the Newton system of the problem is factored:
+// smaller groups are eliminated first, each in one dense front. For a chain of stages it makes the cost linear in their number.
+struct EliminationGroups {
+  std::vector<int> variables, constraints;  // variables(), constraints(); >= 0
+};
+
 //   minimise f(x)  subject to  g_l ≤ g(x) ≤ g_u,  x_l ≤ x ≤ x_u.
 // Sizes, bounds and patterns are fixed for the life of the object. Evaluations allocate nothing and return false where a value
 // is not finite. ±1e19 and beyond means "no bound".
@@ -35,11 +41,20 @@ class NlpProblem {
   // Lower triangle of the Hessian of the Lagrangian  σ f + λᵀ g.
   virtual const SparsityPattern& hessian_pattern() const = 0;
 
+  // Without a choice of the problem's own: everything in one group.
+  virtual EliminationGroups elimination_groups() const {
+    return {std::vector<int>(static_cast<size_t>(variables()), 0), std::vector<int>(static_cast<size_t>(constraints()), 0)};
+  }
+
   virtual bool Objective(const double* x, double* value) = 0;
   virtual bool Gradient(const double* x, double* gradient) = 0;
   virtual bool Constraints(const double* x, double* g) = 0;
   virtual bool Jacobian(const double* x, double* values) = 0;
   virtual bool Hessian(const double* x, double sigma, const double* lambda, double* values) = 0;
+  // Both at once, which a problem may do for less than the two apart.
+  virtual bool Derivatives(const double* x, double sigma, const double* lambda, double* jacobian, double* hessian) {
+    return Jacobian(x, jacobian) && Hessian(x, sigma, lambda, hessian);
+  }
 };
 
 }  // namespace rollgait

@@ -55,6 +55,7 @@ struct NlpResult {
   double kkt_error = 0;
   double constraint_violation = 0;
   int iterations = 0;
+  int restored_from = -1;  // iteration from which Ipopt took over; -1: never
   double wall_time_s = 0;
   double evaluation_time_s = 0;
 };

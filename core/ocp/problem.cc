@@ -25,12 +25,24 @@ std::vector<int> OptimalControlProblem::PreviousActive(int phase) const {
   return previous;
 }
 
+std::vector<ContactSurface> OptimalControlProblem::PhaseContacts(int phase) const {
+  std::vector<ContactSurface> seen = contacts;
+  std::vector<int> links;
+  for (int contact : phases[phase].active) {
+    ContactSurface& surface = seen[contact];
+    if (Contains(links, surface.joint)) std::erase(surface.directions, 0);
+    links.push_back(surface.joint);
+  }
+  return seen;
+}
+
 std::vector<ActiveContact> OptimalControlProblem::ActiveContacts(int phase) const {
+  const std::vector<ContactSurface> seen = PhaseContacts(phase);
   std::vector<ActiveContact> active;
   int offset = 0;
   for (int contact : phases[phase].active) {
-    active.push_back({contact, offset, contacts[contact].directions});
-    offset += static_cast<int>(contacts[contact].directions.size());
+    active.push_back({contact, offset, seen[contact].directions});
+    offset += static_cast<int>(seen[contact].directions.size());
   }
   return active;
 }
@@ -39,7 +51,9 @@ PointLayout OptimalControlProblem::Layout(int phase) const {
   PointLayout layout;
   layout.n = model.size();
   layout.efforts = static_cast<int>(model.actuated().size());
-  for (int contact : phases[phase].active) layout.forces += static_cast<int>(contacts[contact].directions.size());
+  for (const ActiveContact& contact : ActiveContacts(phase)) {
+    layout.forces += static_cast<int>(contact.directions.size());
+  }
   return layout;
 }
 
@@ -47,14 +61,16 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
   std::vector<std::unique_ptr<PointConstraint>> constraints;
   const PointLayout layout = Layout(phase);
   const auto active = ActiveContacts(phase);
+  const std::vector<ContactSurface> seen = PhaseContacts(phase);
   constraints.push_back(
       std::make_unique<DynamicsConstraint>(model, contacts, active, layout, force_size(), effort_size()));
   for (const ActiveContact& contact : active) {
     if (at_node) {
-      constraints.push_back(std::make_unique<RollingAccelerationConstraint>(model, contacts, contact.contact, layout));
+      constraints.push_back(std::make_unique<RollingAccelerationConstraint>(model, seen, contact.contact, layout));
     } else {
-      constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, contacts, contact.contact, layout));
+      constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact.contact, layout));
     }
+    if (contact.directions.size() < 2) continue;  // pushes only; the bound on its force is its limit
     constraints.push_back(std::make_unique<FrictionConstraint>(contacts[contact.contact].name, contact, layout,
                                                                friction_coefficient, force_size()));
   }
@@ -72,11 +88,12 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::EntryConstr
   PointLayout layout;
   layout.n = model.size();
   const std::vector<int> previous = PreviousActive(phase);
+  const std::vector<ContactSurface> seen = PhaseContacts(phase);
   for (int contact : phases[phase].active) {
     if (Contains(previous, contact)) continue;
     constraints.push_back(
         std::make_unique<GapConstraint>(model, contacts, contact, layout, GapConstraint::Kind::kTouching, 0));
-    constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, contacts, contact, layout));
+    constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact, layout));
     if (touch_down_point) {
       constraints.push_back(std::make_unique<SurfacePointConstraint>(model, contacts, contact, layout,
                                                                      touch_down_point->min, touch_down_point->max));

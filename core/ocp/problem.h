@@ -53,6 +53,10 @@ struct OptimalControlProblem {
 
   // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored.
   std::vector<int> PreviousActive(int phase) const;
+  // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first
+  // acts in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
+  // that joins them: the rows would depend on each other, and the forces along it would be free.
+  std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
 

@@ -251,55 +251,50 @@ bool CollocationNlp::Constraints(const double* x, double* g) {
   return Eigen::Map<const VectorX>(g, rows_).allFinite();
 }
 
-bool CollocationNlp::Jacobian(const double* x, double* values) {
-  double* out = values;
-  for (int k = 0; k < layout_.intervals(); ++k) {
-    IntervalBlock& block = *blocks_[layout_.phase(k)];
-    block.Jacobian(x + layout_.node(k), Step(x, k), out);
-    const Entries& pattern = block.jacobian_pattern();
-    for (size_t e = 0; e < pattern.size(); ++e) {
-      if (pattern[e].second == block.local_size()) out[e] *= StepRatio(k);
-    }
-    out += pattern.size();
-  }
-  out = entries_.Jacobian(x, out);
-  linear_.Jacobian(out);
-  return Eigen::Map<const VectorX>(values, jacobian_pattern_.size()).allFinite();
-}
-
-// Of the rows and integrands of the intervals; leaves the gradient of the integrands in cost_gradient_. Returns the end.
-double* CollocationNlp::IntervalHessians(const double* x, const double* lambda, double* values) {
+// Of the rows and integrands of the intervals; leaves the gradient of the integrands in cost_gradient_. Moves the pointers that are
+// not null to the end of what it wrote.
+void CollocationNlp::IntervalDerivatives(const double* x, const double* lambda, double** jacobian, double** hessian) {
   cost_gradient_.setZero();
   for (int k = 0; k < layout_.intervals(); ++k) {
     IntervalBlock& block = *blocks_[layout_.phase(k)];
     const int size = block.local_size();
-    block.Hessian(x + layout_.node(k), Step(x, k), lambda, weights_.data(), values, local_gradient_.head(size + 1));
     const double ratio = StepRatio(k);
-    const Entries& pattern = block.hessian_pattern();
-    for (size_t e = 0; e < pattern.size(); ++e) {
-      if (pattern[e].first == size) values[e] *= pattern[e].second == size ? ratio * ratio : ratio;
+    block.Derivatives(x + layout_.node(k), Step(x, k), lambda, weights_.data(), *jacobian, *hessian,
+                      local_gradient_.head(size + 1));
+    if (*jacobian != nullptr) {
+      for (const auto& [row, column] : block.jacobian_pattern()) *(*jacobian)++ *= column == size ? ratio : 1;
+    }
+    if (*hessian == nullptr) continue;
+    for (const auto& [row, column] : block.hessian_pattern()) {
+      *(*hessian)++ *= (row == size ? ratio : 1) * (column == size ? ratio : 1);
     }
     cost_gradient_.segment(layout_.node(k), size) += local_gradient_.head(size);
     cost_gradient_(layout_.duration(layout_.phase(k))) += ratio * local_gradient_(size);
-    values += pattern.size();
     lambda += block.rows();
   }
-  return values;
 }
 
-bool CollocationNlp::Hessian(const double* x, double sigma, const double* lambda, double* values) {
+bool CollocationNlp::Derivatives(const double* x, double sigma, const double* lambda, double* jacobian,
+                                 double* hessian) {
   const double factor = sigma * objective_scale_ / Denominator(x);
   SetWeights(factor);
-  double* out = IntervalHessians(x, lambda, values);
-  out = entries_.Hessian(x, lambda + first_entry_row_, out);
+  double *j = jacobian, *h = hessian;
+  IntervalDerivatives(x, lambda, &j, &h);
+  if (jacobian != nullptr) {
+    j = entries_.Jacobian(x, j);
+    linear_.Jacobian(j);
+    if (!Eigen::Map<const VectorX>(jacobian, jacobian_pattern_.size()).allFinite()) return false;
+  }
+  if (hessian == nullptr) return true;
+  h = entries_.Hessian(x, lambda + first_entry_row_, h);
   for (size_t t = 0; t < coupling_.size(); ++t) {
     if (!coupling_[t]) continue;
-    coupling_[t]->Hessian(x, weights_(static_cast<int>(t)), out);
-    out += coupling_[t]->hessian_pattern().size();
+    coupling_[t]->Hessian(x, weights_(static_cast<int>(t)), h);
+    h += coupling_[t]->hessian_pattern().size();
   }
-  out = DenominatorHessian(x, factor, out);
-  ROLLGAIT_CHECK(out == values + hessian_pattern_.size());
-  return Eigen::Map<const VectorX>(values, hessian_pattern_.size()).allFinite();
+  h = DenominatorHessian(x, factor, h);
+  ROLLGAIT_CHECK(h == hessian + hessian_pattern_.size());
+  return Eigen::Map<const VectorX>(hessian, hessian_pattern_.size()).allFinite();
 }
 
 // f = s I / N: −(s/N²)(∂I ∂Nᵀ + ∂N ∂Iᵀ) + 2 s I/N³ ∂N ∂Nᵀ, with s/N already in cost_gradient_. Returns the end.

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/nlp/nlp_options.h"
 #include "core/nlp/problem.h"
+#include "core/nlp/result.h"
 #include "core/trajectory/sampling.h"
 #include "core/transcription/coupling_term.h"
 #include "core/transcription/entry_rows.h"
@@ -40,11 +42,20 @@ class CollocationNlp : public NlpProblem {
   const VectorX& constraint_upper() const override { return row_upper_; }
   const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
   const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
+  // Point by point the efforts and the rows that hold them, then the rest of the interval with the node before it; last the first
+  // node, the durations and the displacement, which everything may meet.
+  EliminationGroups elimination_groups() const override;
   bool Objective(const double* x, double* value) override;
   bool Gradient(const double* x, double* gradient) override;
   bool Constraints(const double* x, double* g) override;
-  bool Jacobian(const double* x, double* values) override;
-  bool Hessian(const double* x, double sigma, const double* lambda, double* values) override;
+  bool Jacobian(const double* x, double* values) override {
+    return Derivatives(x, 0, nullptr, values, nullptr);
+  }
+  bool Hessian(const double* x, double sigma, const double* lambda, double* values) override {
+    return Derivatives(x, sigma, lambda, nullptr, values);
+  }
+  // Either of the two may be null.
+  bool Derivatives(const double* x, double sigma, const double* lambda, double* jacobian, double* hessian) override;
 
   const DecisionLayout& layout() const { return layout_; }
   const Mesh& mesh() const { return mesh_; }
@@ -52,6 +63,8 @@ class CollocationNlp : public NlpProblem {
   double objective_scale() const { return objective_scale_; }
 
   VectorX MakeStart(const MotionGuess& guess) const;
+  // Fills the multipliers of `start` from those of a solution of the same problem on another mesh.
+  void TransferMultipliers(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   Trajectory Extract(const double* x);
   // Unweighted integral of every cost term in the order of the problem, and what their weighted sum is divided by.
   VectorX CostIntegrals(const double* x);
@@ -67,6 +80,10 @@ class CollocationNlp : public NlpProblem {
     return x[layout_.duration(layout_.phase(interval))] * StepRatio(interval);
   }
   int GlobalColumn(int interval, int local) const;
+  std::vector<double> PointTimes(int phase, int point) const;  // fractions of the phase
+  int FirstRow(int interval) const;
+  void TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const;
+  void TransferNodes(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
   void SetDenominator();
   void SetStateBounds();
@@ -80,7 +97,7 @@ class CollocationNlp : public NlpProblem {
   // weights_ = factor · weight of every term.
   void SetWeights(double factor);
   void AddCouplingGradient(const double* x, double* gradient);
-  double* IntervalHessians(const double* x, const double* lambda, double* values);
+  void IntervalDerivatives(const double* x, const double* lambda, double** jacobian, double** hessian);
   double* DenominatorHessian(const double* x, double factor, double* values);
 
   const OptimalControlProblem& problem_;

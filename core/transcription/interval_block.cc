@@ -1,5 +1,7 @@
 #include "core/transcription/interval_block.h"
 
+#include <algorithm>
+
 namespace rollgait {
 namespace {
 
@@ -15,6 +17,7 @@ void IntervalBlock::SetStep(double h) {
     for (int i = 0; i < points_count_; ++i) {
       for (int s = 0; s < scheme_.sources(); ++s) {
         value_[kind](i, s) = scheme_.Value(kind, i, s, h);
+        scaled_[kind](i, s) = value_[kind](i, s) * scale_(SourceOffset(s));
         first_[kind](i, s) = scheme_.First(kind, i, s, h);
         second_[kind](i, s) = scheme_.Second(kind, i, s, h);
       }
@@ -94,6 +97,7 @@ void IntervalBlock::CostGradient(const double* y, double h, const double* weight
     for (int s = 0; s < scheme_.sources(); ++s) {
       const int offset = SourceOffset(s);
       for (int kind = 0; kind < 3; ++kind) {
+        if (value_[kind](i, s) == 0) continue;
         gradient.segment(offset, n) += scale_(offset) * value_[kind](i, s) * cost_gradient_.segment(kind * n, n);
       }
     }
@@ -114,109 +118,106 @@ void IntervalBlock::Values(const double* y, double h, double* g) {
       constraint->Value(context_, out);
       out += constraint->rows();
     }
-    for (int r = 0; r < point.rows; ++r) g[point.first_row + r] /= point.row_size(r);
+    for (int r = 0; r < point.rows; ++r) g[point.first_row + r] *= point.row_factor(r);
   }
 }
 
-void IntervalBlock::EvaluateJacobian(int i) {
+void IntervalBlock::EvaluateJacobian(Point* point) {
   int row = 0;
-  for (PointConstraint* constraint : points_[i].constraints) {
-    // Entries outside a row's pattern stay zero from one point kind to the other: rows are the same objects' rows only
-    // within one kind, so clear what another kind may have left.
-    jacobian_.middleRows(row, constraint->rows()).setZero();
-    constraint->Jacobian(context_, jacobian_.middleRows(row, constraint->rows()));
+  for (PointConstraint* constraint : point->constraints) {
+    constraint->Jacobian(context_, point->jacobian.middleRows(row, constraint->rows()));
     row += constraint->rows();
   }
 }
 
-void IntervalBlock::Jacobian(const double* y, double h, double* values) {
+double* IntervalBlock::WriteJacobian(int i, double* values) const {
+  const Point& point = points_[i];
   const int n = layout_.n;
+  const double* j = point.jacobian.data();
+  const Eigen::Index stride = point.jacobian.rows(), kind = stride * n;
+  for (const auto& e : point.state_entries) {
+    const double* entry = j + e.row + e.coordinate * stride;
+    const double sum = scaled_[0](i, e.source) * entry[0] + scaled_[1](i, e.source) * entry[kind] +
+                       scaled_[2](i, e.source) * entry[2 * kind];
+    *values++ = sum * point.row_factor(e.row);
+  }
+  const int controls = ControlOffset(i) - 3 * n;
+  for (const auto& [row, column] : point.control_entries) {
+    *values++ = j[row + column * stride] * scale_(controls + column) * point.row_factor(row);
+  }
+  for (int row : point.dense_rows) {
+    double sum = 0;
+    for (int c = 0; c < 3 * n; ++c) sum += j[row + c * stride] * z_rate_(c);
+    *values++ = sum * point.row_factor(row);
+  }
+  return values;
+}
+
+void IntervalBlock::Derivatives(const double* y, double h, const double* lambda, const double* weights, double* jacobian,
+                                double* hessian, Eigen::Ref<VectorX> cost_gradient) {
   SetStep(h);
+  if (hessian != nullptr) {
+    local_.setZero();
+    CostGradient(y, h, weights, cost_gradient);
+  }
   for (int i = 0; i < points_count_; ++i) {
     LoadPoint(y, i);
-    UpdateWorkspace(i, true, false);
-    EvaluateJacobian(i);
-    const Point& point = points_[i];
-    for (const auto& e : point.state_entries) {
-      const double sum = value_[0](i, e.source) * jacobian_(e.row, e.coordinate) +
-                         value_[1](i, e.source) * jacobian_(e.row, n + e.coordinate) +
-                         value_[2](i, e.source) * jacobian_(e.row, 2 * n + e.coordinate);
-      *values++ = sum * scale_(SourceOffset(e.source)) / point.row_size(e.row);
-    }
-    for (const auto& [row, column] : point.control_entries) {
-      *values++ = jacobian_(row, column) * scale_(ControlOffset(i) + column - 3 * n) / point.row_size(row);
-    }
-    for (int row : point.dense_rows) {
-      *values++ = jacobian_.row(row).head(3 * n).dot(z_rate_) / point.row_size(row);
-    }
+    UpdateWorkspace(i, true, hessian != nullptr);
+    EvaluateJacobian(&points_[i]);
+    if (jacobian != nullptr) jacobian = WriteJacobian(i, jacobian);
+    if (hessian != nullptr) EvaluateHessian(i, h, lambda, weights);
+  }
+  if (hessian == nullptr) return;
+  const Eigen::Index stride = local_.rows();
+  for (size_t e = 0; e < hessian_pattern_.size(); ++e) {
+    const auto& [i, j] = hessian_pattern_[e];
+    hessian[e] = local_.data()[i + j * stride] * hessian_scale_[e];
   }
 }
 
-void IntervalBlock::Hessian(const double* y, double h, const double* lambda, const double* weights, double* values,
-                            Eigen::Ref<VectorX> cost_gradient) {
+// Adds point i to local_.
+void IntervalBlock::EvaluateHessian(int i, double h, const double* lambda, const double* weights) {
   const int n = layout_.n;
-  SetStep(h);
-  local_.setZero();
-  CostGradient(y, h, weights, cost_gradient);
-  for (int i = 0; i < points_count_; ++i) {
-    LoadPoint(y, i);
-    UpdateWorkspace(i, true, true);
-    EvaluateJacobian(i);
-    const Point& point = points_[i];
-    const double b = scheme_.tableau().b(i);
-    hessian_.setZero();
-    cost_gradient_.setZero();
-    for (size_t t = 0; t < costs_.size(); ++t) {
-      PointCost* integrand = costs_[t];
-      if (integrand == nullptr) continue;
-      integrand->AddGradient(context_, weights[t] * b, cost_gradient_);  // without the factor h
-      integrand->AddHessian(context_, weights[t] * h * b, hessian_);
-    }
-    for (int r = 0; r < point.rows; ++r) scaled_lambda_(r) = lambda[point.first_row + r] / point.row_size(r);
-    int row = 0;
-    for (PointConstraint* constraint : point.constraints) {
-      constraint->AddHessian(context_, scaled_lambda_.data() + row, hessian_);
-      row += constraint->rows();
-    }
-    gradient_.noalias() = jacobian_.topRows(point.rows).transpose() * scaled_lambda_.head(point.rows);
-    gradient_ += h * cost_gradient_;
-    AccumulateHessian(i);
-    // Product rule of h · l(z(h)).
-    for (int s = 0; s < scheme_.sources(); ++s) {
-      for (int kind = 0; kind < 3; ++kind) {
-        local_.row(local_size_).segment(SourceOffset(s), n) +=
-            value_[kind](i, s) * cost_gradient_.segment(kind * n, n).transpose();
-      }
-    }
-    local_.row(local_size_).segment(ControlOffset(i), controls_) += cost_gradient_.tail(controls_).transpose();
-    local_(local_size_, local_size_) += 2 * cost_gradient_.head(3 * n).dot(z_rate_);
+  const Point& point = points_[i];
+  const double b = scheme_.tableau().b(i);
+  hessian_.setZero();
+  cost_gradient_.setZero();
+  for (size_t t = 0; t < costs_.size(); ++t) {
+    PointCost* integrand = costs_[t];
+    if (integrand == nullptr) continue;
+    integrand->AddGradient(context_, weights[t] * b, cost_gradient_);  // without the factor h
+    integrand->AddHessian(context_, weights[t] * h * b, hessian_);
   }
-  for (const auto& [i, j] : hessian_pattern_) {
-    const double row_scale = i < local_size_ ? scale_(i) : 1;
-    const double column_scale = j < local_size_ ? scale_(j) : 1;
-    *values++ = local_(i, j) * row_scale * column_scale;
+  for (int r = 0; r < point.rows; ++r) scaled_lambda_(r) = lambda[point.first_row + r] * point.row_factor(r);
+  int row = 0;
+  for (PointConstraint* constraint : point.constraints) {
+    constraint->AddHessian(context_, scaled_lambda_.data() + row, hessian_);
+    row += constraint->rows();
   }
+  gradient_.noalias() = point.jacobian.transpose() * scaled_lambda_.head(point.rows);
+  gradient_ += h * cost_gradient_;
+  AccumulateHessian(i);
+  // Product rule of h · l(z(h)).
+  for (int s = 0; s < scheme_.sources(); ++s) {
+    for (int kind = 0; kind < 3; ++kind) {
+      if (value_[kind](i, s) == 0) continue;
+      local_.row(local_size_).segment(SourceOffset(s), n) +=
+          value_[kind](i, s) * cost_gradient_.segment(kind * n, n).transpose();
+    }
+  }
+  local_.row(local_size_).segment(ControlOffset(i), controls_) += cost_gradient_.tail(controls_).transpose();
+  local_(local_size_, local_size_) += 2 * cost_gradient_.head(3 * n).dot(z_rate_);
 }
 
 // Carries the Hessian and gradient of the point through z(y, h) into local_, unscaled.
 void IntervalBlock::AccumulateHessian(int i) {
-  const int n = layout_.n, q = 0, v = n, a = 2 * n, u = 3 * n;
-  const auto H = [this, n](int row, int column) { return hessian_.block(row, column, n, n); };
+  const int n = layout_.n, q = 0, v = n, u = 3 * n;
+  AccumulateStates(i);
+  const int control = ControlOffset(i);
   for (int s = 0; s < scheme_.sources(); ++s) {
-    const double sq = value_[0](i, s), sv = value_[1](i, s), sa = value_[2](i, s);
+    const double sq = value_[0](i, s), sv = value_[1](i, s);
+    if (sq == 0 && sv == 0) continue;
     const int row = SourceOffset(s);
-    for (int t = 0; t < scheme_.sources(); ++t) {
-      const int column = SourceOffset(t);
-      if (column > row) continue;
-      const double tq = value_[0](i, t), tv = value_[1](i, t), ta = value_[2](i, t);
-      if (sq == 0 && sv == 0 && sa == 0) continue;
-      if (tq == 0 && tv == 0 && ta == 0) continue;
-      local_.block(row, column, n, n) += (sq * tq) * H(q, q) + (sv * tv) * H(v, v) + (sq * tv) * H(q, v) +
-                                         (sv * tq) * H(q, v).transpose() + (sq * ta) * H(q, a) +
-                                         (sa * tq) * H(q, a).transpose();
-    }
-    // Against the controls of the point.
-    const int control = ControlOffset(i);
     block_.noalias() = sq * hessian_.block(q, u, n, controls_) + sv * hessian_.block(v, u, n, controls_);
     if (control > row) {
       local_.block(control, row, controls_, n) += block_.transpose();
@@ -224,23 +225,58 @@ void IntervalBlock::AccumulateHessian(int i) {
       local_.block(row, control, n, controls_) += block_;
     }
   }
-  const int control = ControlOffset(i);
   local_.block(control, control, controls_, controls_) += hessian_.block(u, u, controls_, controls_);
-  // H ż with the symmetric Hessian of (q, v, a).
+  AccumulateStep(i);
+}
+
+// Node states and free accelerations against each other.
+void IntervalBlock::AccumulateStates(int i) {
+  const int n = layout_.n, v = n, a = 2 * n;
+  qq_ = hessian_.block(0, 0, n, n);
+  vv_ = hessian_.block(v, v, n, n);
+  qv_ = hessian_.block(0, v, n, n);
+  qa_ = hessian_.block(0, a, n, n);
+  vq_ = qv_.transpose();
+  aq_ = qa_.transpose();
+  const Eigen::Index stride = local_.rows();
+  for (int s = 0; s < scheme_.sources(); ++s) {
+    const double sq = value_[0](i, s), sv = value_[1](i, s), sa = value_[2](i, s);
+    for (int t = 0; t < scheme_.sources(); ++t) {
+      if (SourceOffset(t) > SourceOffset(s)) continue;
+      const double tq = value_[0](i, t), tv = value_[1](i, t), ta = value_[2](i, t);
+      const double c[] = {sq * tq, sv * tv, sq * tv, sv * tq, sq * ta, sa * tq};
+      if (std::none_of(c, c + 6, [](double x) { return x != 0; })) continue;
+      for (int column = 0; column < n; ++column) {
+        double* target = local_.data() + SourceOffset(s) + (SourceOffset(t) + column) * stride;
+        const Eigen::Index at = static_cast<Eigen::Index>(column) * n;
+        const double *h0 = qq_.data() + at, *h1 = vv_.data() + at, *h2 = qv_.data() + at, *h3 = vq_.data() + at,
+                     *h4 = qa_.data() + at, *h5 = aq_.data() + at;
+        for (int r = 0; r < n; ++r) {
+          target[r] += c[0] * h0[r] + c[1] * h1[r] + c[2] * h2[r] + c[3] * h3[r] + c[4] * h4[r] + c[5] * h5[r];
+        }
+      }
+    }
+  }
+}
+
+// Everything against h: H ż with the symmetric Hessian of (q, v, a), and the gradient times the derivatives of the coefficients.
+void IntervalBlock::AccumulateStep(int i) {
+  const int n = layout_.n, q = 0, v = n, a = 2 * n, u = 3 * n;
   const auto rate_q = z_rate_.segment(q, n), rate_v = z_rate_.segment(v, n), rate_a = z_rate_.segment(a, n);
-  turned_.segment(q, n).noalias() = H(q, q) * rate_q + H(q, v) * rate_v + H(q, a) * rate_a;
-  turned_.segment(v, n).noalias() = H(q, v).transpose() * rate_q + H(v, v) * rate_v;
-  turned_.segment(a, n).noalias() = H(q, a).transpose() * rate_q;
+  turned_.segment(q, n).noalias() = qq_ * rate_q + qv_ * rate_v + qa_ * rate_a;
+  turned_.segment(v, n).noalias() = vq_ * rate_q + vv_ * rate_v;
+  turned_.segment(a, n).noalias() = aq_ * rate_q;
   auto step_row = local_.row(local_size_);
   for (int s = 0; s < scheme_.sources(); ++s) {
     for (int kind = 0; kind < 3; ++kind) {
+      if (!scheme_.Depends(kKinds[kind], i, s)) continue;
       step_row.segment(SourceOffset(s), n) += value_[kind](i, s) * turned_.segment(kind * n, n).transpose() +
                                               first_[kind](i, s) * gradient_.segment(kind * n, n).transpose();
     }
   }
   step_controls_.noalias() = hessian_.block(q, u, n, controls_).transpose() * rate_q;
   step_controls_.noalias() += hessian_.block(v, u, n, controls_).transpose() * rate_v;
-  step_row.segment(control, controls_) += step_controls_.transpose();
+  step_row.segment(ControlOffset(i), controls_) += step_controls_.transpose();
   local_(local_size_, local_size_) += turned_.dot(z_rate_) + gradient_.head(3 * n).dot(z_curve_);
 }
 

@@ -24,6 +24,9 @@ class IntervalBlock {
 
   int local_size() const { return local_size_; }  // without h
   int rows() const { return rows_; }
+  // Rows of point i: how many, and the first of them.
+  int PointRows(int i) const { return points_[i].rows; }
+  int FirstRow(int i) const { return points_[i].first_row; }
   const VectorX& scale() const { return scale_; }            // physical = scale · unknown, local_size()
   const Entries& jacobian_pattern() const { return jacobian_pattern_; }  // column local_size() is h
   const Entries& hessian_pattern() const { return hessian_pattern_; }    // lower triangle, h included
@@ -46,10 +49,10 @@ class IntervalBlock {
   // gradient (local_size() + 1) = ∂/∂(y, h) of Σ_t weights[t] · integral_t.
   void CostGradient(const double* y, double h, const double* weights, Eigen::Ref<VectorX> gradient);
   void Values(const double* y, double h, double* g);
-  void Jacobian(const double* y, double h, double* values);
-  // Hessian of λᵀ g + Σ_t weights[t] integral_t on hessian_pattern(); cost_gradient as CostGradient.
-  void Hessian(const double* y, double h, const double* lambda, const double* weights, double* values,
-               Eigen::Ref<VectorX> cost_gradient);
+  // The Jacobian on jacobian_pattern() and the Hessian of λᵀ g + Σ_t weights[t] integral_t on hessian_pattern(); either may be
+  // null and is then left out. cost_gradient as CostGradient, with the Hessian only.
+  void Derivatives(const double* y, double h, const double* lambda, const double* weights, double* jacobian,
+                   double* hessian, Eigen::Ref<VectorX> cost_gradient);
 
   // State of point i: z = (q, v, a, τ, f).
   const VectorX& PointState(const double* y, double h, int i);
@@ -60,20 +63,23 @@ class IntervalBlock {
     int first_row = 0;
     int rows = 0;
     bool at_node = false;
-    VectorX row_size;
-    // Jacobian entries of (q, v, a): (row, coordinate, source); of (τ, f): (row, z index).
+    VectorX row_factor;  // 1 / natural size
+    // Jacobian entries of (q, v, a): row, coordinate, source; of (τ, f): (row, z index).
     struct StateEntry {
       int row, coordinate, source;
     };
     std::vector<StateEntry> state_entries;
     Entries control_entries;
     std::vector<int> dense_rows;  // rows with an entry in column h
+    MatrixX jacobian;             // rows × z-size; zero outside the patterns of the constraints
   };
 
   void SetStep(double h);
   void LoadPoint(const double* y, int i);
   void UpdateWorkspace(int i, bool dynamics, bool second);
-  void EvaluateJacobian(int i);
+  void EvaluateJacobian(Point* point);
+  double* WriteJacobian(int i, double* values) const;
+  void EvaluateHessian(int i, double h, const double* lambda, const double* weights);
   void BuildPoints();
   void BuildJacobianPattern();
   void BuildHessianPattern();
@@ -82,6 +88,8 @@ class IntervalBlock {
   int SourceOffset(int source) const;
   int ControlOffset(int point) const { return 2 * layout_.n + (points_count_ - 2) * layout_.n + point * controls_; }
   void AccumulateHessian(int i);
+  void AccumulateStates(int i);
+  void AccumulateStep(int i);
 
   const OptimalControlProblem& problem_;
   const EliminatedScheme& scheme_;
@@ -99,9 +107,12 @@ class IntervalBlock {
   // Coefficients for the current h: [kind](point, source).
   double step_ = -1;
   MatrixX value_[3], first_[3], second_[3];
+  MatrixX scaled_[3];             // value_ times the unit of the source
   PointContext context_;
   VectorX z_, z_rate_, z_curve_;  // z and the first two derivatives of its first 3n entries by h
-  MatrixX jacobian_, hessian_;
+  MatrixX hessian_;
+  MatrixX qq_, qv_, vq_, qa_, aq_, vv_;  // blocks of hessian_ and their transposes
+  std::vector<double> hessian_scale_;    // per entry of hessian_pattern_
   VectorX gradient_, cost_gradient_, scaled_lambda_;
   MatrixX local_;                 // dense lower Hessian of the interval
   MatrixX block_;                 // n × controls

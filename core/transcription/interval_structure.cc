@@ -33,7 +33,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
     scale_.segment(ControlOffset(i), layout_.efforts).setConstant(problem.effort_size());
     scale_.segment(ControlOffset(i) + layout_.efforts, layout_.forces).setConstant(problem.force_size());
   }
-  for (auto* m : {value_, first_, second_}) {
+  for (auto* m : {value_, first_, second_, scaled_}) {
     for (int k = 0; k < 3; ++k) m[k] = MatrixX::Zero(points_count_, scheme.sources());
   }
   context_.tree = &workspace->tree;
@@ -43,6 +43,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
   context_.z = z_.data();
   z_rate_ = z_curve_ = VectorX::Zero(3 * layout_.n);
   hessian_ = MatrixX::Zero(layout_.size(), layout_.size());
+  for (MatrixX* block : {&qq_, &qv_, &vq_, &qa_, &aq_, &vv_}) *block = MatrixX::Zero(layout_.n, layout_.n);
   gradient_ = cost_gradient_ = VectorX::Zero(layout_.size());
   local_ = MatrixX::Zero(local_size_ + 1, local_size_ + 1);
   block_ = MatrixX::Zero(layout_.n, controls_);
@@ -64,15 +65,15 @@ void IntervalBlock::BuildPoints() {
     }
     point.first_row = rows_;
     rows_ += point.rows;
-    point.row_size.resize(point.rows);
+    point.row_factor.resize(point.rows);
+    point.jacobian = MatrixX::Zero(point.rows, layout_.size());
     int row = 0;
     for (PointConstraint* constraint : point.constraints) {
-      for (int r = 0; r < constraint->rows(); ++r) point.row_size(row++) = constraint->Size(r);
+      for (int r = 0; r < constraint->rows(); ++r) point.row_factor(row++) = 1 / constraint->Size(r);
     }
     largest = std::max(largest, point.rows);
     points_.push_back(std::move(point));
   }
-  jacobian_ = MatrixX::Zero(largest, layout_.size());
   scaled_lambda_.resize(largest);
 }
 
@@ -185,6 +186,8 @@ void IntervalBlock::BuildHessianPattern() {
   std::sort(hessian_pattern_.begin(), hessian_pattern_.end(),
             [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
   cost_variables_.assign(cost.begin(), cost.end());
+  const auto scale = [this](int i) { return i < local_size_ ? scale_(i) : 1; };
+  for (const auto& [i, j] : hessian_pattern_) hessian_scale_.push_back(scale(i) * scale(j));
 }
 
 void IntervalBlock::Bounds(double start, double length, bool last, double* lower, double* upper) const {

@@ -52,6 +52,8 @@ class DecisionLayout {
     return interior(interval) + (points_ - 2) * n_ + point * per_point_[phase_of_[interval]];
   }
   int forces(int interval, int point) const { return efforts(interval, point) + efforts_; }
+  // Efforts and forces of one point.
+  int controls(int phase) const { return per_point_[phase]; }
   int duration(int phase) const { return durations_ + phase; }
   int displacement() const { return displacement_; }
 

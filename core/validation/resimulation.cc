@@ -5,7 +5,7 @@
 
 #include "core/contact/constrained_dynamics.h"
 #include "core/trajectory/sampling.h"
-#include "core/validation/integrator.h"
+#include "core/math/integrator.h"
 
 namespace rollgait {
 namespace {

@@ -51,7 +51,7 @@ SurfacePointConstraint::SurfacePointConstraint(const Model& model, const std::ve
     : name_(contacts[contact].name),
       contact_(contact),
       layout_(layout),
-      semi_axis_(contacts[contact].surface.semi_axes().x()),
+      semi_axis_(contacts[contact].surface.Support(Vector3::UnitX())),
       min_(min),
       max_(max) {
   path_ = ContactDerivatives<double>(model, contacts[contact]).path();

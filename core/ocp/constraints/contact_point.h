@@ -32,8 +32,8 @@ class GapConstraint : public PointConstraint {
   std::vector<int> path_;
 };
 
-// Where on the surface the contact point lies: its coordinate along the first principal axis as a fraction of that semi-axis,
-// −1 … 1, one row with the given range.  Source: eq. (4.3).
+// Where on the surface the contact point lies: its coordinate along the first axis as a fraction of the largest one, −1 … 1,
+// one row with the given range.  Source: eq. (4.3).
 class SurfacePointConstraint : public PointConstraint {
  public:
   SurfacePointConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact,

@@ -6,7 +6,6 @@ DynamicsConstraint::DynamicsConstraint(const Model& model, const std::vector<Con
                                        std::vector<ActiveContact> active, const PointLayout& layout, double force_size,
                                        double effort_size)
     : model_(model), active_(std::move(active)), layout_(layout), force_size_(force_size), effort_size_(effort_size) {
-  dq_ = dv_ = da_ = MatrixX::Zero(layout.n, layout.n);
   for (const ActiveContact& contact : active_) {
     const ContactDerivatives<double> derivatives(model, contacts[contact.contact]);
     paths_.push_back(derivatives.path());
@@ -88,10 +87,8 @@ void DynamicsConstraint::Value(const PointContext& at, double* g) {
 
 void DynamicsConstraint::Jacobian(const PointContext& at, Eigen::Ref<MatrixX> jacobian) {
   const int n = layout_.n;
-  at.tree->FirstDerivatives(dq_, dv_, da_);
-  jacobian.middleCols(layout_.q(), n) = dq_;
-  jacobian.middleCols(layout_.v(), n) = dv_;
-  jacobian.middleCols(layout_.a(), n) = da_;
+  at.tree->FirstDerivatives(jacobian.middleCols(layout_.q(), n), jacobian.middleCols(layout_.v(), n),
+                            jacobian.middleCols(layout_.a(), n));
   for (int j = 0; j < layout_.efforts; ++j) jacobian(model_.actuated()[j], layout_.tau() + j) = -1;
   for (const ActiveContact& active : active_) {
     const auto& contact = (*at.contacts)[active.contact];

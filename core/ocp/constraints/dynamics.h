@@ -32,7 +32,6 @@ class DynamicsConstraint : public PointConstraint {
   std::vector<std::vector<int>> paths_;
   PointLayout layout_;
   double force_size_, effort_size_;
-  MatrixX dq_, dv_, da_;
   std::vector<ContactDerivatives<double>::Field> fields_;
   VectorX path_lambda_;
 };

@@ -1,0 +1,192 @@
+#include "core/contact/contact_dynamics.h"
+
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/base/check.h"
+
+namespace rollgait {
+namespace {
+
+// A link with its bias accelerations as classical ones.
+FrameMotion Motion(const BodyDynamics::Link& link) {
+  FrameMotion motion;
+  motion.R_WB = link.R_WL;
+  motion.p_WB = link.p_WL;
+  motion.w_WB = link.R_WL * link.twist.angular;
+  motion.v_WB = link.R_WL * link.twist.linear;
+  motion.alpha_WB = link.R_WL * link.bias.angular;
+  motion.a_WB = link.R_WL * (link.bias.linear + link.twist.angular.cross(link.twist.linear));
+  return motion;
+}
+
+}  // namespace
+
+ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeContact> contacts)
+    : dynamics_(dynamics),
+      contacts_(std::move(contacts)),
+      pairs_(contacts_.size()),
+      kinematics_(contacts_.size()),
+      forces_(contacts_.size(), Vector3::Zero()),
+      spin_torques_(contacts_.size(), 0.0) {
+  for (size_t k = 0; k < contacts_.size(); ++k) {
+    const TreeContact& contact = contacts_[k];
+    ROLLGAIT_CHECK(contact.link >= 0 && contact.link < dynamics_.size());
+    ROLLGAIT_CHECK(contact.other_link < dynamics_.size() && contact.other_link != contact.link);
+    const auto* other = std::get_if<PlacedSurface>(&contact.other);
+    if (other != nullptr) pairs_[k].emplace(contact.surface, *other);
+  }
+}
+
+int ContactDynamics::RowCount(const TreeContact& contact) {
+  const int directions = contact.grip == Grip::kRolling ? 3 : contact.grip == Grip::kRollingAlong ? 2 : 1;
+  return directions + (contact.no_spin ? 1 : 0);
+}
+
+void ContactDynamics::SetState(const VectorX& q, const VectorX& v, const std::vector<FrameMotion>& ground) {
+  dynamics_.ComputeState(q, v, &state_);
+  velocity_ = v;
+  ground_ = ground;
+  links_.resize(state_.size());
+  for (size_t i = 0; i < state_.size(); ++i) links_[i] = Motion(state_[i]);
+  for (auto& kinematics : kinematics_) kinematics.reset();
+  mass_known_ = false;
+}
+
+const PairKinematics& ContactDynamics::Kinematics(int k) {
+  if (!kinematics_[k]) {
+    const TreeContact& contact = contacts_[k];
+    const auto* plane = std::get_if<PlacedPlane>(&contact.other);
+    kinematics_[k] = plane != nullptr ? ComputePlaneContact(contact.surface, Body1(k), *plane, Body2(k))
+                                      : pairs_[k]->Compute(Body1(k), Body2(k));
+  }
+  return *kinematics_[k];
+}
+
+double ContactDynamics::Spin(int k) { return Kinematics(k).normal.dot(Body1(k).w_WB - Body2(k).w_WB); }
+
+void ContactDynamics::SlipJacobian(int k, MatrixX* linear, MatrixX* angular) {
+  const TreeContact& contact = contacts_[k];
+  const PairKinematics& pair = Kinematics(k);
+  twist_.setZero(6, dynamics_.nv());
+  dynamics_.AddTwistJacobian(state_, contact.link, pair.p_1, 1, &twist_);
+  if (contact.other_link >= 0) {
+    // A plane's material point is the one at p_1, also when there is a gap.
+    const bool plane = std::holds_alternative<PlacedPlane>(contact.other);
+    dynamics_.AddTwistJacobian(state_, contact.other_link, plane ? pair.p_1 : pair.p_2, -1, &twist_);
+  }
+  *angular = twist_.topRows(3);
+  *linear = twist_.bottomRows(3);
+}
+
+const MatrixX& ContactDynamics::MassMatrix() {
+  if (!mass_known_) dynamics_.MassMatrix(state_, &workspace_, &mass_);
+  mass_known_ = true;
+  return mass_;
+}
+
+Vector3 ContactDynamics::Tangent(int k) {
+  const Vector3& n = Kinematics(k).normal;
+  const Vector3 along = Body2(k).R_WB * contacts_[k].along;
+  return (along - n * n.dot(along)).normalized();
+}
+
+int ContactDynamics::WriteRows(int k, int row, MatrixX* jacobian) {
+  SlipJacobian(k, &linear_, &angular_);
+  const Vector3& n = Kinematics(k).normal;
+  if (contacts_[k].grip == Grip::kRolling) {
+    jacobian->middleRows(row, 3) = linear_;
+    row += 3;
+  } else {
+    if (contacts_[k].grip == Grip::kRollingAlong) jacobian->row(row++) = Tangent(k).transpose() * linear_;
+    jacobian->row(row++) = n.transpose() * linear_;
+  }
+  if (contacts_[k].no_spin) jacobian->row(row++) = n.transpose() * angular_;
+  return row;
+}
+
+void ContactDynamics::AccelerationRows(const std::vector<int>& active, const Baumgarte& baumgarte, MatrixX* jacobian,
+                                       VectorX* right) {
+  int rows = 0;
+  for (int k : active) rows += RowCount(contacts_[k]);
+  jacobian->resize(rows, dynamics_.nv());
+  right->resize(rows);
+  int row = 0;
+  for (int k : active) {
+    const PairKinematics& pair = Kinematics(k);
+    const Vector3& n = pair.normal;
+    const double along_normal = -pair.gap_acceleration - 2 * baumgarte.damping * baumgarte.frequency * pair.gap_rate -
+                                baumgarte.frequency * baumgarte.frequency * pair.gap;
+    const Vector3 wanted = -pair.drift - baumgarte.slip_rate * pair.slip;
+    int next = row;
+    if (contacts_[k].grip == Grip::kRolling) {
+      right->segment<3>(next) = wanted + n * (along_normal - n.dot(wanted));
+      next += 3;
+    } else {
+      if (contacts_[k].grip == Grip::kRollingAlong) {
+        // The tangent turns with body 2: d(t·w)/dt = t·ẇ + ṫ·w, and ṫ·w = (ω₂ × t)·w to the order in which w is held at 0.
+        const Vector3 t = Tangent(k);
+        (*right)[next++] = t.dot(wanted) - Body2(k).w_WB.cross(t).dot(pair.slip);
+      }
+      (*right)[next++] = along_normal;
+    }
+    if (contacts_[k].no_spin) {
+      const Vector3 omega = Body1(k).w_WB - Body2(k).w_WB, alpha = Body1(k).alpha_WB - Body2(k).alpha_WB;
+      (*right)[next++] = -n.dot(alpha) - pair.normal_dot.dot(omega) - baumgarte.slip_rate * n.dot(omega);
+    }
+    row = WriteRows(k, row, jacobian);
+    ROLLGAIT_CHECK(row == next);
+  }
+}
+
+void ContactDynamics::VelocityRows(const std::vector<int>& active, MatrixX* jacobian, VectorX* rate) {
+  int rows = 0;
+  for (int k : active) rows += RowCount(contacts_[k]);
+  jacobian->resize(rows, dynamics_.nv());
+  rate->resize(rows);
+  int row = 0;
+  for (int k : active) {
+    const PairKinematics& pair = Kinematics(k);
+    int next = row;
+    if (contacts_[k].grip == Grip::kRolling) {
+      rate->segment<3>(next) = pair.slip;
+      next += 3;
+    } else {
+      if (contacts_[k].grip == Grip::kRollingAlong) (*rate)[next++] = Tangent(k).dot(pair.slip);
+      (*rate)[next++] = pair.gap_rate;
+    }
+    if (contacts_[k].no_spin) (*rate)[next++] = Spin(k);
+    row = WriteRows(k, row, jacobian);
+  }
+}
+
+const ConstrainedSolution& ContactDynamics::Accelerate(const std::vector<int>& active, const VectorX& tau,
+                                                       const Vector3& gravity, const Baumgarte& baumgarte) {
+  AccelerationRows(active, baumgarte, &jacobian_, &right_);
+  dynamics_.BiasForce(state_, gravity, &workspace_, &bias_);
+  force_ = tau - bias_;
+  solver_.Solve(MassMatrix(), force_, jacobian_, right_, &solution_);
+  Distribute(active, solution_.forces, &forces_, &spin_torques_);
+  return solution_;
+}
+
+void ContactDynamics::Distribute(const std::vector<int>& active, const VectorX& rows, std::vector<Vector3>* forces,
+                                 std::vector<double>* spin_torques) {
+  forces->assign(contacts_.size(), Vector3::Zero());
+  spin_torques->assign(contacts_.size(), 0.0);
+  int row = 0;
+  for (int k : active) {
+    Vector3& force = (*forces)[k];
+    if (contacts_[k].grip == Grip::kRolling) {
+      force = rows.segment<3>(row);
+      row += 3;
+    } else {
+      if (contacts_[k].grip == Grip::kRollingAlong) force += rows[row++] * Tangent(k);
+      force += rows[row++] * Kinematics(k).normal;
+    }
+    if (contacts_[k].no_spin) (*spin_torques)[k] = rows[row++];
+  }
+}
+
+}  // namespace rollgait

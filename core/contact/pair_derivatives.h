@@ -1,0 +1,42 @@
+#ifndef ROLLGAIT_CORE_CONTACT_PAIR_DERIVATIVES_H_
+#define ROLLGAIT_CORE_CONTACT_PAIR_DERIVATIVES_H_
+
+#include <array>
+
+#include "core/contact/surface_pair.h"
+
+namespace rollgait {
+
+using Matrix3x12 = Eigen::Matrix<double, 3, 12>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using RowVector12 = Eigen::Matrix<double, 1, 12>;
+
+// Derivatives of contact points, normal and gap of PairKinematics with respect to the configuration of the two frames,
+//   ζ = (δp_1, δθ_1, δp_2, δθ_2):  p_WB += δp,  R_WB ← exp([δθ]) R_WB,  world axes (m, rad).
+// Velocities are linear in the twists with the same matrices: with ξ = (v_1, w_1, v_2, w_2), p_dot_1 = p_1 ξ and so on.
+// The slip is w = v_1 + w_1 × (p_1 − p_WB1) − …, so its derivatives, those of its Jacobian and those of the drift,
+//   drift at zero accelerations = w_1 × (p_1 ξ − v_1) − w_2 × (p_2 ξ − v_2)   (plane: p_1 in both),
+// follow from these by the product rule; d(p_1 ξ)/dt along constant twists is p_1_second[ξ, ξ].
+// Source: contact-math 6, 8: the linear system for the normal is differentiated, never the iterations that found it.
+struct PairDerivatives {
+  Matrix3x12 normal, p_1, p_2;
+  RowVector12 gap;
+  // Second derivatives: one symmetric matrix per component, along exp(θ) (the Hessian in exponential coordinates at θ =
+  // 0).
+  std::array<Matrix12, 3> normal_second, p_1_second, p_2_second;
+  Matrix12 gap_second;
+  // The highest order (0, 1, 2) that exists: first derivatives need S, second T (SupportJet::order). Matrices above it,
+  // up to the order asked for, are infinite; those above that are not set.
+  int order = 0;
+};
+
+// `order` 1 or 2: what is wanted; 2 costs T and 78 products. Contract: `separation` belongs to the frames' poses.
+PairDerivatives ComputeSurfacePairDerivatives(const PlacedSurface& surface_1, const FrameMotion& body_1,
+                                              const PlacedSurface& surface_2, const FrameMotion& body_2,
+                                              const Separation& separation, int order);
+PairDerivatives ComputePlaneDerivatives(const PlacedSurface& surface, const FrameMotion& body, const PlacedPlane& plane,
+                                        const FrameMotion& plane_frame, int order);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_CONTACT_PAIR_DERIVATIVES_H_

@@ -1,0 +1,34 @@
+#ifndef ROLLGAIT_CORE_CONTACT_TREE_CONTACT_H_
+#define ROLLGAIT_CORE_CONTACT_TREE_CONTACT_H_
+
+#include <string>
+#include <variant>
+
+#include "core/contact/contact_pair.h"
+
+namespace rollgait {
+
+// Which relative velocities of the contact points an active contact forbids besides the one along the normal.
+enum class Grip {
+  kRolling,       // both tangent directions
+  kRollingAlong,  // one tangent direction: mechanisms that move in a plane
+  kFrictionless,  // none
+};
+
+// A possible contact of a tree: a surface on one of its links (body 1) with a plane or surface of body 2, which is another
+// link or the ground.
+struct TreeContact {
+  std::string name;
+  int link = 0;             // of body 1
+  PlacedSurface surface;
+  int other_link = -1;      // of body 2; -1: the ground
+  int ground = 0;           // which of the ground's frames, if other_link is -1
+  std::variant<PlacedPlane, PlacedSurface> other = PlacedPlane{};
+  Grip grip = Grip::kRolling;
+  Vector3 along = Vector3::UnitX();  // for kRollingAlong: a direction in body 2's axes, not along the normal
+  bool no_spin = false;              // also forbid relative spin about the normal
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_CONTACT_TREE_CONTACT_H_

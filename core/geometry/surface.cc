@@ -1,0 +1,93 @@
+#include "core/geometry/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "core/base/check.h"
+
+namespace rollgait {
+
+Surface Surface::MovedTo(const Vector3& center) const {
+  ROLLGAIT_CHECK(center.allFinite());
+  Surface moved = *this;
+  moved.center_ = center;
+  moved.plain_ = moved.rounding_ == 0 && center.isZero(0);
+  return moved;
+}
+
+Surface Surface::Rounded(double radius) const {
+  ROLLGAIT_CHECK(std::isfinite(radius) && radius >= 0);
+  Surface rounded = *this;
+  rounded.rounding_ += radius;
+  rounded.plain_ = rounded.rounding_ == 0 && center_.isZero(0);
+  return rounded;
+}
+
+double Surface::Support(const Vector3& nu) const {
+  const double h = std::visit([&](const auto& body) { return body.Support(nu); }, kind_);
+  return plain_ ? h : h + nu.dot(center_) + rounding_ * nu.norm();
+}
+
+Vector3 Surface::SupportPoint(const Vector3& nu) const {
+  const Vector3 x = std::visit([&](const auto& body) { return body.SupportPoint(nu); }, kind_);
+  return plain_ ? x : Vector3(x + center_ + rounding_ * nu.normalized());
+}
+
+Matrix3 Surface::SupportHessian(const Vector3& nu) const {
+  if (plain_) return std::visit([&](const auto& body) { return body.SupportHessian(nu); }, kind_);
+  SupportJet jet;
+  Evaluate(nu, 2, &jet);
+  return jet.S;
+}
+
+Matrix3 Surface::SupportThird(const Vector3& nu, const Vector3& u) const {
+  SupportJet jet;
+  Evaluate(nu, 3, &jet);
+  return jet.order >= 3 ? jet.Third(u) : jet.T[0];
+}
+
+Matrix3 Surface::SupportFourth(const Vector3& nu, const Vector3& u, const Vector3& w) const {
+  SupportJet jet;
+  Evaluate(nu, 4, &jet);
+  return jet.order >= 4 ? jet.Fourth(u, w) : jet.Q[0];
+}
+
+Vector3 Surface::RollingVelocity(const Vector3& nu, const Vector3& omega) const {
+  const Vector3 velocity = std::visit([&](const auto& body) { return body.RollingVelocity(nu, omega); }, kind_);
+  return plain_ ? velocity : Vector3(velocity + rounding_ * nu.cross(omega));
+}
+
+Eigen::Matrix2d Surface::TangentHessian(const Vector3& nu, const Eigen::Matrix<double, 3, 2>& tangents) const {
+  Eigen::Matrix2d block;
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&kind_)) {
+    block = ellipsoid->TangentHessian(nu, tangents);
+  } else {
+    SupportJet jet;
+    std::visit([&](const auto& body) { body.Evaluate(nu, 2, &jet); }, kind_);
+    if (jet.order < 2) return Eigen::Matrix2d::Constant(kInfinity);
+    block = tangents.transpose() * jet.S * tangents;
+  }
+  block.diagonal().array() += rounding_;
+  return block;
+}
+
+void Surface::Evaluate(const Vector3& nu, int order, SupportJet* jet) const {
+  ROLLGAIT_CHECK(order >= 1 && order <= 4);
+  std::visit([&](const auto& body) { body.Evaluate(nu, order, jet); }, kind_);
+  if (plain_) return;
+  if (rounding_ > 0) AddBall(nu, rounding_, order, jet);
+  jet->h += nu.dot(center_);
+  jet->x += center_;
+}
+
+double Surface::Size() const {
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (double sign : {1.0, -1.0}) size = std::max(size, Support(sign * Vector3::Unit(i)));
+  }
+  return size;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,50 @@
+#ifndef ROLLGAIT_CORE_MODELS_BODY_SELECTION_H_
+#define ROLLGAIT_CORE_MODELS_BODY_SELECTION_H_
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+
+namespace rollgait {
+
+enum class Sex { kFemale, kMale };
+
+// What touches the ground: one ellipsoid from heel to toe, or one under the heel and one under the forefoot.
+enum class FootShape { kOneEllipsoid, kTwoEllipsoids };
+
+// How far joints may go: as far as a body can, or as far as it does in walking.
+enum class JointRanges { kAnatomical, kWalking };
+
+// Which body, as validated: see rollgait.v1.ModelSelection.
+struct BodySelection {
+  std::string model;
+  Sex sex = Sex::kMale;
+  double stature = 1.774;                         // m
+  double mass = 75.0;                             // kg
+  std::map<std::string, double> segment_lengths;  // m, those given, by SegmentName
+  FootShape feet = FootShape::kOneEllipsoid;
+  bool toes = false;
+  JointRanges ranges = JointRanges::kAnatomical;
+  bool sagittal = false, drop_arms = false, rigid_trunk = false;
+  std::map<std::string, double> locked_joints;    // rad, those given
+};
+
+// The same before it is checked; empty optionals take the defaults of rollgait.v1.ModelSelection.
+struct BodyRequest {
+  std::string model;
+  Sex sex = Sex::kMale;
+  std::optional<double> stature;                  // m, [1.0, 2.3]
+  std::optional<double> mass;                     // kg, [20, 250]
+  std::map<std::string, double> segment_lengths;  // m, [0.7, 1.4] times what the table has
+  std::optional<FootShape> feet;
+  bool toes = false;
+  std::optional<JointRanges> ranges;              // default: that of the model
+  bool sagittal = false, drop_arms = false, rigid_trunk = false;
+  std::map<std::string, double> locked_joints;    // rad, within the range of the joint
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_MODELS_BODY_SELECTION_H_

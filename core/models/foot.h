@@ -1,0 +1,33 @@
+#ifndef ROLLGAIT_CORE_MODELS_FOOT_H_
+#define ROLLGAIT_CORE_MODELS_FOOT_H_
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/ellipsoid.h"
+#include "core/models/segment_table.h"
+
+namespace rollgait {
+
+// A surface of a foot, axes forward, left and up when the foot is level; its lowest point is then at the sole.
+struct FootSurface {
+  std::string name;         // "foot", or "heel" and "forefoot"
+  Ellipsoid surface;
+  Vector3 center;           // m, from the ankle joint
+  bool on_toes = false;     // rides on the toes, if they are a link of their own
+};
+std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape);
+
+// The foot cut at the metatarsal heads. Together the two are the foot of the table.
+struct FootBodies {
+  RigidBody foot;  // from the ankle joint, without the toes
+  RigidBody toes;  // from the toe joint (SegmentTable::AnkleToToes)
+};
+FootBodies SplitFoot(const SegmentTable& table, Side side);
+
+// Where the numbers come from.
+std::vector<std::string> FootSources();
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_MODELS_FOOT_H_

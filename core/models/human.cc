@@ -1,0 +1,193 @@
+#include "core/models/human.h"
+
+#include <numbers>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/models/joint_limits.h"
+
+namespace rollgait {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class HumanBuilder {
+ public:
+  HumanBuilder(const SegmentTable& table, const HumanOptions& options) : table_(table), options_(options) {}
+
+  HumanBody Build() {
+    AddBase();
+    AddLeg(Side::kLeft);
+    AddLeg(Side::kRight);
+    AddTrunk();
+    AddArm(Side::kLeft);
+    AddArm(Side::kRight);
+    PairJoints();
+    Result<Model> model = Model::Create(std::move(joints_));
+    ROLLGAIT_CHECK(model.ok());
+    const int half = static_cast<int>(contacts_.size()) / 2;
+    for (int c = 0; c < 2 * half; ++c) contacts_[c].mirror_contact = (c + half) % (2 * half);
+    return {std::move(model).value(), std::move(contacts_)};
+  }
+
+ private:
+  static const char* Suffix(Side side) { return side == Side::kLeft ? "_l" : side == Side::kRight ? "_r" : ""; }
+
+  // Appends a joint; returns its index. Its link has no mass yet.
+  int Add(const std::string& name, JointType type, int parent, const Vector3& origin, const Vector3& axis) {
+    Joint joint;
+    joint.name = name;
+    joint.type = type;
+    joint.parent = parent;
+    joint.p_PJ = origin;
+    joint.axis = axis;
+    joint.link = name + "_link";
+    joints_.push_back(joint);
+    return static_cast<int>(joints_.size()) - 1;
+  }
+
+  const JointLimits& SetRange(const std::string& name, Joint* joint) const {
+    const JointLimits& limits = LimitsOf(name);
+    const bool walking = options_.ranges == JointRanges::kWalking;
+    joint->position_min = (walking ? limits.walking_min : limits.position_min) * kDegree;
+    joint->position_max = (walking ? limits.walking_max : limits.position_max) * kDegree;
+    return limits;
+  }
+
+  // Appends an actuated joint with its limits.
+  int AddActuated(const std::string& name, Side side, int parent, const Vector3& origin, const Vector3& axis) {
+    const int index = Add(name + Suffix(side), JointType::kRevolute, parent, origin, axis);
+    const JointLimits& limits = SetRange(name, &joints_[index]);
+    Joint& joint = joints_[index];
+    joint.velocity_max = limits.velocity;
+    joint.actuated = true;
+    joint.effort_max = limits.effort_per_mass * table_.mass();
+    joint.effort_min = -joint.effort_max;
+    return index;
+  }
+
+  // Flexion about y, adduction about x, internal rotation about z; the last two have mirrored axes.
+  int AddBall(const std::string& name, Side side, int parent, const Vector3& origin) {
+    const double sign = side == Side::kLeft ? -1 : 1;
+    const int flexion = AddActuated(name, side, parent, origin, -Vector3::UnitY());
+    const int adduction = AddActuated(name + "_adduction", side, flexion, Vector3::Zero(), sign * Vector3::UnitX());
+    return AddActuated(name + "_rotation", side, adduction, Vector3::Zero(), sign * Vector3::UnitZ());
+  }
+
+  void SetLink(int joint, const std::string& link, const RigidBody& body) {
+    joints_[joint].link = link;
+    joints_[joint].mass = body.mass;
+    joints_[joint].center_of_mass = body.center_of_mass;
+    joints_[joint].inertia = body.inertia;
+  }
+
+  void AddBase() {
+    const Vector3 zero = Vector3::Zero();
+    const int x = Add("base_x", JointType::kPrismatic, -1, zero, Vector3::UnitX());
+    const int y = Add("base_y", JointType::kPrismatic, x, zero, Vector3::UnitY());
+    const int z = Add("base_z", JointType::kPrismatic, y, zero, Vector3::UnitZ());
+    const int yaw = Add("base_yaw", JointType::kRevolute, z, zero, Vector3::UnitZ());
+    const int roll = Add("base_roll", JointType::kRevolute, yaw, zero, Vector3::UnitX());
+    pelvis_ = Add("base_pitch", JointType::kRevolute, roll, zero, Vector3::UnitY());
+    for (int joint : {y, yaw, roll}) joints_[joint].mirror_sign = -1;
+    for (int joint : {yaw, roll, pelvis_}) SetRange(joints_[joint].name, &joints_[joint]);
+    SetLink(pelvis_, "pelvis", Shifted(table_.Body(Segment::kPelvis, Side::kMidline), -table_.LumbarToHips()));
+  }
+
+  void AddLeg(Side side) {
+    const std::string suffix = Suffix(side);
+    const double sign = side == Side::kLeft ? -1 : 1;
+    const int thigh = AddBall("hip", side, pelvis_, Vector3(0, -sign * table_.HalfHipWidth(), 0));
+    const int shank = AddActuated("knee", side, thigh, Vector3(0, 0, -table_.Length(Segment::kThigh)), Vector3::UnitY());
+    const int ankle =
+        AddActuated("ankle", side, shank, Vector3(0, 0, -table_.Length(Segment::kShank)), -Vector3::UnitY());
+    const int foot = AddActuated("ankle_inversion", side, ankle, Vector3::Zero(), sign * Vector3::UnitX());
+    SetLink(thigh, "thigh" + suffix, table_.Body(Segment::kThigh, side));
+    SetLink(shank, "shank" + suffix, table_.Body(Segment::kShank, side));
+    int toes = foot;
+    if (options_.toes) {
+      const FootBodies bodies = SplitFoot(table_, side);
+      toes = AddActuated("toe", side, foot, table_.AnkleToToes(), -Vector3::UnitY());
+      SetLink(foot, "foot" + suffix, bodies.foot);
+      SetLink(toes, "toes" + suffix, bodies.toes);
+    } else {
+      SetLink(foot, "foot" + suffix, table_.Body(Segment::kFoot, side));
+    }
+    for (const FootSurface& surface : FootSurfaces(table_, options_.feet)) {
+      const bool on_toes = surface.on_toes && options_.toes;
+      ContactSurface contact;
+      contact.name = (side == Side::kLeft ? "left_" : "right_") + surface.name;
+      contact.joint = on_toes ? toes : foot;
+      contact.surface = surface.surface;
+      contact.p_LE = on_toes ? surface.center - table_.AnkleToToes() : surface.center;
+      contacts_.push_back(contact);
+    }
+  }
+
+  // Torso and head on the lumbar joint; the torso's mass properties are about the cervical joint.
+  void AddTrunk() {
+    const int flexion =
+        AddActuated("trunk_flexion", Side::kMidline, pelvis_, -table_.LumbarToHips(), Vector3::UnitY());
+    const int bending = AddActuated("trunk_bending", Side::kMidline, flexion, Vector3::Zero(), Vector3::UnitX());
+    torso_ = AddActuated("trunk_rotation", Side::kMidline, bending, Vector3::Zero(), Vector3::UnitZ());
+    for (int joint : {bending, torso_}) joints_[joint].mirror_sign = -1;
+    cervical_ = Vector3(0, 0, table_.Length(Segment::kTorso));
+    SetLink(torso_, "torso",
+            Lumped({Shifted(table_.Body(Segment::kTorso, Side::kMidline), cervical_),
+                    Shifted(table_.Body(Segment::kHeadNeck, Side::kMidline), cervical_)}));
+  }
+
+  // The hand is one body with the forearm.
+  void AddArm(Side side) {
+    const std::string suffix = Suffix(side);
+    const int arm = AddBall("shoulder", side, torso_, cervical_ + table_.CervicalToShoulder(side));
+    const int forearm =
+        AddActuated("elbow", side, arm, Vector3(0, 0, -table_.Length(Segment::kUpperArm)), -Vector3::UnitY());
+    SetLink(arm, "upper_arm" + suffix, table_.Body(Segment::kUpperArm, side));
+    const Vector3 wrist(0, 0, -table_.Length(Segment::kForearm));
+    SetLink(forearm, "forearm" + suffix,
+            Lumped({table_.Body(Segment::kForearm, side), Shifted(table_.Body(Segment::kHand, side), wrist)}));
+  }
+
+  void PairJoints() {
+    for (size_t i = 0; i < joints_.size(); ++i) {
+      for (size_t k = 0; k < joints_.size(); ++k) {
+        std::string image = joints_[i].name;
+        if (image.ends_with("_l")) image.back() = 'r';
+        else if (image.ends_with("_r")) image.back() = 'l';
+        if (joints_[k].name == image) joints_[i].mirror_joint = static_cast<int>(k);
+      }
+    }
+  }
+
+  const SegmentTable& table_;
+  HumanOptions options_;
+  int pelvis_ = -1, torso_ = -1;
+  Vector3 cervical_ = Vector3::Zero();  // from the lumbar joint
+  std::vector<Joint> joints_;
+  std::vector<ContactSurface> contacts_;
+};
+
+}  // namespace
+
+HumanBody Human(const SegmentTable& table, const HumanOptions& options) {
+  ROLLGAIT_CHECK(!options.toes || options.feet == FootShape::kTwoEllipsoids);
+  return HumanBuilder(table, options).Build();
+}
+
+std::vector<std::string> HumanSources() {
+  std::vector<std::string> sources = SegmentTable::Sources();
+  for (const std::vector<std::string>& more : {FootSources(), JointLimitSources()}) {
+    sources.insert(sources.end(), more.begin(), more.end());
+  }
+  sources.push_back(
+      "Posture at zero: lumbar and cervical joints on one vertical, hips ahead of it as the table has them. The centre of "
+      "mass of pelvis, torso, head and arms is then 0.063 m (male, 1.774 m) or 0.058 m (female, 1.610 m) behind the hips, so "
+      "balance takes some forward lean.");
+  sources.push_back(
+      "Joint axes: parallel to those of the standing body; hip, shoulder and trunk turn about y, x, z in this order, the "
+      "foot about y (dorsiflexion) and x (inversion) through one centre, a simplification of the oblique subtalar axis.");
+  return sources;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,63 @@
+#ifndef ROLLGAIT_CORE_NLP_BARRIER_PROBLEM_H_
+#define ROLLGAIT_CORE_NLP_BARRIER_PROBLEM_H_
+
+#include <vector>
+
+#include "core/nlp/problem.h"
+
+namespace rollgait {
+
+// A nonlinear program with a slack for every row that is not an equality,
+//   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i,
+// and its barrier function  φ_μ(w) = f − μ Σ ln(w − l) − μ Σ ln(u − w) + κ_d μ Σ (distance to a bound without an opposite one).
+// Bounds are moved outwards by a relative 1e-8, so that every problem has an interior. The problem must outlive this object.
+class BarrierProblem {
+ public:
+  explicit BarrierProblem(NlpProblem& problem);
+
+  struct Point {
+    VectorX w;          // unknowns()
+    double f = 0;
+    VectorX c;          // rows()
+    double theta = 0;   // Σ |c|
+  };
+
+  int variables() const { return n_; }
+  int rows() const { return m_; }
+  int unknowns() const { return static_cast<int>(lower_.size()); }
+  bool has_lower(int i) const { return lower_(i) > -kInfinity; }
+  bool has_upper(int i) const { return upper_(i) < kInfinity; }
+  bool fixed(int i) const { return i < n_ && fixed_[i] != 0; }
+  const std::vector<char>& fixed() const { return fixed_; }
+  double lower(int i) const { return lower_(i); }
+  double upper(int i) const { return upper_(i); }
+  // Row of slack k, k = 0 … unknowns() − variables() − 1.
+  const std::vector<int>& slack_rows() const { return slack_rows_; }
+
+  // w with x moved inside its bounds by at least `push` (relative to their size and distance), slacks likewise from g(x).
+  // False if the functions have no finite value there.
+  bool MakeInterior(const VectorX& x, double push, Point* point);
+  // Fills f, c, θ from w. False if a value is not finite.
+  bool Evaluate(Point* point);
+  double Barrier(const Point& point, double mu) const;
+  // gradient = base (unknowns()) + ∇(φ_μ − f); 0 for fixed variables.
+  void AddBarrierGradient(const Point& point, double mu, const VectorX& base, VectorX* gradient) const;
+  // Moves a bound away from w where the distance has been lost to rounding.
+  void KeepDistance(const VectorX& w, double mu);
+  bool Gradient(const Point& point, VectorX* gradient);
+  NlpProblem& problem() { return problem_; }
+
+ private:
+  double Inside(double value, int i, double push) const;
+  double Damping(int i, double mu) const;
+
+  NlpProblem& problem_;
+  int n_, m_;
+  VectorX lower_, upper_, target_;
+  std::vector<char> fixed_;
+  std::vector<int> slack_rows_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_BARRIER_PROBLEM_H_

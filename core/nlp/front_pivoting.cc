@@ -1,0 +1,154 @@
+#include "core/nlp/front_pivoting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/nlp/subtract_products.h"
+
+namespace rollgait {
+namespace {
+
+// Columns are brought up to date with the pivots when they are looked at, and all of them every so many pivots.
+constexpr int kBlock = 16;
+// Below this a column counts as zero: its unknown has no equation left in this front.
+constexpr double kZeroColumn = 1e-250;
+
+class Elimination {
+ public:
+  Elimination(const FrontPanel& panel, double threshold) : p_(panel), threshold_(threshold), done_(panel.columns, 0) {}
+
+  FrontPivots Run() {
+    int tried = 0;  // columns at the end of the list that were refused since the last pivot
+    while (found_.count + tried < p_.columns) {
+      const int order = TryPivot();
+      if (order == 0) {
+        Exchange(found_.count, p_.columns - 1 - tried);
+        ++tried;
+        continue;
+      }
+      found_.count += order;
+      if (found_.count - flushed_ >= kBlock) UpdateAll();
+      tried = 0;
+    }
+    UpdateAll();
+    return found_;
+  }
+
+ private:
+  double* Column(int c) { return p_.l + static_cast<size_t>(c) * p_.rows; }
+  double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.rows; }
+
+  void Update(int c) {
+    const int first = done_[c];
+    SubtractProducts(p_.l + static_cast<size_t>(first) * p_.rows + found_.count, p_.rows,
+                     p_.ld + static_cast<size_t>(first) * p_.rows + c, p_.rows, found_.count - first,
+                     p_.rows - found_.count, Column(c) + found_.count);
+    done_[c] = found_.count;
+  }
+
+  void UpdateAll() {
+    for (int c = found_.count; c < p_.columns; ++c) Update(c);
+    flushed_ = found_.count;
+  }
+
+  void Exchange(int a, int b) {
+    if (a == b) return;
+    std::swap_ranges(Column(a), Column(a) + p_.rows, Column(b));
+    for (int c = 0; c < p_.columns; ++c) std::swap(Column(c)[a], Column(c)[b]);
+    for (int c = 0; c < found_.count; ++c) std::swap(Scaled(c)[a], Scaled(c)[b]);
+    std::swap(p_.unknowns[a], p_.unknowns[b]);
+    std::swap(done_[a], done_[b]);
+  }
+
+  // Largest entry of a column below the pivots without rows `skip` and `other`; *where: its row among the fully summed.
+  double Largest(int column, int other, int* where) {
+    const double* x = Column(column);
+    double most = 0, most_summed = 0;
+    *where = -1;
+    for (int i = found_.count; i < p_.columns; ++i) {
+      if (i == column || i == other) continue;
+      const double size = std::abs(x[i]);
+      if (size > most_summed) {
+        most_summed = size;
+        *where = i;
+      }
+    }
+    for (int i = p_.columns; i < p_.rows; ++i) most = std::max(most, std::abs(x[i]));
+    return std::max(most, most_summed);
+  }
+
+  // Order of the pivot that was made at found_.count, 0 if there is none with this column.
+  int TryPivot() {
+    const int p = found_.count;
+    Update(p);
+    int partner = -1, ignored = -1;
+    const double size = std::abs(Column(p)[p]);
+    const double rest = Largest(p, p, &partner);
+    if (std::max(size, rest) < kZeroColumn) return 0;
+    if (size >= threshold_ * rest && size >= kZeroColumn) return Single(p);
+    if (partner < 0) return 0;
+    Update(partner);
+    const double a = Column(p)[p], b = Column(p)[partner], c = Column(partner)[partner];
+    const double rest_p = Largest(p, partner, &ignored), rest_partner = Largest(partner, p, &ignored);
+    // |D⁻¹| (rest_p, rest_partner)ᵀ ≤ 1 / threshold, everything divided by b first.
+    const double d = std::abs((a / b) * (c / b) - 1) * std::abs(b);
+    const double first = std::abs(c / b) * rest_p + rest_partner, second = rest_p + std::abs(a / b) * rest_partner;
+    if (d > 1e-10 * std::abs(b) && threshold_ * std::max(first, second) <= d) {
+      Exchange(p + 1, partner);
+      return Double(p);
+    }
+    if (std::abs(c) >= threshold_ * std::max(std::abs(b), rest_partner) && std::abs(c) >= kZeroColumn) {
+      Exchange(p, partner);
+      return Single(p);
+    }
+    return 0;
+  }
+
+  int Single(int p) {
+    double* x = Column(p);
+    const double d = x[p];
+    std::copy(x + p, x + p_.rows, Scaled(p) + p);
+    p_.diagonal[p] = d;
+    for (int i = p + 1; i < p_.rows; ++i) x[i] /= d;
+    x[p] = 1;
+    found_.negative += d < 0 ? 1 : 0;
+    return 1;
+  }
+
+  int Double(int p) {
+    double *x = Column(p), *y = Column(p + 1);
+    const double a = x[p], b = x[p + 1], c = y[p + 1];
+    std::copy(x + p, x + p_.rows, Scaled(p) + p);
+    std::copy(y + p, y + p_.rows, Scaled(p + 1) + p);
+    p_.diagonal[p] = a;
+    p_.diagonal[p + 1] = c;
+    p_.coupling[p] = b;
+    const double ratio_a = a / b, ratio_c = c / b, d = b * (ratio_a * ratio_c - 1);
+    for (int i = p + 2; i < p_.rows; ++i) {
+      const double u = x[i], v = y[i];
+      x[i] = (ratio_c * u - v) / d;
+      y[i] = (ratio_a * v - u) / d;
+    }
+    x[p] = y[p + 1] = 1;
+    x[p + 1] = y[p] = 0;
+    if (ratio_a * ratio_c < 1) {
+      found_.negative += 1;
+    } else {
+      found_.negative += a < 0 ? 2 : 0;
+    }
+    return 2;
+  }
+
+  const FrontPanel& p_;
+  const double threshold_;
+  std::vector<int> done_;  // pivots that column c has seen
+  int flushed_ = 0;
+  FrontPivots found_;
+};
+
+}  // namespace
+
+FrontPivots EliminateFront(const FrontPanel& panel, double threshold) { return Elimination(panel, threshold).Run(); }
+
+}  // namespace rollgait

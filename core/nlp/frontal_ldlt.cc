@@ -1,0 +1,237 @@
+#include "core/nlp/frontal_ldlt.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/base/check.h"
+#include "core/nlp/front_pivoting.h"
+#include "core/nlp/subtract_products.h"
+
+namespace rollgait {
+
+FrontalLdlt::FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups) : size_(size) {
+  ROLLGAIT_CHECK(static_cast<int>(groups.size()) == size);
+  AnalyseFronts(pattern, groups);
+  AssignEntries(pattern);
+}
+
+void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups) {
+  std::map<int, int> front_of_group;
+  for (int group : groups) front_of_group[group] = 0;
+  int count = 0;
+  for (auto& [group, front] : front_of_group) front = count++;
+  fronts_.resize(count);
+  front_of_.resize(size_);
+  rank_.resize(size_);
+  for (int i = 0; i < size_; ++i) {
+    front_of_[i] = front_of_group[groups[i]];
+    fronts_[front_of_[i]].own.push_back(i);
+  }
+  int rank = 0;
+  for (const Front& front : fronts_) {
+    for (int i : front.own) rank_[i] = rank++;
+  }
+  // Neighbours that are eliminated later: directly, or through an earlier front.
+  for (int e = 0; e < pattern.size(); ++e) {
+    const int a = pattern.rows[e], b = pattern.columns[e];
+    if (front_of_[a] < front_of_[b]) fronts_[front_of_[a]].update.push_back(b);
+    if (front_of_[b] < front_of_[a]) fronts_[front_of_[b]].update.push_back(a);
+  }
+  const auto earlier = [this](int a, int b) { return rank_[a] < rank_[b]; };
+  for (int f = 0; f < count; ++f) {
+    Front& front = fronts_[f];
+    for (int child : front.children) {
+      for (int i : fronts_[child].update) {
+        if (front_of_[i] > f) front.update.push_back(i);
+      }
+    }
+    std::sort(front.update.begin(), front.update.end(), earlier);
+    front.update.erase(std::unique(front.update.begin(), front.update.end()), front.update.end());
+    if (front.update.empty()) continue;
+    front.is_root = false;
+    fronts_[front_of_[front.update.front()]].children.push_back(f);
+  }
+}
+
+void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
+  std::vector<int> row_in(size_, -1);
+  const auto place = [this, &row_in](const Front& front) {
+    int row = 0;
+    for (int i : front.own) row_in[i] = row++;
+    for (int i : front.update) row_in[i] = row++;
+  };
+  std::vector<std::vector<int>> entries(fronts_.size());
+  for (int e = 0; e < pattern.size(); ++e) {
+    entries[std::min(front_of_[pattern.rows[e]], front_of_[pattern.columns[e]])].push_back(e);
+  }
+  size_t most = 0;
+  for (size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    place(front);
+    for (int e : entries[f]) {
+      int row = row_in[pattern.rows[e]], column = row_in[pattern.columns[e]];
+      if (row < column) std::swap(row, column);
+      front.entries.push_back({e, row, column});
+    }
+    for (int child : front.children) {
+      for (int i : fronts_[child].update) fronts_[child].parent_row.push_back(row_in[i]);
+    }
+    front.schur.resize(front.update.size() * front.update.size());
+    most = std::max(most, front.own.size() + front.update.size());
+  }
+  map_.reserve(2 * most);
+  gathered_.resize(2 * most);
+}
+
+FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double threshold) {
+  inertia_ = {};
+  factor_entries_ = 0;
+  delayed_pivots_ = 0;
+  for (Front& front : fronts_) {
+    Assemble(values, &front);
+    FactorPanel(&front, threshold);
+    UpdateSchur(&front);
+    factor_entries_ += static_cast<long>(front.pivots) * front.rows;
+    const int left = front.columns - front.pivots;
+    (front.is_root ? inertia_.zero : delayed_pivots_) += left;
+  }
+  return inertia_;
+}
+
+// The fully summed block is kept in full, both triangles; the rest of the panel has the rows of `update`.
+void FrontalLdlt::Assemble(const double* values, Front* front) {
+  const int own = static_cast<int>(front->own.size());
+  front->unknowns = front->own;
+  for (int c : front->children) {
+    const Front& child = fronts_[c];
+    front->unknowns.insert(front->unknowns.end(), child.unknowns.begin() + child.pivots,
+                           child.unknowns.begin() + child.columns);
+  }
+  front->columns = static_cast<int>(front->unknowns.size());
+  front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
+  front->rows = static_cast<int>(front->unknowns.size());
+  front->panel.assign(static_cast<size_t>(front->rows) * front->columns, 0.0);
+  const int order = front->rows - front->columns;
+  for (int j = 0; j < order; ++j) {
+    double* diagonal = front->schur.data() + static_cast<size_t>(j) * order + j;
+    std::fill(diagonal, diagonal + order - j, 0.0);
+  }
+  const int shift = front->columns - own;
+  for (const Entry& e : front->entries) {
+    const int row = e.row < own ? e.row : e.row + shift;
+    front->panel[static_cast<size_t>(e.column) * front->rows + row] += values[e.value];
+    if (e.row < own && e.row != e.column) {
+      front->panel[static_cast<size_t>(e.row) * front->rows + e.column] += values[e.value];
+    }
+  }
+  int slot = own;
+  for (int c : front->children) {
+    AddChild(fronts_[c], slot, front);
+    slot += fronts_[c].columns - fronts_[c].pivots;
+  }
+}
+
+void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
+  const int own = static_cast<int>(front->own.size());
+  const int shift = front->columns - own;
+  const int delayed = child.columns - child.pivots;
+  const int update = static_cast<int>(child.update.size());
+  map_.clear();
+  for (int row : child.parent_row) map_.push_back(row < own ? row : row + shift);
+  const auto panel = [front](int row, int column) -> double& {
+    return front->panel[static_cast<size_t>(column) * front->rows + row];
+  };
+  for (int j = 0; j < delayed; ++j) {
+    const double* column = child.panel.data() + static_cast<size_t>(child.pivots + j) * child.rows;
+    for (int i = 0; i < delayed; ++i) panel(first_slot + i, first_slot + j) += column[child.pivots + i];
+    for (int i = 0; i < update; ++i) {
+      const double value = column[child.columns + i];
+      panel(map_[i], first_slot + j) += value;
+      if (map_[i] < front->columns) panel(first_slot + j, map_[i]) += value;
+    }
+  }
+  // The map is ascending, so the lower triangle stays one.
+  const int order = front->rows - front->columns;
+  for (int j = 0; j < update; ++j) {
+    const double* column = child.schur.data() + static_cast<size_t>(j) * update;
+    if (map_[j] >= front->columns) {
+      double* target = front->schur.data() + static_cast<size_t>(map_[j] - front->columns) * order - front->columns;
+      for (int i = j; i < update; ++i) target[map_[i]] += column[i];
+      continue;
+    }
+    double* target = &panel(0, map_[j]);
+    for (int i = j; i < update; ++i) {
+      target[map_[i]] += column[i];
+      if (i > j && map_[i] < front->columns) panel(map_[j], map_[i]) += column[i];
+    }
+  }
+}
+
+void FrontalLdlt::FactorPanel(Front* front, double threshold) {
+  front->diagonal.assign(front->columns, 0.0);
+  front->coupling.assign(front->columns, 0.0);
+  if (scaled_.size() < front->panel.size()) scaled_.resize(front->panel.size());
+  FrontPanel panel{front->rows,
+                   front->columns,
+                   front->panel.data(),
+                   scaled_.data(),
+                   front->diagonal.data(),
+                   front->coupling.data(),
+                   front->unknowns.data()};
+  const FrontPivots found = EliminateFront(panel, threshold);
+  front->pivots = found.count;
+  inertia_.negative += found.negative;
+  inertia_.positive += found.count - found.negative;
+}
+
+void FrontalLdlt::UpdateSchur(Front* front) {
+  const int order = front->rows - front->columns;
+  for (int j = 0; j < order; ++j) {
+    const int row = front->columns + j;
+    SubtractProducts(front->panel.data() + row, front->rows, scaled_.data() + row, front->rows, front->pivots,
+                     order - j, front->schur.data() + static_cast<size_t>(j) * order + j);
+  }
+}
+
+void FrontalLdlt::Solve(double* x) {
+  if (gathered_.size() < static_cast<size_t>(size_)) gathered_.resize(size_);
+  double* y = gathered_.data();
+  for (const Front& front : fronts_) {
+    const int pivots = front.pivots, rows = front.rows;
+    for (int i = 0; i < rows; ++i) y[i] = i < pivots ? x[front.unknowns[i]] : 0.0;
+    for (int k = 0; k < pivots; ++k) {
+      const double* column = front.panel.data() + static_cast<size_t>(k) * rows;
+      const double value = y[k];
+      for (int i = k + 1; i < rows; ++i) y[i] -= column[i] * value;
+    }
+    for (int i = pivots; i < rows; ++i) x[front.unknowns[i]] += y[i];
+    for (int k = 0; k < pivots; ++k) {
+      double* value = y + k;
+      if (front.coupling[k] != 0) {
+        const double a = front.diagonal[k], b = front.coupling[k], c = front.diagonal[k + 1];
+        // Divided by b first: the product a c may overflow where the quotients do not.
+        const double d = (a / b) * (c / b) - 1;
+        const double first = (c / b * value[0] - value[1]) / (b * d);
+        value[1] = (a / b * value[1] - value[0]) / (b * d);
+        value[0] = first;
+        ++k;
+      } else {
+        value[0] /= front.diagonal[k];
+      }
+    }
+    for (int k = 0; k < pivots; ++k) x[front.unknowns[k]] = y[k];
+  }
+  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
+    const int pivots = front->pivots, rows = front->rows;
+    for (int i = 0; i < rows; ++i) y[i] = x[front->unknowns[i]];
+    for (int k = pivots - 1; k >= 0; --k) {
+      const double* column = front->panel.data() + static_cast<size_t>(k) * rows;
+      double sum = 0;
+      for (int i = k + 1; i < rows; ++i) sum += column[i] * y[i];
+      y[k] -= sum;
+    }
+    for (int k = 0; k < pivots; ++k) x[front->unknowns[k]] = y[k];
+  }
+}
+
+}  // namespace rollgait

@@ -1,0 +1,79 @@
+#ifndef ROLLGAIT_CORE_NLP_FRONTAL_LDLT_H_
+#define ROLLGAIT_CORE_NLP_FRONTAL_LDLT_H_
+
+#include <vector>
+
+#include "core/nlp/problem.h"
+
+namespace rollgait {
+
+// Factors of a sparse symmetric indefinite matrix, P A Pᵀ = L D Lᵀ with pivots of order 1 and 2, by the multifrontal method
+// (Duff and Reid, ACM TOMS 9, 1983) in an order that the caller knows: the unknowns come in groups, and a group is eliminated in
+// one dense front with threshold pivoting (Bunch and Kaufman). A pivot that no exchange inside its front makes large enough is
+// left to the next front, so the order governs the cost and never the stability.
+//
+// For an optimal control problem the groups are its stages: time and memory grow linearly with their number.
+// Results depend on the input alone. Allocates while it is made, and later only if pivots are delayed more than ever before.
+// One object a thread.
+class FrontalLdlt {
+ public:
+  struct Inertia {
+    int positive = 0, negative = 0;
+    int zero = 0;  // pivots that could not be found: the matrix is singular to working precision
+  };
+
+  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`; `groups` (size): smaller is
+  // eliminated earlier. Contract: rows and columns within size; groups >= 0.
+  FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups);
+
+  // Values in the order of the pattern. A pivot must be at least `threshold` times the entries it divides (0 < threshold <= 0.5):
+  // large values are accurate, small ones keep the fronts narrow.
+  Inertia Factorise(const double* values, double threshold);
+
+  // x (size) := A⁻¹ x. Contract: Factorise has been called and found no zero.
+  void Solve(double* x);
+
+  // Of the last Factorise: entries of L, and pivots that went to a later front.
+  long factor_entries() const { return factor_entries_; }
+  int delayed_pivots() const { return delayed_pivots_; }
+
+ private:
+  struct Entry {
+    int value, row, column;  // index into the values; static position in the front
+  };
+  struct Front {
+    // Symbolic. Static rows: first `own`, then `update`.
+    std::vector<int> own, update;
+    std::vector<int> children;
+    std::vector<int> parent_row;  // static row of update[i] in the parent
+    std::vector<Entry> entries;
+    bool is_root = true;
+    // Numeric. Rows: pivots, columns that were delayed, update.
+    int columns = 0, rows = 0, pivots = 0;
+    std::vector<int> unknowns;    // of every row
+    std::vector<double> panel;    // rows × columns, L in the first `pivots` columns
+    std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
+    std::vector<double> schur;    // update × update, lower triangle
+  };
+
+  void AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups);
+  void AssignEntries(const SparsityPattern& pattern);
+  void Assemble(const double* values, Front* front);
+  void AddChild(const Front& child, int first_slot, Front* front);
+  void FactorPanel(Front* front, double threshold);
+  void UpdateSchur(Front* front);
+
+  int size_;
+  std::vector<Front> fronts_;
+  std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
+  std::vector<int> map_;
+  std::vector<double> scaled_;        // L D of the front in work
+  std::vector<double> gathered_;
+  Inertia inertia_;
+  long factor_entries_ = 0;
+  int delayed_pivots_ = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_FRONTAL_LDLT_H_

@@ -1,0 +1,345 @@
+#include "core/nlp/interior_point.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/nlp/filter.h"
+#include "core/nlp/newton_step.h"
+#include "core/nlp/optimality.h"
+#include "core/nlp/step_length.h"
+#include "core/nlp/termination.h"
+
+namespace rollgait {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Point = BarrierProblem::Point;
+
+// Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
+constexpr double kTauMin = 0.99, kKappaSigma = 1e10, kKappaEpsilon = 10, kKappaMu = 0.2, kThetaMu = 1.5;
+constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
+constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kMostMultiplier = 1000;
+constexpr int kMostCorrections = 4;
+constexpr double kEpsilon = 2.2e-16;
+
+// a ≤ b up to the rounding of numbers of the size of `scale`.
+bool AtMost(double a, double b, double scale) { return a - b <= 10 * kEpsilon * std::abs(scale); }
+
+class Solver {
+ public:
+  Solver(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control)
+      : problem_(problem),
+        start_(start),
+        options_(options),
+        control_(control),
+        barrier_(problem),
+        newton_(barrier_),
+        begin_(Clock::now()) {}
+
+  InteriorPointResult Run() {
+    Termination termination = Begin() ? Iterate() : Termination::kNumericalDifficulty;
+    InteriorPointResult out;
+    out.needs_restoration = needs_restoration_;
+    Fill(termination, &out.result);
+    return out;
+  }
+
+ private:
+  enum class Search { kStep, kTinyStep, kFailed };
+
+  bool Begin() {
+    mu_ = options_.initial_barrier;
+    tau_ = std::max(kTauMin, 1 - mu_);
+    const bool warm = start_.constraint_multipliers.size() > 0;
+    if (!barrier_.MakeInterior(start_.x, warm ? std::min(kPush, mu_) : kPush, &point_)) return false;
+    gradient_.resize(barrier_.variables());
+    StartMultipliers(warm);
+    if (!barrier_.Gradient(point_, &gradient_)) return false;
+    if (!warm) {
+      if (!problem_.Jacobian(point_.w.data(), newton_.kkt().jacobian())) return false;
+      if (!newton_.LeastSquaresMultipliers(gradient_, &multipliers_) ||
+          multipliers_.y.lpNorm<Eigen::Infinity>() > kMostMultiplier) {
+        multipliers_.y.setZero();
+      }
+    }
+    if (!Linearise()) return false;
+    theta_min_ = 1e-4 * std::max(1.0, point_.theta);
+    theta_max_ = 1e4 * std::max(1.0, point_.theta);
+    filter_.Reset(theta_max_);
+    return true;
+  }
+
+  void StartMultipliers(bool warm) {
+    const int n = barrier_.variables();
+    multipliers_.y = warm ? start_.constraint_multipliers : VectorX(VectorX::Zero(barrier_.rows()));
+    multipliers_.lower.setZero(barrier_.unknowns());
+    multipliers_.upper.setZero(barrier_.unknowns());
+    for (int i = 0; i < barrier_.unknowns(); ++i) {
+      // Of a warm start, as close to the central path of its barrier parameter as its distances say.
+      const double row = warm && i >= n ? multipliers_.y(barrier_.slack_rows()[i - n]) : 0;
+      const double lower = !warm ? 1 : std::max(i < n ? start_.lower_bound_multipliers(i) : -row, Share(i, true));
+      const double upper = !warm ? 1 : std::max(i < n ? start_.upper_bound_multipliers(i) : row, Share(i, false));
+      if (barrier_.has_lower(i)) multipliers_.lower(i) = lower;
+      if (barrier_.has_upper(i)) multipliers_.upper(i) = upper;
+    }
+  }
+  double Share(int i, bool lower) const {
+    const double distance = lower ? point_.w(i) - barrier_.lower(i) : barrier_.upper(i) - point_.w(i);
+    return mu_ / distance;
+  }
+
+  bool Linearise() {
+    if (!barrier_.Gradient(point_, &gradient_) ||
+        !problem_.Derivatives(point_.w.data(), 1, multipliers_.y.data(), newton_.kkt().jacobian(),
+                              newton_.kkt().hessian())) {
+      return false;
+    }
+    SetLagrangian();
+    return true;
+  }
+
+  Termination Iterate() {
+    int tiny_steps = 0;
+    for (;; ++iteration_) {
+      error_ = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, 0);
+      Report();
+      if (error_.scaled <= options_.tolerance && error_.primal <= options_.tolerance &&
+          error_.dual <= std::max(options_.tolerance, 1e-4) &&
+          error_.complementarity <= std::max(options_.tolerance, 1e-6)) {
+        return Termination::kOptimal;
+      }
+      if (control_.stop != nullptr && control_.stop->requested()) return Termination::kCancelled;
+      if (Elapsed() > options_.max_wall_time_s) return Termination::kTimeLimit;
+      if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
+      ReduceBarrier(tiny_steps > 1);
+      if (tiny_steps > 3) return Termination::kNumericalDifficulty;
+      if (!newton_.Compute(point_, multipliers_, lagrangian_, mu_, &step_)) {
+        needs_restoration_ = true;
+        return Termination::kNumericalDifficulty;
+      }
+      const Search outcome = LineSearch();
+      if (outcome == Search::kFailed) {
+        needs_restoration_ = true;
+        return Termination::kNumericalDifficulty;
+      }
+      tiny_steps = outcome == Search::kTinyStep ? tiny_steps + 1 : 0;
+      Correct();
+      if (!Linearise()) return Termination::kNumericalDifficulty;
+    }
+  }
+
+  // ∇f + Aᵀ y of w = (x, s), without the multipliers of bounds.
+  void SetLagrangian() {
+    const int n = barrier_.variables();
+    lagrangian_.setZero(barrier_.unknowns());
+    transposed_ = gradient_;
+    newton_.kkt().AddTransposedProduct(multipliers_.y, &transposed_);
+    lagrangian_.head(n) = transposed_;
+    for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+      lagrangian_(n + static_cast<int>(k)) = -multipliers_.y(barrier_.slack_rows()[k]);
+    }
+  }
+
+  void ReduceBarrier(bool stuck) {
+    const double least = std::min(options_.tolerance, std::max(options_.tolerance, 1e-6)) / (kKappaEpsilon + 1);
+    while (mu_ > least &&
+           (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
+                         kKappaEpsilon * mu_)) {
+      mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, kThetaMu)));
+      tau_ = std::max(kTauMin, 1 - mu_);
+      filter_.Reset(theta_max_);
+      stuck = false;
+    }
+  }
+
+  bool IsTiny(const VectorX& step) const {
+    for (int i = 0; i < step.size(); ++i) {
+      if (std::abs(step(i)) > 10 * kEpsilon * (1 + std::abs(point_.w(i)))) return false;
+    }
+    return point_.theta < 1e-4;
+  }
+
+  Search LineSearch() {
+    phi_ = barrier_.Barrier(point_, mu_);
+    objective_gradient_.setZero(barrier_.unknowns());
+    objective_gradient_.head(barrier_.variables()) = gradient_;
+    barrier_.AddBarrierGradient(point_, mu_, objective_gradient_, &barrier_gradient_);
+    slope_ = barrier_gradient_.dot(step_.w);
+    double alpha = MaxPrimalStep(barrier_, point_, step_.w, tau_);
+    dual_step_ = MaxDualStep(multipliers_, step_.multipliers, tau_);
+    trials_ = 0;
+    if (IsTiny(step_.w)) {
+      Try(alpha, step_.w);
+      Accept(alpha, step_);
+      return Search::kTinyStep;
+    }
+    const double least = SmallestStep();
+    for (bool first = true; first || alpha > least; first = false, alpha *= 0.5) {
+      ++trials_;
+      const bool valid = Try(alpha, step_.w);
+      if (valid && IsAcceptable(alpha)) {
+        Accept(alpha, step_);
+        return Search::kStep;
+      }
+      if (first && valid && trial_.theta >= point_.theta && SecondOrderCorrection(alpha)) return Search::kStep;
+    }
+    return Search::kFailed;
+  }
+
+  double SmallestStep() const {
+    double least = kGammaTheta;
+    if (slope_ < 0) {
+      least = std::min(least, kGammaPhi * point_.theta / -slope_);
+      if (point_.theta <= theta_min_) {
+        least = std::min(least, kDelta * std::pow(point_.theta, kSTheta) / std::pow(-slope_, kSPhi));
+      }
+    }
+    return kGammaAlpha * least;
+  }
+
+  bool Try(double alpha, const VectorX& step) {
+    trial_.w = point_.w + alpha * step;
+    trial_.c.resize(barrier_.rows());
+    return barrier_.Evaluate(&trial_);
+  }
+
+  bool Switching(double alpha) const {
+    return slope_ < 0 && alpha * std::pow(-slope_, kSPhi) > kDelta * std::pow(point_.theta, kSTheta);
+  }
+  bool Armijo(double alpha, double phi) const { return AtMost(phi - phi_, kEtaPhi * alpha * slope_, phi_); }
+
+  bool IsAcceptable(double alpha) {
+    const double phi = barrier_.Barrier(trial_, mu_);
+    if (!std::isfinite(phi) || trial_.theta > theta_max_) return false;
+    if (Switching(alpha) && point_.theta <= theta_min_) {
+      if (!Armijo(alpha, phi)) return false;
+    } else {
+      // An objective that grows by orders of magnitude is not paid for by a little feasibility.
+      if (phi > phi_ && std::log10(phi - phi_) > 5 + std::max(1.0, std::log10(std::max(10.0, std::abs(phi_))))) {
+        return false;
+      }
+      if (!AtMost(trial_.theta, (1 - kGammaTheta) * point_.theta, point_.theta) &&
+          !AtMost(phi - phi_, -kGammaPhi * point_.theta, phi_)) {
+        return false;
+      }
+    }
+    if (!filter_.Accepts(trial_.theta, phi)) return false;
+    if (!Switching(alpha) || !Armijo(alpha, phi)) {
+      filter_.Add((1 - kGammaTheta) * point_.theta, phi_ - kGammaPhi * point_.theta);
+    }
+    return true;
+  }
+
+  bool SecondOrderCorrection(double alpha) {
+    const double reference_alpha = alpha;
+    corrected_c_ = point_.c;
+    double last_theta = 0;
+    double theta = trial_.theta;
+    for (int k = 0; k < kMostCorrections && (k == 0 || theta <= kKappaSoc * last_theta); ++k) {
+      last_theta = theta;
+      corrected_c_ = alpha * corrected_c_ + trial_.c;
+      if (!newton_.SolveAgain(point_, multipliers_, corrected_c_, mu_, &corrected_)) return false;
+      alpha = MaxPrimalStep(barrier_, point_, corrected_.w, tau_);
+      ++trials_;
+      if (!Try(alpha, corrected_.w)) return false;
+      if (IsAcceptable(reference_alpha)) {
+        dual_step_ = MaxDualStep(multipliers_, corrected_.multipliers, tau_);
+        Accept(alpha, corrected_);
+        return true;
+      }
+      theta = trial_.theta;
+    }
+    return false;
+  }
+
+  void Accept(double alpha, const NewtonStep& step) {
+    primal_step_ = alpha;
+    step_norm_ = step.w.lpNorm<Eigen::Infinity>();
+    std::swap(point_, trial_);
+    multipliers_.y += alpha * step.multipliers.y;
+    multipliers_.lower += dual_step_ * step.multipliers.lower;
+    multipliers_.upper += dual_step_ * step.multipliers.upper;
+  }
+
+  // Keeps the bound multipliers within a factor of those of the central path.
+  void Correct() {
+    barrier_.KeepDistance(point_.w, mu_);
+    const auto within = [this](double z, double distance) {
+      return std::clamp(z, mu_ / (kKappaSigma * distance), kKappaSigma * mu_ / distance);
+    };
+    for (int i = 0; i < barrier_.unknowns(); ++i) {
+      if (barrier_.has_lower(i)) multipliers_.lower(i) = within(multipliers_.lower(i), point_.w(i) - barrier_.lower(i));
+      if (barrier_.has_upper(i)) multipliers_.upper(i) = within(multipliers_.upper(i), barrier_.upper(i) - point_.w(i));
+    }
+  }
+
+  double Elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  void Report() const {
+    if (!control_.observer) return;
+    IterationInfo info;
+    info.index = iteration_;
+    info.objective = point_.f;
+    info.primal_infeasibility = error_.primal;
+    info.dual_infeasibility = error_.dual;
+    info.barrier_parameter = mu_;
+    info.step_norm = step_norm_;
+    info.regularization = newton_.regularization();
+    info.primal_step = primal_step_;
+    info.dual_step = dual_step_;
+    info.line_search_trials = trials_;
+    info.elapsed_s = Elapsed();
+    info.mesh = options_.mesh;
+    control_.observer(info);
+  }
+
+  void Fill(Termination termination, NlpResult* result) const {
+    const int n = barrier_.variables();
+    result->termination = termination;
+    result->iterations = iteration_;
+    result->wall_time_s = Elapsed();
+    if (point_.w.size() > 0) result->x = point_.w.head(n);
+    if (multipliers_.lower.size() > 0) {
+      result->constraint_multipliers = multipliers_.y;
+      result->lower_bound_multipliers = multipliers_.lower.head(n);
+      result->upper_bound_multipliers = multipliers_.upper.head(n);
+      result->objective = point_.f;
+      result->kkt_error = error_.scaled;
+      result->constraint_violation = error_.primal;
+    }
+    if (termination == Termination::kNumericalDifficulty && result->x.size() > 0 &&
+        error_.scaled <= kAcceptableFactor * options_.tolerance) {
+      result->termination = Termination::kAcceptable;
+    }
+    result->message = Explain(result->termination);
+  }
+
+  NlpProblem& problem_;
+  const NlpStart& start_;
+  const NlpOptions& options_;
+  const SolveControl& control_;
+  BarrierProblem barrier_;
+  NewtonSystem newton_;
+  Clock::time_point begin_;
+
+  Point point_, trial_;
+  Multipliers multipliers_;
+  NewtonStep step_, corrected_;
+  Filter filter_;
+  VectorX gradient_, objective_gradient_, barrier_gradient_, lagrangian_, transposed_, corrected_c_;
+  double mu_ = 0, tau_ = 0, theta_min_ = 0, theta_max_ = 0, phi_ = 0, slope_ = 0;
+  OptimalityError error_;
+  double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
+  int iteration_ = 0, trials_ = 0;
+  bool needs_restoration_ = false;
+};
+
+}  // namespace
+
+InteriorPointResult SolveWithInteriorPoint(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
+                                           const SolveControl& control) {
+  return Solver(problem, start, options, control).Run();
+}
+
+}  // namespace rollgait

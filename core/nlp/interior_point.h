@@ -1,0 +1,25 @@
+#ifndef ROLLGAIT_CORE_NLP_INTERIOR_POINT_H_
+#define ROLLGAIT_CORE_NLP_INTERIOR_POINT_H_
+
+#include "core/nlp/nlp_options.h"
+#include "core/nlp/problem.h"
+#include "core/nlp/result.h"
+
+namespace rollgait {
+
+// What became of an interior point solve that has no restoration phase of its own.
+struct InteriorPointResult {
+  NlpResult result;
+  // True if the line search found no acceptable step: the constraints must be restored by another method from result.x.
+  bool needs_restoration = false;
+};
+
+// Primal-dual interior point method with a filter line search (Wächter and Biegler, Math. Program. 106, 2006: the algorithm and
+// the constants of Ipopt), on factors that follow the problem's elimination groups. Exact Hessian, inertia correction, second-order
+// corrections, monotone barrier parameter. May run in several threads at once, one problem each.
+InteriorPointResult SolveWithInteriorPoint(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
+                                           const SolveControl& control);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_INTERIOR_POINT_H_

@@ -1,0 +1,112 @@
+#include "core/nlp/kkt_system.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rollgait {
+namespace {
+
+// Threshold of pivots. Where the reduced Hessian is small beside the equations (1/h² times), larger ones would delay pivots through the
+// whole chain; refinement makes up for the growth that small ones allow.
+constexpr double kFirstThreshold = 1e-7;
+constexpr double kLargestThreshold = 1e-6;
+constexpr int kMostRefinements = 6;
+// Backward error of a solution: fine, and acceptable after all refinements.
+constexpr double kFineResidual = 1e-10;
+constexpr double kPoorResidual = 1e-6;
+// A refinement that does not even halve the error is the last one.
+constexpr double kStagnation = 0.5;
+
+}  // namespace
+
+SparsityPattern KktSystem::MakePattern(const NlpProblem& problem) {
+  const int n = problem.variables();
+  SparsityPattern pattern = problem.hessian_pattern();
+  const SparsityPattern& jacobian = problem.jacobian_pattern();
+  for (int e = 0; e < jacobian.size(); ++e) pattern.Add(n + jacobian.rows[e], jacobian.columns[e]);
+  for (int i = 0; i < n + problem.constraints(); ++i) pattern.Add(i, i);
+  return pattern;
+}
+
+std::vector<int> KktSystem::MakeGroups(const NlpProblem& problem) {
+  EliminationGroups groups = problem.elimination_groups();
+  groups.variables.insert(groups.variables.end(), groups.constraints.begin(), groups.constraints.end());
+  return groups.variables;
+}
+
+KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed)
+    : variables_(problem.variables()),
+      rows_(problem.constraints()),
+      pattern_(MakePattern(problem)),
+      jacobian_start_(problem.hessian_pattern().size()),
+      primal_start_(jacobian_start_ + problem.jacobian_pattern().size()),
+      dual_start_(primal_start_ + variables_),
+      fixed_(std::move(fixed)),
+      values_(VectorX::Zero(pattern_.size())),
+      masked_(values_),
+      threshold_(kFirstThreshold),
+      factors_(variables_ + rows_, pattern_, MakeGroups(problem)),
+      right_(VectorX::Zero(variables_ + rows_)),
+      solution_(right_),
+      residual_(right_) {
+  for (int e = 0; e < primal_start_; ++e) {
+    const int row = pattern_.rows[e], column = pattern_.columns[e];
+    if ((row < variables_ && fixed_[row] != 0) || fixed_[column] != 0) fixed_entries_.push_back(e);
+  }
+}
+
+KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal) {
+  values_.segment(primal_start_, variables_) = primal_diagonal;
+  values_.segment(dual_start_, rows_) = -dual_diagonal;
+  masked_ = values_;
+  for (int e : fixed_entries_) masked_(e) = 0;
+  for (int i = 0; i < variables_; ++i) {
+    if (fixed_[i] != 0) masked_(primal_start_ + i) = 1;
+  }
+  const FrontalLdlt::Inertia inertia = factors_.Factorise(masked_.data(), threshold_);
+  if (inertia.zero > 0) return Outcome::kSingular;
+  return inertia.negative == rows_ ? Outcome::kRight : Outcome::kWrongInertia;
+}
+
+void KktSystem::Multiply(const VectorX& x, VectorX* y) const {
+  y->setZero();
+  for (int e = 0; e < pattern_.size(); ++e) {
+    const int row = pattern_.rows[e], column = pattern_.columns[e];
+    (*y)(row) += masked_(e) * x(column);
+    if (row != column) (*y)(column) += masked_(e) * x(row);
+  }
+}
+
+bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v) {
+  right_.head(variables_) = a;
+  right_.tail(rows_) = b;
+  for (int i = 0; i < variables_; ++i) {
+    if (fixed_[i] != 0) right_(i) = 0;
+  }
+  const double size = right_.lpNorm<Eigen::Infinity>();
+  solution_ = right_;
+  factors_.Solve(solution_.data());
+  double error = 0, last_error = kInfinity;
+  for (int trial = 0; trial <= kMostRefinements; ++trial) {
+    Multiply(solution_, &residual_);
+    residual_ = right_ - residual_;
+    const double scale = std::min(solution_.lpNorm<Eigen::Infinity>(), 1e6 * size) + size;
+    error = scale > 0 ? residual_.lpNorm<Eigen::Infinity>() / scale : 0;
+    if (!(error > kFineResidual) || trial == kMostRefinements || error > kStagnation * last_error) break;
+    last_error = error;
+    factors_.Solve(residual_.data());
+    solution_ += residual_;
+  }
+  *u = solution_.head(variables_);
+  *v = solution_.tail(rows_);
+  if (error > kFineResidual) threshold_ = std::min(kLargestThreshold, 10 * threshold_);
+  return solution_.allFinite() && error <= kPoorResidual;
+}
+
+void KktSystem::AddTransposedProduct(const VectorX& v, VectorX* y) const {
+  for (int e = jacobian_start_; e < primal_start_; ++e) {
+    (*y)(pattern_.columns[e]) += values_(e) * v(pattern_.rows[e] - variables_);
+  }
+}
+
+}  // namespace rollgait

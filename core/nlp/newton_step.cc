@@ -1,0 +1,139 @@
+#include "core/nlp/newton_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollgait {
+namespace {
+
+// Constants of Ipopt.
+constexpr double kFirstShift = 1e-4, kLeastShift = 1e-20, kLargestShift = 1e20;
+constexpr double kShiftDecrease = 1.0 / 3, kShiftIncrease = 8, kFirstShiftIncrease = 100;
+constexpr double kDualShift = 1e-8, kDualShiftExponent = 0.25;
+// Where no shift has failed before, it is tried again only after as many iterations as it has failed in a row, up to this. Differs
+// from Ipopt, which tries every time: each trial costs a factorisation.
+constexpr int kMostSkips = 3;
+// A row without effective bounds: its slack is free.
+constexpr double kLeastCurvature = 1e-20;
+
+}  // namespace
+
+NewtonSystem::NewtonSystem(BarrierProblem& barrier)
+    : barrier_(barrier),
+      kkt_(barrier.problem(), barrier.fixed()),
+      sigma_(VectorX::Zero(barrier.unknowns())),
+      right_(sigma_),
+      primal_diagonal_(VectorX::Zero(barrier.variables())),
+      dual_diagonal_(VectorX::Zero(barrier.rows())),
+      a_(primal_diagonal_),
+      b_(dual_diagonal_),
+      x_(primal_diagonal_) {}
+
+bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
+  const int n = barrier_.variables();
+  Eigen::Map<VectorX>(kkt_.hessian(), barrier_.problem().hessian_pattern().size()).setZero();
+  primal_diagonal_.setOnes();
+  dual_diagonal_.setZero();
+  b_.setZero();
+  a_ = -(objective_gradient - multipliers->lower.head(n) + multipliers->upper.head(n));
+  for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+    const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];
+    dual_diagonal_(row) = 1;
+    b_(row) = multipliers->lower(i) - multipliers->upper(i);
+  }
+  if (kkt_.Factorise(primal_diagonal_, dual_diagonal_) != KktSystem::Outcome::kRight) return false;
+  return kkt_.Solve(a_, b_, &x_, &multipliers->y);
+}
+
+bool NewtonSystem::TryShift(double shift, double mu) {
+  const int n = barrier_.variables();
+  shift_ = shift;
+  primal_diagonal_ = sigma_.head(n).array() + shift;
+  for (int trial = 0; trial < 2; ++trial) {
+    dual_diagonal_.setConstant(degenerate_ ? kDualShift * std::pow(mu, kDualShiftExponent) : 0);
+    for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+      const double curvature = std::max(sigma_(n + static_cast<int>(k)) + shift, kLeastCurvature);
+      dual_diagonal_(barrier_.slack_rows()[k]) = 1 / curvature;
+    }
+    const auto outcome = kkt_.Factorise(primal_diagonal_, dual_diagonal_);
+    if (outcome != KktSystem::Outcome::kSingular || degenerate_) return outcome == KktSystem::Outcome::kRight;
+    degenerate_ = true;
+  }
+  return false;
+}
+
+bool NewtonSystem::Factorise(double mu) {
+  degenerate_ = false;
+  if (skipped_ < std::min(zero_failures_, kMostSkips)) {
+    ++skipped_;
+  } else if (TryShift(0, mu)) {
+    zero_failures_ = skipped_ = 0;
+    return true;
+  } else {
+    ++zero_failures_;
+    skipped_ = 0;
+  }
+  double shift = last_shift_ == 0 ? kFirstShift : std::max(kLeastShift, kShiftDecrease * last_shift_);
+  while (!TryShift(shift, mu)) {
+    shift *= last_shift_ == 0 ? kFirstShiftIncrease : kShiftIncrease;
+    if (shift > kLargestShift) return false;
+  }
+  last_shift_ = shift;
+  return true;
+}
+
+bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& lagrangian,
+                           double mu, NewtonStep* step) {
+  barrier_.AddBarrierGradient(point, mu, lagrangian, &right_);
+  right_ = -right_;
+  for (int i = 0; i < barrier_.unknowns(); ++i) {
+    sigma_(i) = 0;
+    if (barrier_.has_lower(i)) sigma_(i) += multipliers.lower(i) / (point.w(i) - barrier_.lower(i));
+    if (barrier_.has_upper(i)) sigma_(i) += multipliers.upper(i) / (barrier_.upper(i) - point.w(i));
+  }
+  constexpr int kMostTrials = 5;
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    if (!Factorise(mu)) return false;
+    if (Solve(point, multipliers, point.c, mu, step)) return true;
+    // The factors were too coarse; KktSystem pivots more carefully next time.
+  }
+  return false;
+}
+
+bool NewtonSystem::SolveAgain(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c,
+                              double mu, NewtonStep* step) {
+  return Solve(point, multipliers, c, mu, step);
+}
+
+bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+                         NewtonStep* step) {
+  const int n = barrier_.variables();
+  a_ = right_.head(n);
+  b_ = -c;
+  for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+    const int row = barrier_.slack_rows()[k];
+    b_(row) += right_(n + static_cast<int>(k)) * dual_diagonal_(row);
+  }
+  step->w.resize(barrier_.unknowns());
+  if (!kkt_.Solve(a_, b_, &x_, &step->multipliers.y)) return false;
+  step->w.head(n) = x_;
+  for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+    const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];
+    step->w(i) = (step->multipliers.y(row) + right_(i)) * dual_diagonal_(row);
+  }
+  step->multipliers.lower.setZero(barrier_.unknowns());
+  step->multipliers.upper.setZero(barrier_.unknowns());
+  for (int i = 0; i < barrier_.unknowns(); ++i) {
+    if (barrier_.has_lower(i)) {
+      const double distance = point.w(i) - barrier_.lower(i), z = multipliers.lower(i);
+      step->multipliers.lower(i) = mu / distance - z - z / distance * step->w(i);
+    }
+    if (barrier_.has_upper(i)) {
+      const double distance = barrier_.upper(i) - point.w(i), z = multipliers.upper(i);
+      step->multipliers.upper(i) = mu / distance - z + z / distance * step->w(i);
+    }
+  }
+  return true;
+}
+
+}  // namespace rollgait

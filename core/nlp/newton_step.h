@@ -1,0 +1,60 @@
+#ifndef ROLLGAIT_CORE_NLP_NEWTON_STEP_H_
+#define ROLLGAIT_CORE_NLP_NEWTON_STEP_H_
+
+#include "core/nlp/barrier_problem.h"
+#include "core/nlp/kkt_system.h"
+
+namespace rollgait {
+
+// Multipliers of the rows and of the bounds of w; zero where there is no bound.
+struct Multipliers {
+  VectorX y;              // rows()
+  VectorX lower, upper;   // unknowns()
+};
+
+// A step in everything.
+struct NewtonStep {
+  VectorX w;
+  Multipliers multipliers;
+};
+
+// The Newton step of the primal-dual barrier equations, with the Hessian shifted until the step descends (inertia correction of
+// Wächter and Biegler, section 3.1).
+class NewtonSystem {
+ public:
+  explicit NewtonSystem(BarrierProblem& barrier);
+
+  KktSystem& kkt() { return kkt_; }
+  // δ_w of the last factorisation.
+  double regularization() const { return shift_; }
+
+  // Least-squares multipliers of the rows at a point: min ‖∇f + Jᵀ y − z_l + z_u‖. False if J has no full rank there.
+  bool LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers);
+
+  // Factors the system at a point, whose Jacobian and Hessian are in kkt(), and solves it. False if no shift helps.
+  // lagrangian: ∇f + Aᵀ y by w, without the multipliers of bounds.
+  bool Compute(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& lagrangian, double mu,
+               NewtonStep* step);
+  // With the last factors, for other values of the constraints.
+  bool SolveAgain(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+                  NewtonStep* step);
+
+ private:
+  bool Factorise(double mu);
+  bool TryShift(double shift, double mu);
+  bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+             NewtonStep* step);
+
+  BarrierProblem& barrier_;
+  KktSystem kkt_;
+  double shift_ = 0, last_shift_ = 0;
+  int zero_failures_ = 0, skipped_ = 0;  // of the unshifted matrix: failures in a row; iterations since the last trial
+  bool degenerate_ = false;    // the present matrix is singular without a dual shift
+  VectorX sigma_;              // unknowns(): curvature of the bounds
+  VectorX right_;              // unknowns(): negative gradient of the barrier Lagrangian
+  VectorX primal_diagonal_, dual_diagonal_, a_, b_, x_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_NEWTON_STEP_H_

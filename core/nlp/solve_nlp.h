@@ -1,0 +1,17 @@
+#ifndef ROLLGAIT_CORE_NLP_SOLVE_NLP_H_
+#define ROLLGAIT_CORE_NLP_SOLVE_NLP_H_
+
+#include "core/nlp/nlp_options.h"
+#include "core/nlp/problem.h"
+#include "core/nlp/result.h"
+
+namespace rollgait {
+
+// Solves a nonlinear program: by the interior point method that follows the problem's elimination groups (interior_point.h), and,
+// from the point where that one finds no acceptable step, by Ipopt with its restoration phase. Iterations are numbered through;
+// those of Ipopt count as restoration in IterationInfo, and NlpResult::restored_from says where they began.
+NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_SOLVE_NLP_H_

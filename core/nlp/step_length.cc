@@ -1,0 +1,28 @@
+#include "core/nlp/step_length.h"
+
+#include <algorithm>
+
+namespace rollgait {
+
+double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step, double tau) {
+  double alpha = 1;
+  for (int i = 0; i < barrier.unknowns(); ++i) {
+    if (step(i) < 0 && barrier.has_lower(i)) {
+      alpha = std::min(alpha, tau * (point.w(i) - barrier.lower(i)) / -step(i));
+    } else if (step(i) > 0 && barrier.has_upper(i)) {
+      alpha = std::min(alpha, tau * (barrier.upper(i) - point.w(i)) / step(i));
+    }
+  }
+  return alpha;
+}
+
+double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau) {
+  double alpha = 1;
+  for (int i = 0; i < step.lower.size(); ++i) {
+    if (step.lower(i) < 0) alpha = std::min(alpha, tau * multipliers.lower(i) / -step.lower(i));
+    if (step.upper(i) < 0) alpha = std::min(alpha, tau * multipliers.upper(i) / -step.upper(i));
+  }
+  return alpha;
+}
+
+}  // namespace rollgait

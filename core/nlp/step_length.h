@@ -1,0 +1,15 @@
+#ifndef ROLLGAIT_CORE_NLP_STEP_LENGTH_H_
+#define ROLLGAIT_CORE_NLP_STEP_LENGTH_H_
+
+#include "core/nlp/newton_step.h"
+
+namespace rollgait {
+
+// Largest step in (0, 1] after which every distance to a bound is at least 1 − τ of what it was (fraction to the boundary).
+double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step, double tau);
+// The same for the multipliers of bounds.
+double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_STEP_LENGTH_H_

@@ -1,0 +1,71 @@
+#ifndef ROLLGAIT_CORE_SIMULATION_EVENT_LOCATOR_H_
+#define ROLLGAIT_CORE_SIMULATION_EVENT_LOCATOR_H_
+
+#include <optional>
+#include <vector>
+
+#include "core/math/integrator.h"
+#include "core/simulation/scene_dynamics.h"
+#include "core/simulation/simulation.h"
+
+namespace rollgait {
+
+// A change of sign of a watched quantity: where it happens and the state there.
+struct Crossing {
+  SimulationEventKind kind = SimulationEventKind::kTouchDown;
+  int contact = 0;
+  double time = 0;
+  VectorX state;
+};
+
+// Watches, over each step of the integrator: gaps of inactive contacts that can touch down (falling through zero with open
+// gates), normal forces of active unilateral contacts (falling through zero), friction margins  μ n·F − |tangential force|
+// of active contacts with a coefficient (both ways). Quantities are sampled at quarters of the step on the continuous
+// extension (gaps also at their minimum between samples); a change of sign is located there, then with single steps of the
+// integrator from the start of the step until the time no longer changes: to rounding of the quantity over its slope.
+class EventLocator {
+ public:
+  EventLocator(const SimulationScene& scene, SceneDynamics* dynamics);
+
+  // The earliest event within the step from (t, x) that `integrator` has just made; after it nothing is watched further.
+  std::optional<Crossing> FirstInStep(const Dop853::RightSide& right_side, const VectorX& x, Dop853* integrator);
+
+  // Marks contacts whose friction margin is negative at (t, x) now. Returns those not marked before.
+  std::vector<int> MarkFriction(double t, const VectorX& x);
+
+ private:
+  struct Watched {
+    SimulationEventKind kind;
+    int contact;
+  };
+  struct Point {
+    double time;
+    VectorX state;
+    std::vector<double> values, rates;  // rates of gaps only
+  };
+
+  void ChooseWatched();
+  void Evaluate(Point* point);
+  double Value(const Watched& watched);
+  bool GatesOpen(int contact, const VectorX& x) const;
+  // Root of watched quantity w between a and b on the continuous extension; both have its values.
+  double RootBetween(size_t w, const Point& a, const Point& b);
+  Point At(double t);
+  std::optional<Crossing> FirstBetween(const Point& a, const Point& b, const VectorX& x);
+  // Moves the root to where single steps from the start of the step put it.
+  Crossing Polish(const Watched& watched, double root, double slope, const VectorX& x);
+
+  const SimulationScene& scene_;
+  SceneDynamics& dynamics_;
+  const Dop853::RightSide* right_side_ = nullptr;
+  Dop853* integrator_ = nullptr;
+  Dop853 single_;
+  std::vector<Watched> watched_;
+  bool forces_watched_ = false;
+  std::vector<char> beyond_friction_;
+  VectorX derivative_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_SIMULATION_EVENT_LOCATOR_H_

@@ -1,0 +1,143 @@
+#include "core/simulation/scene_dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/multibody/configuration.h"
+
+namespace rollgait {
+namespace {
+
+std::vector<TreeContact> TreeContacts(const SimulationScene& scene) {
+  std::vector<TreeContact> contacts;
+  for (const SceneContact& contact : scene.contacts) contacts.push_back(contact.contact);
+  return contacts;
+}
+
+std::vector<int> ActiveAtTheStart(const SimulationScene& scene) {
+  std::vector<int> active;
+  for (size_t k = 0; k < scene.contacts.size(); ++k) {
+    if (scene.contacts[k].active) active.push_back(static_cast<int>(k));
+  }
+  return active;
+}
+
+}  // namespace
+
+SceneDynamics::SceneDynamics(const SimulationScene& scene)
+    : scene_(scene),
+      nq_(scene.model.nq()),
+      nv_(scene.model.nv()),
+      contacts_(BodyDynamics(scene.model), TreeContacts(scene)),
+      active_(ActiveAtTheStart(scene)),
+      ground_(scene.ground.size()),
+      tau_(VectorX::Zero(nv_)) {}
+
+VectorX SceneDynamics::MakeState(const VectorX& q, const VectorX& v, double work) const {
+  VectorX x(size());
+  x << q, v, work;
+  return x;
+}
+
+bool SceneDynamics::IsActive(int k) const { return std::binary_search(active_.begin(), active_.end(), k); }
+
+void SceneDynamics::SetState(double t, const VectorX& x) {
+  q_ = x.head(nq_);
+  v_ = x.segment(nq_, nv_);
+  for (size_t i = 0; i < ground_.size(); ++i) ground_[i] = MotionAt(scene_.ground[i], t);
+  contacts_.SetState(q_, v_, ground_);
+}
+
+void SceneDynamics::ComputeEfforts() {
+  for (int i = 0; i < scene_.model.size(); ++i) {
+    const JointForce& force = scene_.forces[i];
+    const int iv = scene_.model.v_index(i);
+    if (scene_.model.joint(i).type == JointType::kFree) {
+      tau_.segment<3>(iv) = -force.damping * v_.segment<3>(iv);
+    } else {
+      tau_[iv] = force.effort - force.damping * v_[iv] - force.stiffness * (q_[scene_.model.q_index(i)] - force.rest);
+    }
+  }
+}
+
+double SceneDynamics::Power() const {
+  double power = tau_.dot(v_);
+  for (int i = 0; i < scene_.model.size(); ++i) {
+    const JointForce& force = scene_.forces[i];
+    if (force.stiffness != 0) {
+      power += force.stiffness * (q_[scene_.model.q_index(i)] - force.rest) * v_[scene_.model.v_index(i)];
+    }
+  }
+  return power;
+}
+
+void SceneDynamics::RightSide(double t, const VectorX& x, VectorX* derivative) {
+  ++evaluations_;
+  SetState(t, x);
+  ComputeEfforts();
+  const Baumgarte none;
+  const bool baumgarte = scene_.options.drift == DriftControl::kBaumgarte;
+  solution_ = &contacts_.Accelerate(active_, tau_, scene_.gravity, baumgarte ? scene_.options.baumgarte : none);
+  PositionRate(scene_.model, q_, v_, &rate_);
+  derivative->head(nq_) = rate_;
+  derivative->segment(nq_, nv_) = solution_->acceleration;
+  double power = Power();
+  for (int k : active_) {
+    // Power of the contact on the mechanism: on body 1, less what body 2 gets back if it belongs to the mechanism.
+    contacts_.SlipJacobian(k, &linear_, &angular_);
+    power += contacts_.Force(k).dot(linear_ * v_);
+    if (contacts_.SpinTorque(k) != 0) {
+      power += contacts_.SpinTorque(k) * contacts_.Kinematics(k).normal.dot(angular_ * v_);
+    }
+  }
+  (*derivative)[nq_ + nv_] = power;
+}
+
+double SceneDynamics::KineticEnergy() const { return contacts_.dynamics().KineticEnergy(contacts_.state()); }
+
+double SceneDynamics::PotentialEnergy() const {
+  return contacts_.dynamics().PotentialEnergy(contacts_.state(), scene_.gravity);
+}
+
+double SceneDynamics::SpringEnergy() const {
+  double energy = 0;
+  for (int i = 0; i < scene_.model.size(); ++i) {
+    const JointForce& force = scene_.forces[i];
+    if (force.stiffness == 0) continue;
+    const double stretch = q_[scene_.model.q_index(i)] - force.rest;
+    energy += 0.5 * force.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+SceneDynamics::Drift SceneDynamics::Project(double t, bool positions_and_velocities, VectorX* x) {
+  Drift drift;
+  VectorX q = x->head(nq_);
+  drift.quaternion = NormalizeQuaternions(scene_.model, &q);
+  x->head(nq_) = q;
+  if (!positions_and_velocities || active_.empty()) return drift;
+
+  const int m = static_cast<int>(active_.size());
+  SetState(t, *x);
+  jacobian_.resize(m, nv_);
+  right_.resize(m);
+  for (int i = 0; i < m; ++i) {
+    const PairKinematics& pair = contacts_.Kinematics(active_[i]);
+    contacts_.SlipJacobian(active_[i], &linear_, &angular_);
+    jacobian_.row(i) = pair.normal.transpose() * linear_;
+    right_[i] = -pair.gap;
+    drift.gap = std::max(drift.gap, std::abs(pair.gap));
+  }
+  solver_.Solve(contacts_.MassMatrix(), VectorX::Zero(nv_), jacobian_, right_, &correction_);
+  x->head(nq_) = Retract(scene_.model, q, correction_.acceleration);
+
+  SetState(t, *x);
+  contacts_.VelocityRows(active_, &jacobian_, &right_);
+  drift.slip = right_.cwiseAbs().maxCoeff();
+  solver_.Solve(contacts_.MassMatrix(), VectorX::Zero(nv_), jacobian_, -right_, &correction_);
+  x->segment(nq_, nv_) += correction_.acceleration;
+  return drift;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,72 @@
+#ifndef ROLLGAIT_CORE_SIMULATION_SCENE_DYNAMICS_H_
+#define ROLLGAIT_CORE_SIMULATION_SCENE_DYNAMICS_H_
+
+#include <utility>
+#include <vector>
+
+#include "core/contact/contact_dynamics.h"
+#include "core/simulation/scene.h"
+
+namespace rollgait {
+
+// The equations of motion of a scene as ẋ = f(t, x) for a set of active contacts. x = [q (nq); v (nv); W]: W is the work done
+// on the mechanism by everything that is not gravity or a spring, J (dampers, constant efforts, contacts with moving
+// ground), so that energy − W is constant between impacts. Not thread-safe.
+class SceneDynamics {
+ public:
+  // The last entries of x on which ẋ does not depend: W.
+  static constexpr int kQuadratures = 1;
+
+  explicit SceneDynamics(const SimulationScene& scene);
+
+  int size() const { return nq_ + nv_ + 1; }
+  VectorX MakeState(const VectorX& q, const VectorX& v, double work) const;
+  VectorX Positions(const VectorX& x) const { return x.head(nq_); }
+  VectorX Velocities(const VectorX& x) const { return x.segment(nq_, nv_); }
+
+  void SetActive(std::vector<int> active) { active_ = std::move(active); }
+  const std::vector<int>& active() const { return active_; }
+  bool IsActive(int k) const;
+
+  // ẋ at (t, x). Leaves contacts() with kinematics and forces of that instant.
+  void RightSide(double t, const VectorX& x, VectorX* derivative);
+  // Kinematics alone.
+  void SetState(double t, const VectorX& x);
+  ContactDynamics& contacts() { return contacts_; }
+  // Of the last RightSide.
+  const ConstrainedSolution& solution() const { return *solution_; }
+
+  // J, at the last state: kinetic, potential of gravity, potential of springs.
+  double KineticEnergy() const;
+  double PotentialEnergy() const;
+  double SpringEnergy() const;
+  int evaluations() const { return evaluations_; }
+
+  // Moves q and v onto the constraints of the active contacts by the change of least kinetic energy; quaternions to unit
+  // norm. Returns the largest gap, slip found before.
+  struct Drift {
+    double gap = 0, slip = 0, quaternion = 0;
+  };
+  Drift Project(double t, bool positions_and_velocities, VectorX* x);
+
+ private:
+  void ComputeEfforts();
+  double Power() const;
+
+  const SimulationScene& scene_;
+  const int nq_, nv_;
+  ContactDynamics contacts_;
+  std::vector<int> active_;
+  std::vector<FrameMotion> ground_;
+  VectorX q_, v_, tau_, rate_;
+  const ConstrainedSolution* solution_ = nullptr;
+  ConstrainedSolver solver_;
+  ConstrainedSolution correction_;
+  MatrixX jacobian_, linear_, angular_;
+  VectorX right_;
+  int evaluations_ = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_SIMULATION_SCENE_DYNAMICS_H_

@@ -1,0 +1,107 @@
+// Multipliers from one mesh to another. A multiplier of a row at a collocation point approximates the step h b_i times a function of
+// time that does not depend on the mesh; that function is interpolated linearly in time, for each point of the scheme apart.
+
+#include <algorithm>
+
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+namespace {
+
+// Two neighbouring columns of samples and the share of the second.
+struct Bracket {
+  int first, second;
+  double share;
+};
+
+Bracket Find(const std::vector<double>& times, double time) {
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  const int second = std::min(static_cast<int>(after - times.begin()), static_cast<int>(times.size()) - 1);
+  const int first = std::max(0, second - 1);
+  if (first == second) return {first, second, 0};
+  return {first, second, std::clamp((time - times[first]) / (times[second] - times[first]), 0.0, 1.0)};
+}
+
+}  // namespace
+
+std::vector<double> CollocationNlp::PointTimes(int phase, int point) const {
+  std::vector<double> times;
+  for (int k = 0; k < layout_.intervals_in(phase); ++k) {
+    const int interval = layout_.first_interval(phase) + k;
+    times.push_back(layout_.start(interval) + scheme_.tableau().c(point) * layout_.length(interval));
+  }
+  return times;
+}
+
+int CollocationNlp::FirstRow(int interval) const {
+  int row = 0;
+  for (int k = 0; k < interval; ++k) row += blocks_[layout_.phase(k)]->rows();
+  return row;
+}
+
+void CollocationNlp::TransferMultipliers(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const {
+  start->constraint_multipliers = VectorX::Zero(constraints());
+  start->lower_bound_multipliers = VectorX::Zero(variables());
+  start->upper_bound_multipliers = VectorX::Zero(variables());
+  for (int p = 0; p < layout_.phases(); ++p) {
+    for (int i = 0; i < scheme_.points(); ++i) TransferPoint(from, of, p, i, start);
+  }
+  TransferNodes(from, of, start);
+  const int fixed = entries_.size() + std::min(linear_.size(), from.linear_.size());
+  start->constraint_multipliers.segment(first_entry_row_, fixed) =
+      of.constraint_multipliers.segment(from.first_entry_row_, fixed);
+  const int tail = layout_.phases() + 1, end = variables() - tail, other_end = from.variables() - tail;
+  start->lower_bound_multipliers.tail(tail) = of.lower_bound_multipliers.segment(other_end, tail);
+  start->upper_bound_multipliers.tail(tail) = of.upper_bound_multipliers.segment(other_end, tail);
+  ROLLGAIT_CHECK(layout_.duration(0) == end);
+}
+
+// Rows and controls of point i of the intervals of phase p.
+void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const {
+  const std::vector<double> times = PointTimes(p, i), other_times = from.PointTimes(p, i);
+  const int rows = blocks_[p]->PointRows(i), offset = blocks_[p]->FirstRow(i);
+  const int controls = layout_.controls(p);
+  for (size_t k = 0; k < times.size(); ++k) {
+    const Bracket at = Find(other_times, times[k]);
+    const int interval = layout_.first_interval(p) + static_cast<int>(k);
+    const auto add = [&](int index, double share) {
+      if (share == 0) return;
+      const int other = from.layout_.first_interval(p) + index;
+      const double factor = share * layout_.length(interval) / from.layout_.length(other);
+      start->constraint_multipliers.segment(FirstRow(interval) + offset, rows) +=
+          factor * of.constraint_multipliers.segment(from.FirstRow(other) + offset, rows);
+      start->lower_bound_multipliers.segment(layout_.efforts(interval, i), controls) +=
+          factor * of.lower_bound_multipliers.segment(from.layout_.efforts(other, i), controls);
+      start->upper_bound_multipliers.segment(layout_.efforts(interval, i), controls) +=
+          factor * of.upper_bound_multipliers.segment(from.layout_.efforts(other, i), controls);
+    };
+    add(at.first, 1 - at.share);
+    add(at.second, at.share);
+  }
+}
+
+// Bounds of node states: those of the nearest old node of the same phase.
+void CollocationNlp::TransferNodes(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const {
+  const int size = 2 * problem_.model.size();
+  for (int k = 0; k <= layout_.intervals(); ++k) {
+    const bool end = k == layout_.intervals();
+    const int p = layout_.phase(end ? k - 1 : k);
+    const double time = end ? 1 : layout_.start(k);
+    int nearest = from.layout_.first_interval(p);
+    double distance = kInfinity;
+    const int last = nearest + from.layout_.intervals_in(p);
+    for (int other = nearest; other <= last; ++other) {
+      const double other_time = other == last ? 1 : from.layout_.start(other);
+      if (std::abs(other_time - time) < distance) {
+        distance = std::abs(other_time - time);
+        nearest = other;
+      }
+    }
+    start->lower_bound_multipliers.segment(layout_.node(k), size) =
+        of.lower_bound_multipliers.segment(from.layout_.node(nearest), size);
+    start->upper_bound_multipliers.segment(layout_.node(k), size) =
+        of.upper_bound_multipliers.segment(from.layout_.node(nearest), size);
+  }
+}
+
+}  // namespace rollgait
