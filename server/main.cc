@@ -38,7 +38,8 @@ struct Flags {
   std::string listen = "127.0.0.1:50051";
   bool insecure_listen = false;
   int solver_slots = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::string agent, solver;
+  int simulation_slots = 2;
+  std::string agent, solver, simulator;
   int max_queued = 1000;
   double heartbeat_interval_s = 10;
   bool no_result_reuse = false;
@@ -60,6 +61,10 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
   app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
+  app.add_option("--simulator", flags.simulator, "Path of rollgait-simulate; default: beside this program");
+  app.add_option("--simulation-slots", flags.simulation_slots, "Simulations that run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   app.add_option("--max-queued", flags.max_queued, "Solves that may wait; more are refused with RESOURCE_EXHAUSTED")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
@@ -151,6 +156,8 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   });
   RpcOptions rpc_options;
   rpc_options.listen = flags.listen;
+  rpc_options.simulation.program = flags.simulator;
+  rpc_options.simulation.slots = flags.simulation_slots;
   const auto server = RpcServer::Start(rpc_options, service, hub);
   if (!server.ok()) return Fail(server.error().message);
   const auto agent = Supervisor::Start(AgentCommand(flags, data_dir));
@@ -179,6 +186,7 @@ int Main(int argc, char** argv) {
   spdlog::set_level(spdlog::level::from_str(flags.log_level));
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.solver.empty()) flags.solver = Sibling("rollgait-solve");
+  if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
   if (!IsLoopback(flags.listen) && !flags.insecure_listen) {
     return Fail("--listen " + flags.listen +
                 " is not a loopback address and this server speaks plain text: anyone on the " +

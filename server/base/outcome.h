@@ -21,6 +21,7 @@ enum class ErrorCode {
   kFailedPrecondition,  // the solve is in another state than the call needs
   kOutOfRange,          // sequence number beyond the newest event
   kResourceExhausted,   // the queue is full; `retry_after` says when to try again
+  kDeadlineExceeded,    // the run took longer than it was given
   kLeaseLost,           // the solve belongs to another epoch now: stop working on it, write nothing more
   kUnavailable,         // busy, disk full, stopping: the same call may succeed later
   kInternal,            // a defect or a damaged file

@@ -28,8 +28,8 @@ class RequestDecoder {
 
 GaitRequest::Range DecodeRange(const v1::Range& range) { return {range.min(), range.max()}; }
 
-std::map<std::string, double> DecodeWeights(const google::protobuf::Map<std::string, double>& weights) {
-  return {weights.begin(), weights.end()};
+std::map<std::string, double> DecodeNumbers(const google::protobuf::Map<std::string, double>& numbers) {
+  return {numbers.begin(), numbers.end()};
 }
 
 std::map<std::string, GaitRequest::Range> DecodeRanges(const google::protobuf::Map<std::string, v1::Range>& ranges) {
@@ -81,6 +81,36 @@ BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1:
     default:
       RefuseEnum(prefix + "sex", selection.sex());
   }
+  body.segment_lengths = DecodeNumbers(selection.segment_lengths_m());
+  switch (selection.feet()) {
+    case v1::ModelSelection::FEET_UNSPECIFIED:
+      break;
+    case v1::ModelSelection::FEET_ONE_ELLIPSOID:
+      body.feet = FootShape::kOneEllipsoid;
+      break;
+    case v1::ModelSelection::FEET_TWO_ELLIPSOIDS:
+      body.feet = FootShape::kTwoEllipsoids;
+      break;
+    default:
+      RefuseEnum(prefix + "feet", selection.feet());
+  }
+  body.toes = selection.toes();
+  switch (selection.ranges()) {
+    case v1::ModelSelection::RANGES_UNSPECIFIED:
+      break;
+    case v1::ModelSelection::RANGES_ANATOMICAL:
+      body.ranges = JointRanges::kAnatomical;
+      break;
+    case v1::ModelSelection::RANGES_WALKING:
+      body.ranges = JointRanges::kWalking;
+      break;
+    default:
+      RefuseEnum(prefix + "ranges", selection.ranges());
+  }
+  body.sagittal = selection.sagittal();
+  body.drop_arms = selection.drop_arms();
+  body.rigid_trunk = selection.rigid_trunk();
+  body.locked_joints = DecodeNumbers(selection.locked_joints_rad());
   return body;
 }
 
@@ -147,10 +177,10 @@ GaitRequest::CostTerm RequestDecoder::DecodeCost(const std::string& field, const
   decoded.weight = ROLLGAIT_OPTIONAL(cost, weight);
   switch (cost.term_case()) {
     case v1::CostTerm::kSquaredTorque:
-      decoded.term = GaitRequest::SquaredTorque{DecodeWeights(cost.squared_torque().joint_weights())};
+      decoded.term = GaitRequest::SquaredTorque{DecodeNumbers(cost.squared_torque().joint_weights())};
       break;
     case v1::CostTerm::kSquaredTorqueRate:
-      decoded.term = GaitRequest::SquaredTorqueRate{DecodeWeights(cost.squared_torque_rate().joint_weights())};
+      decoded.term = GaitRequest::SquaredTorqueRate{DecodeNumbers(cost.squared_torque_rate().joint_weights())};
       break;
     case v1::CostTerm::kMechanicalWork:
       decoded.term = GaitRequest::MechanicalWork{ROLLGAIT_OPTIONAL(cost.mechanical_work(), smoothing_w)};
@@ -183,7 +213,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   }
   request.normalization = DecodeNormalization(spec.cost_normalization());
   request.ground_contact = DecodeGround(spec.ground_contact());
-  request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeWeights(spec.limits().joint_velocity()),
+  request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
                     DecodeRanges(spec.limits().joint_effort())};
   request.discretization = {DecodeScheme(spec.discretization().scheme()),
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/check.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -25,6 +27,8 @@ v1::Joint::Type EncodeType(JointType type) {
       return v1::Joint::TYPE_REVOLUTE;
     case JointType::kPrismatic:
       return v1::Joint::TYPE_PRISMATIC;
+    case JointType::kFree:
+      return v1::Joint::TYPE_FREE;
   }
   ROLLGAIT_CHECK(false);
 }
@@ -54,10 +58,16 @@ void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_mirror_sign(joint.mirror_sign);
 }
 
+void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
+  const Ellipsoid* const ellipsoid = surface.ellipsoid();
+  ROLLGAIT_CHECK(ellipsoid != nullptr);  // every model of the catalogue stands on ellipsoids
+  EncodeVector(ellipsoid->semi_axes(), encoded->mutable_ellipsoid()->mutable_semi_axes_m());
+}
+
 void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::ContactSurface* encoded) {
   encoded->set_name(contact.name);
   encoded->set_joint(contact.joint);
-  EncodeVector(contact.surface.semi_axes(), encoded->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m());
+  EncodeSurface(contact.surface, encoded->mutable_surface());
   EncodeVector(contact.p_LE, encoded->mutable_center_m());
   EncodeRotation(contact.R_LE, encoded->mutable_orientation());
   encoded->set_mirror_contact(scene.contacts[contact.mirror_contact].name);
@@ -71,6 +81,16 @@ void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded
   encoded->set_sex(selection.sex == Sex::kFemale ? v1::ModelSelection::SEX_FEMALE : v1::ModelSelection::SEX_MALE);
   encoded->set_stature_m(selection.stature);
   encoded->set_body_mass_kg(selection.mass);
+  encoded->mutable_segment_lengths_m()->insert(selection.segment_lengths.begin(), selection.segment_lengths.end());
+  encoded->set_feet(selection.feet == FootShape::kTwoEllipsoids ? v1::ModelSelection::FEET_TWO_ELLIPSOIDS
+                                                                : v1::ModelSelection::FEET_ONE_ELLIPSOID);
+  encoded->set_toes(selection.toes);
+  encoded->set_ranges(selection.ranges == JointRanges::kWalking ? v1::ModelSelection::RANGES_WALKING
+                                                                : v1::ModelSelection::RANGES_ANATOMICAL);
+  encoded->set_sagittal(selection.sagittal);
+  encoded->set_drop_arms(selection.drop_arms);
+  encoded->set_rigid_trunk(selection.rigid_trunk);
+  encoded->mutable_locked_joints_rad()->insert(selection.locked_joints.begin(), selection.locked_joints.end());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "server/rpc/simulation_stream.h"
 #include "server/rpc/status.h"
 #include "server/rpc/watch_stream.h"
 #include "server/service/solve_message.h"
@@ -125,6 +126,20 @@ grpc::ServerUnaryReactor* GaitServiceRpc::GetServerInfo(grpc::CallbackServerCont
                                                         const v1::GetServerInfoRequest* request,
                                                         v1::ServerInfo* response) {
   return Answer(context, request, response, &SolveService::GetServerInfo);
+}
+
+grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulate(grpc::CallbackServerContext* context,
+                                                                          const v1::SimulateRequest* request) {
+  wire::SimulatorRequest wrapped;
+  *wrapped.mutable_simulate() = *request;
+  return SimulationStream::Start(simulations_, context, std::move(wrapped));
+}
+
+grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::FindPeriodicGait(
+    grpc::CallbackServerContext* context, const v1::FindPeriodicGaitRequest* request) {
+  wire::SimulatorRequest wrapped;
+  *wrapped.mutable_find_gait() = *request;
+  return SimulationStream::Start(simulations_, context, std::move(wrapped));
 }
 
 }  // namespace rollgait::server

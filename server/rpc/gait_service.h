@@ -10,6 +10,7 @@
 #include "server/base/executor.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
+#include "server/simulate/simulation_host.h"
 
 namespace rollgait::server {
 
@@ -17,8 +18,9 @@ namespace rollgait::server {
 class GaitServiceRpc final : public v1::GaitService::CallbackService {
  public:
   // All outlive the gRPC server that this is registered with.
-  GaitServiceRpc(SolveService& service, WatchHub& hub, Executor& executor, std::chrono::milliseconds slow_write)
-      : service_(service), hub_(hub), executor_(executor), slow_write_(slow_write) {}
+  GaitServiceRpc(SolveService& service, WatchHub& hub, Executor& executor, SimulationHost& simulations,
+                 std::chrono::milliseconds slow_write)
+      : service_(service), hub_(hub), executor_(executor), simulations_(simulations), slow_write_(slow_write) {}
 
   grpc::ServerWriteReactor<v1::SolveEvent>* RunSolve(grpc::CallbackServerContext* context,
                                                      const v1::RunSolveRequest* request) override;
@@ -40,6 +42,10 @@ class GaitServiceRpc final : public v1::GaitService::CallbackService {
                                      v1::Model* response) override;
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
                                           v1::ServerInfo* response) override;
+  grpc::ServerWriteReactor<v1::SimulationMessage>* Simulate(grpc::CallbackServerContext* context,
+                                                            const v1::SimulateRequest* request) override;
+  grpc::ServerWriteReactor<v1::SimulationMessage>* FindPeriodicGait(
+      grpc::CallbackServerContext* context, const v1::FindPeriodicGaitRequest* request) override;
 
  private:
   // Answers a unary call with (service_.*method)(request).
@@ -50,6 +56,7 @@ class GaitServiceRpc final : public v1::GaitService::CallbackService {
   SolveService& service_;
   WatchHub& hub_;
   Executor& executor_;
+  SimulationHost& simulations_;
   const std::chrono::milliseconds slow_write_;
 };
 

@@ -42,7 +42,8 @@ void SetLimits(grpc::ServerBuilder& builder) {
 RpcServer::RpcServer(const RpcOptions& options, SolveService& service, WatchHub& hub)
     : hub_(hub),
       executor_(options.executor_threads, options.max_waiting_calls),
-      rpc_(service, hub, executor_, options.slow_write) {}
+      simulations_(options.simulation),
+      rpc_(service, hub, executor_, simulations_, options.slow_write) {}
 
 RpcServer::~RpcServer() { Stop(std::chrono::milliseconds(0)); }
 
@@ -69,6 +70,7 @@ void RpcServer::Stop(std::chrono::milliseconds grace) {
   if (server_ == nullptr) return;
   server_->GetHealthCheckService()->SetServingStatus(false);
   hub_.Stop();
+  simulations_.Stop();
   // Every call is answered by a task. What is left then are answers on their way and clients that do not read theirs;
   // gRPC would also wait for idle connections whose clients do not notice that they are to be closed.
   const bool idle = executor_.WaitIdle(grace);

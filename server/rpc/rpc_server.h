@@ -12,6 +12,7 @@
 #include "server/rpc/gait_service.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
+#include "server/simulate/simulation_host.h"
 
 namespace rollgait::server {
 
@@ -20,6 +21,7 @@ struct RpcOptions {
   int executor_threads = 8;                   // calls that may touch the store at once
   size_t max_waiting_calls = 4096;            // more are refused with RESOURCE_EXHAUSTED
   std::chrono::milliseconds slow_write{250};  // a longer write marks its reader as slow
+  SimulationHostOptions simulation;           // without a program: Simulate answers UNAVAILABLE
 };
 
 // The listening gRPC server: GaitService, grpc.health.v1.Health, reflection. Plain text.
@@ -40,6 +42,7 @@ class RpcServer {
 
   WatchHub& hub_;
   Executor executor_;
+  SimulationHost simulations_;
   GaitServiceRpc rpc_;
   std::unique_ptr<grpc::Server> server_;
   std::string address_;

@@ -24,6 +24,8 @@ grpc::StatusCode Code(ErrorCode code) {
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case ErrorCode::kUnavailable:
       return grpc::StatusCode::UNAVAILABLE;
+    case ErrorCode::kDeadlineExceeded:
+      return grpc::StatusCode::DEADLINE_EXCEEDED;
     case ErrorCode::kLeaseLost:  // concerns agents only
     case ErrorCode::kInternal:
       return grpc::StatusCode::INTERNAL;
