@@ -12,7 +12,7 @@ constexpr char kExitCodes[] = R"(Exit codes:
   1  internal error, here or in the server, or a file that could not be written
   2  wrong command line, or a request that the server refuses (INVALID_ARGUMENT and the like)
   3  no server, no answer in time, or a server too busy to answer
-  4  the solve ended without a solution: infeasible or not converged
+  4  the solve ended without a solution: infeasible or not converged; a simulation ended early; no periodic gait found
   5  the run failed: crash, CPU limit or memory limit
   6  cancelled
   7  no such solve or model
@@ -38,6 +38,8 @@ struct Arguments {
   ListOptions list;
   ReportOptions report;
   SpecFlags models;
+  SimulateOptions simulate;
+  PoincareOptions poincare;
   std::vector<std::string> cancel, remove;
   std::string help_command;
 };
@@ -115,6 +117,28 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("help", "Print this, or the help of a command")->add_option("COMMAND", arguments.help_command);
 }
 
+void AddSceneFlags(CLI::App& command, SceneInput& scene, std::optional<double>& max_wall_time_s) {
+  command.add_option("--scene", scene.file, "SimulationScene as proto3 JSON, - for standard input")->required();
+  command.add_option("--duration", scene.duration_s, "Overrides duration_s of the scene, s");
+  command.add_option("--tolerance", scene.tolerance, "Overrides the integrator's tolerance");
+  command.add_option("--max-wall-time", max_wall_time_s, "The server ends the run after so many s, at most 600");
+}
+
+void AddSceneCommands(CLI::App& app, Arguments& arguments) {
+  CLI::App* const simulate = app.add_subcommand("simulate", "Forward contact dynamics of a scene: samples, events, report");
+  AddSceneFlags(*simulate, arguments.simulate.scene, arguments.simulate.max_wall_time_s);
+  simulate->add_option("--output-step", arguments.simulate.scene.output_step_s, "Overrides the time between samples, s");
+  simulate->add_option("-o,--output", arguments.simulate.output, "Write the samples to FILE instead of standard output");
+  simulate->add_flag("--validate-only", arguments.simulate.validate_only, "Let the server check the scene; simulate nothing");
+  simulate->footer("Samples are comma separated values (with --json: one message a line); events and the report go to\n"
+                   "standard error. Example: rollgait simulate --scene scenes/rattleback.json > rattleback.csv");
+
+  CLI::App* const poincare = app.add_subcommand("poincare", "Periodic gait of a passive walker and its eigenvalues");
+  AddSceneFlags(*poincare, arguments.poincare.scene, arguments.poincare.max_wall_time_s);
+  poincare->add_option("--residual", arguments.poincare.residual, "Largest change of the state over a step, default 1e-12");
+  poincare->add_option("--max-iterations", arguments.poincare.max_iterations, "Of Newton's method, default 40");
+}
+
 // The command that was named on the command line.
 ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& terminal) {
   const std::string command = app.get_subcommands().front()->get_name();
@@ -126,6 +150,8 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "cancel") return RunCancel(arguments.cancel, global, terminal);
   if (command == "delete") return RunDelete(arguments.remove, global, terminal);
   if (command == "models") return RunModels(arguments.models, global, terminal);
+  if (command == "simulate") return RunSimulate(arguments.simulate, global, terminal);
+  if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);
   if (command == "report") return RunReport(arguments.report, global, terminal);
   if (command == "server-info") return RunServerInfo(global, terminal);
   const CLI::App* const topic = arguments.help_command.empty() ? &app : app.get_subcommand(arguments.help_command);
@@ -140,6 +166,7 @@ int RunClient(int argc, const char* const* argv, const Terminal& terminal) {
   Arguments arguments;
   AddGlobal(app, arguments.global);
   AddSolveCommands(app, arguments);
+  AddSceneCommands(app, arguments);
   AddOtherCommands(app, arguments);
   try {
     app.parse(argc, argv);

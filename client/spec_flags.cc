@@ -56,6 +56,28 @@ v1::CostTerm ParseCost(const std::string& cost) {
   return term;
 }
 
+// "NAME=NUMBER".
+std::pair<std::string, double> ParseAssignment(const std::string& flag, const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) {
+    try {
+      size_t used = 0;
+      const std::string number = text.substr(equals + 1);
+      const double value = std::stod(number, &used);
+      if (used == number.size()) return {text.substr(0, equals), value};
+    } catch (const std::logic_error&) {
+      // Not a number; said below.
+    }
+  }
+  throw Failure(ExitCode::kUsage, flag + " " + text + ": must be NAME=NUMBER");
+}
+
+bool HasBodyFlags(const SpecFlags& flags) {
+  return flags.model || flags.sex || flags.stature_m || flags.mass_kg || flags.feet || flags.ranges || flags.toes ||
+         flags.sagittal ||
+         flags.drop_arms || flags.rigid_trunk || !flags.locks.empty() || !flags.segments.empty();
+}
+
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed) return;
   v1::Motion& motion = *spec.mutable_motion();
@@ -100,6 +122,18 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
   command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]")->group("Body");
+  command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
+      ->group("Body")
+      ->take_all();
+  command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
+  command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
+  command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
+  command.add_flag("--sagittal", flags.sagittal, "Fix everything that moves sideways")->group("Body");
+  command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
+  command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
+  command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
+      ->group("Body")
+      ->take_all();
 }
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
@@ -137,12 +171,34 @@ void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
   }
   if (flags.stature_m) selection.set_stature_m(*flags.stature_m);
   if (flags.mass_kg) selection.set_body_mass_kg(*flags.mass_kg);
+  for (const std::string& text : flags.segments) {
+    const auto [segment, length] = ParseAssignment("--segment", text);
+    (*selection.mutable_segment_lengths_m())[segment] = length;
+  }
+  if (flags.feet) {
+    selection.set_feet(Lookup<v1::ModelSelection::Feet>("--feet", *flags.feet,
+                                                        {{"one", v1::ModelSelection::FEET_ONE_ELLIPSOID},
+                                                         {"two", v1::ModelSelection::FEET_TWO_ELLIPSOIDS}}));
+  }
+  if (flags.ranges) {
+    selection.set_ranges(Lookup<v1::ModelSelection::Ranges>("--ranges", *flags.ranges,
+                                                            {{"anatomical", v1::ModelSelection::RANGES_ANATOMICAL},
+                                                             {"walking", v1::ModelSelection::RANGES_WALKING}}));
+  }
+  if (flags.toes) selection.set_toes(true);
+  if (flags.sagittal) selection.set_sagittal(true);
+  if (flags.drop_arms) selection.set_drop_arms(true);
+  if (flags.rigid_trunk) selection.set_rigid_trunk(true);
+  for (const std::string& text : flags.locks) {
+    const auto [joint, degrees] = ParseAssignment("--lock", text);
+    (*selection.mutable_locked_joints_rad())[joint] = degrees * kPi / 180.0;
+  }
 }
 
 v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   v1::SolveSpec spec;
   if (!flags.file.empty()) ReadJsonFile(flags.file, spec);
-  if (flags.model || flags.sex || flags.stature_m || flags.mass_kg) ApplyBodyFlags(flags, *spec.mutable_model());
+  if (HasBodyFlags(flags)) ApplyBodyFlags(flags, *spec.mutable_model());
   if (flags.slope_deg) spec.set_slope_rad(*flags.slope_deg * kPi / 180.0);
   ApplyMotion(flags, spec);
   if (flags.cycle) {

@@ -21,13 +21,15 @@ struct SpecFlags {
   std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;
   std::optional<double> friction, clearance_m, tolerance, time_limit_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
-  bool free_speed = false;
+  std::optional<std::string> feet, ranges;
+  bool free_speed = false, toes = false, sagittal = false, drop_arms = false, rigid_trunk = false;
+  std::vector<std::string> locks, segments;  // "knee_l=20" in degrees, "thigh=0.45" in m
   std::vector<std::string> costs;  // "torque", "work:0.5" …
 };
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags);
 
-// Only the flags of model selection (--sex, --stature, --mass), for other commands.
+// Only the flags of model selection but the name (--sex, --stature, --lock …), for other commands.
 void AddBodyFlags(CLI::App& command, SpecFlags& flags);
 
 // The model selection of the flags, on top of `selection`.

@@ -3,9 +3,11 @@
 #ifndef ROLLGAIT_CLIENT_COMMANDS_COMMANDS_H_
 #define ROLLGAIT_CLIENT_COMMANDS_COMMANDS_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "client/commands/scene_input.h"
 #include "client/connection.h"
 #include "client/failure.h"
 #include "client/spec_flags.h"
@@ -58,6 +60,24 @@ struct ReportOptions {
   std::string title;
 };
 ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct SimulateOptions {
+  SceneInput scene;
+  std::string output;  // empty: standard output
+  bool validate_only = false;
+  std::optional<double> max_wall_time_s;
+};
+// Samples as comma separated values, or messages as JSON lines; events and the report on terminal.err. kNoSolution if the
+// simulation ended early. Ctrl-C ends it.
+ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct PoincareOptions {
+  SceneInput scene;
+  std::optional<double> residual, max_wall_time_s;
+  std::optional<int> max_iterations;
+};
+// The periodic gait of a passive walker. kNoSolution if the search did not converge.
+ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal);
 

@@ -2,9 +2,9 @@
 # share/bash-completion/completions/rollgait.
 _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
-  local commands="solve watch get list cancel delete models report server-info help"
+  local commands="solve watch get list cancel delete models report simulate poincare server-info help"
   local global="--server --json --quiet --timeout --version --help"
-  local body="--sex --stature --mass"
+  local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     if [[ " $commands " == *" $word "* ]]; then command=$word; break; fi
   done
@@ -14,9 +14,11 @@ _rollgait() {
     --cycle) COMPREPLY=($(compgen -W "half full" -- "$current")); return ;;
     --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
     --cost) COMPREPLY=($(compgen -W "torque torque-rate work time" -- "$current")); return ;;
+    --feet) COMPREPLY=($(compgen -W "one two" -- "$current")); return ;;
+    --ranges) COMPREPLY=($(compgen -W "anatomical walking" -- "$current")); return ;;
     --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;
     --state) COMPREPLY=($(compgen -W "queued running succeeded failed cancelled" -- "$current")); return ;;
-    --output | -o | --spec) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --output | -o | --spec | --scene) COMPREPLY=($(compgen -f -- "$current")); return ;;
   esac
   if [[ $current == -* ]]; then
     local options=$global
@@ -29,6 +31,8 @@ _rollgait() {
       list) options+=" --state --limit" ;;
       models) options+=" $body" ;;
       report) options+=" --output --title" ;;
+      simulate) options+=" --scene --duration --tolerance --output-step --output --validate-only --max-wall-time" ;;
+      poincare) options+=" --scene --duration --tolerance --residual --max-iterations --max-wall-time" ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))
     return
