@@ -5,13 +5,14 @@
 cmake_minimum_required(VERSION 3.25)
 
 # What a floor may include besides itself. Not in the list: not allowed, so every edge points one way.
-set(CORE_FLOORS base math geometry multibody nlp contact models ocp trajectory transcription validation gait)
+set(CORE_FLOORS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)
 set(core_base)
 set(core_math base)
 set(core_geometry base math)
 set(core_multibody base math)
 set(core_nlp base math)  # knows no physics
 set(core_contact base math geometry multibody)
+set(core_simulation base math geometry multibody contact)  # knows no model and no optimisation
 set(core_models base math geometry multibody contact)
 set(core_ocp base math geometry multibody contact)
 set(core_trajectory base math geometry multibody contact models ocp)
@@ -21,14 +22,15 @@ set(core_gait base math geometry multibody nlp contact models ocp trajectory tra
 
 # The same for the parts of the server; "core" stands for core/, "proto" for the generated headers. Result and the
 # contract checks of core/base are common property of the server.
-set(SERVER_PARTS base convert store service rpc agent solve)
+set(SERVER_PARTS base convert store service rpc agent solve simulate)
 set(server_base proto)
 set(server_convert base proto core)
 set(server_store convert base proto)
 set(server_service store convert base proto core)
-set(server_rpc service store convert base proto)
+set(server_rpc service simulate store convert base proto)
 set(server_agent store convert base proto)
 set(server_solve convert base proto core)
+set(server_simulate agent convert base proto core)  # agent: the child process and its stream
 
 # Headers with few friends: the pattern of what is written in the #include, then the pattern of the files that may.
 set(RESTRICTED

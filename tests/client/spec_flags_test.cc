@@ -63,6 +63,24 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
 }
 
 // What the server must refuse must reach it.
+TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
+  const v1::ModelSelection body =
+      Parse("--model human29 --segment thigh=0.45 --segment foot=0.3 --feet two --ranges walking --toes --sagittal --drop-arms --rigid-trunk "
+            "--lock knee_l=20 --lock elbow_r=-1.5")
+          .model();
+  EXPECT_EQ(body.segment_lengths_m().at("thigh"), 0.45);
+  EXPECT_EQ(body.segment_lengths_m().at("foot"), 0.3);
+  EXPECT_EQ(body.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);
+  EXPECT_EQ(body.ranges(), v1::ModelSelection::RANGES_WALKING);
+  EXPECT_TRUE(body.toes() && body.sagittal() && body.drop_arms() && body.rigid_trunk());
+  EXPECT_NEAR(body.locked_joints_rad().at("knee_l"), M_PI / 9, 1e-15);
+  EXPECT_NEAR(body.locked_joints_rad().at("elbow_r"), -M_PI / 120, 1e-15);
+  EXPECT_FALSE(Parse("--drop-arms").model().toes());
+  for (const char* line : {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg", "--segment thigh="}) {
+    EXPECT_THROW(Parse(line), Failure) << line;
+  }
+}
+
 TEST(SpecFlagsTest, OutOfRangeNumbersArePassedOn) {
   EXPECT_TRUE(std::isnan(Parse("--speed nan").motion().speed_m_s()));
   EXPECT_NEAR(Parse("--slope 80").slope_rad(), 80 * M_PI / 180, 1e-15);

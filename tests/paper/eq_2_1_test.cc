@@ -25,7 +25,7 @@ Distances At(double height) {
   for (int i = 0; i < 20000; ++i) {
     const Vector3 x = random.Uniform(0, 1) < 0.5 ? random.Unit() : Vector3(random.Uniform(0, 1) * random.Unit());
     const Vector3 p = link.p_WL + link.R_WL * (tree.surface.p_LE + tree.surface.R_LE *
-                                                   tree.surface.surface.semi_axes().cwiseProduct(x));
+                                                   tree.surface.surface.ellipsoid()->semi_axes().cwiseProduct(x));
     least = std::min(least, std::max(p.z(), 0.0));  // distance to the half-space z <= 0
   }
   return {ComputeRollingContact(tree.surface, state).gap, least};

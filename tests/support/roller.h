@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/contact/constrained_dynamics.h"
-#include "core/validation/integrator.h"
+#include "core/math/integrator.h"
 #include "tests/support/rolling_body.h"
 
 namespace rollgait {

@@ -120,7 +120,7 @@ TEST(CheckRequest, FillsTheOptionalsOfCosts) {
   request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0, 1}, {}}}}, 2.5});
   request.costs.push_back({GaitRequest::SquaredTorqueRate{{{"hip_l", 0.0}}}, {}});
   const GaitSpec spec = CheckRequest(request).value();
-  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(spec.costs[0].term).smoothing, 1);
+  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(spec.costs[0].term).smoothing, 20);
   EXPECT_EQ(std::get<GaitRequest::Tracking>(spec.costs[1].term).channels[0].weight, 1);
   EXPECT_EQ(spec.costs[1].weight, 2.5);
   const auto& weights = std::get<GaitRequest::SquaredTorqueRate>(spec.costs[2].term).joint_weights;
@@ -199,6 +199,51 @@ TEST(CheckRequest, BoundsTheAnswerToHostileNames) {
 TEST(CheckRequest, AcceptsAJointRangeThatExcludesStanding) {
   GaitRequest request = Planar();
   request.limits.joint_position["knee_l"] = {0.3, 1.5};
+  EXPECT_TRUE(CheckRequest(request).ok());
+}
+
+// Heel strike, foot flat, opposite toe-off, heel-off; the intervals of a support are shared by its two phases.
+TEST(CheckRequest, FeetOfTwoSurfacesRollFromHeelToToe) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.body.feet = FootShape::kTwoEllipsoids;
+  request.discretization.single_support_intervals = 9;
+  const GaitSpec spec = CheckRequest(request).value();
+  const Scene& scene = spec.scene;
+  const int left_heel = scene.FindContact("left_heel"), left_toe = scene.FindContact("left_forefoot");
+  const int right_toe = scene.FindContact("right_forefoot");
+  ASSERT_EQ(spec.phases.size(), 4u);
+  EXPECT_EQ(spec.phases[0].contacts, (std::vector<int>{left_heel, right_toe}));
+  EXPECT_EQ(spec.phases[1].contacts, (std::vector<int>{left_heel, left_toe, right_toe}));
+  EXPECT_EQ(spec.phases[2].contacts, (std::vector<int>{left_heel, left_toe}));
+  EXPECT_EQ(spec.phases[3].contacts, (std::vector<int>{left_toe}));
+  EXPECT_EQ(spec.phases[1].intervals, 2);
+  EXPECT_EQ(spec.phases[2].intervals, 5);
+  request.cycle = Cycle::kFull;
+  EXPECT_EQ(CheckRequest(request).value().phases.size(), 8u);
+}
+
+// A stiff knee on one side walks, but not as half a cycle and its mirror image.
+TEST(CheckRequest, BodiesWithoutSymmetryNeedTheFullCycle) {
+  GaitRequest request;
+  request.body.model = "human29";
+  request.body.locked_joints = {{"knee_l", 0.1}};
+  const Result<GaitSpec> half = CheckRequest(request);
+  ASSERT_FALSE(half.ok());
+  EXPECT_EQ(half.violations().front().field, "cycle");
+  request.cycle = Cycle::kFull;
+  EXPECT_TRUE(CheckRequest(request).ok());
+}
+
+TEST(CheckRequest, TheChartOfTheFloatingBaseCannotBeWidened) {
+  GaitRequest request;
+  request.body.model = "human29";
+  request.limits.joint_position["base_roll"] = {-0.5, 1.2};
+  const Result<GaitSpec> wide = CheckRequest(request);
+  ASSERT_FALSE(wide.ok());
+  EXPECT_EQ(wide.violations().front().field, "limits.joint_position[\"base_roll\"]");
+  request.limits.joint_position["base_roll"] = {-0.5, 0.5};
+  request.limits.joint_position["base_pitch"] = {-2, 2};
   EXPECT_TRUE(CheckRequest(request).ok());
 }
 

@@ -105,7 +105,7 @@ TEST(PlanarHumanTest, LeftMirrorsRight) {
     EXPECT_EQ(left.mirror_contact, 1);
     EXPECT_EQ(right.mirror_contact, 0);
     EXPECT_EQ(left.p_LE, mirror * right.p_LE);
-    EXPECT_EQ(left.surface.semi_axes(), right.surface.semi_axes());
+    EXPECT_EQ(left.surface.ellipsoid()->semi_axes(), right.surface.ellipsoid()->semi_axes());
   }
 }
 
@@ -154,7 +154,7 @@ TEST(PlanarHumanTest, DefaultMaleHasTheStatedFeetAndLimits) {
   const ContactSurface& foot = scene.contacts[0];
   EXPECT_EQ(foot.joint, scene.model.Find("ankle_l"));
   EXPECT_EQ(foot.directions, (std::vector<int>{0, 2}));
-  const Vector3 axes = foot.surface.semi_axes();
+  const Vector3 axes = foot.surface.ellipsoid()->semi_axes();
   EXPECT_NEAR(axes.x(), 0.1355, 1e-12);
   EXPECT_NEAR(axes.x() * axes.x() / axes.z(), 0.3 * 0.945, 1e-12);
   EXPECT_NEAR(foot.p_LE.x() - axes.x(), -0.217 * 0.271, 1e-12);  // heel behind the ankle

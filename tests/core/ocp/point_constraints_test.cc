@@ -1,8 +1,11 @@
-// Every constraint of the planar walker on its own: derivatives against differences, patterns against what is delivered.
+// Every constraint of a walker on its own, in the plane and in space, with feet of one and of two surfaces: derivatives against differences, patterns against what is delivered.
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
+#include <string>
+
+#include <Eigen/Eigenvalues>
 
 #include "core/gait/build_problem.h"
 #include "core/ocp/constraints/contact_point.h"
@@ -39,17 +42,25 @@ class Evaluator {
   std::vector<ContactDerivatives<Dual>> dual_contacts_;
 };
 
-class PointConstraintsTest : public ::testing::Test {
+struct Body {
+  const char* model;
+  FootShape feet;
+};
+
+class PointConstraintsTest : public ::testing::TestWithParam<Body> {
  protected:
-  static std::unique_ptr<OptimalControlProblem> Problem() {
+  std::unique_ptr<OptimalControlProblem> Problem() {
     GaitRequest request;
-    request.body.model = "planar";
+    request.body.model = GetParam().model;
+    request.body.feet = GetParam().feet;
     request.slope = 0.1;
     request.motion.speed = 1.3;
     request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
     request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
     return BuildProblem(CheckRequest(request).value());
   }
+
+  bool TwoSurfaces() const { return GetParam().feet == FootShape::kTwoEllipsoids; }
 
   void CheckDerivatives(PointConstraint& constraint, int size) {
     std::mt19937 random(3);
@@ -104,7 +115,7 @@ class PointConstraintsTest : public ::testing::Test {
   Evaluator evaluator_{*problem_};
 };
 
-TEST_F(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
+TEST_P(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
   int checked = 0;
   for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
     for (bool at_node : {false, true}) {
@@ -117,7 +128,7 @@ TEST_F(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
   EXPECT_GE(checked, 12);
 }
 
-TEST_F(PointConstraintsTest, DerivativesOfTheEntryRows) {
+TEST_P(PointConstraintsTest, DerivativesOfTheEntryRows) {
   int checked = 0;
   for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
     for (const auto& constraint : problem_->EntryConstraints(phase)) {
@@ -125,11 +136,38 @@ TEST_F(PointConstraintsTest, DerivativesOfTheEntryRows) {
       ++checked;
     }
   }
-  // Touch-down: gap, rest and point; lift-off: point.
-  EXPECT_EQ(checked, 4);
+  // For every touch-down gap, rest and point; for every lift-off a point.
+  EXPECT_EQ(checked, TwoSurfaces() ? 8 : 4);
 }
 
-TEST_F(PointConstraintsTest, ClearanceIsAParabolaOverThePhase) {
+// Two surfaces of one rigid foot: the second is not held along x, which the first holds already. The rows that are left are
+// independent of each other.
+TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
+  const int n = problem_->model.size();
+  for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
+    const PointLayout layout = problem_->Layout(phase);
+    VectorX z = VectorX::Zero(layout.size());
+    for (int j = 0; j < layout.n; ++j) z(j) = problem_->model.joint(j).name.starts_with("knee") ? 0.3 : 0.02 * j;
+    MatrixX rolling(0, layout.size());
+    for (const auto& constraint : problem_->PointConstraints(phase, false)) {
+      if (!constraint->Name(0).starts_with("rolling")) continue;
+      MatrixX rows = MatrixX::Zero(constraint->rows(), layout.size());
+      constraint->Jacobian(evaluator_.At(z), rows);
+      MatrixX all(rolling.rows() + rows.rows(), layout.size());
+      all << rolling, rows;
+      rolling = all;
+    }
+    ASSERT_EQ(rolling.rows(), layout.forces);
+    const MatrixX velocity = rolling.middleCols(layout.v(), n);
+    const Eigen::SelfAdjointEigenSolver<MatrixX> solver(velocity * velocity.transpose());
+    EXPECT_GT(solver.eigenvalues()(0), 1e-4) << "phase " << phase;  // 1 cm of lever, squared
+    if (TwoSurfaces() && phase == 2) {
+      EXPECT_EQ(layout.forces, GetParam().model == std::string("planar") ? 3 : 5);
+    }
+  }
+}
+
+TEST_P(PointConstraintsTest, ClearanceIsAParabolaOverThePhase) {
   GapConstraint gap(problem_->model, problem_->contacts, 0, problem_->Layout(0), GapConstraint::Kind::kClearance, 0.02);
   double lower, upper;
   gap.Bounds(0.5, &lower, &upper);
@@ -141,7 +179,7 @@ TEST_F(PointConstraintsTest, ClearanceIsAParabolaOverThePhase) {
   EXPECT_EQ(lower, 0);
 }
 
-TEST_F(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
+TEST_P(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
   PointLayout layout;
   layout.forces = 3;
   VectorX z(3);
@@ -159,6 +197,12 @@ TEST_F(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
   EXPECT_NEAR(g[0], 80, 1e-12);
   EXPECT_NEAR(g[1], 20, 1e-12);
 }
+
+INSTANTIATE_TEST_SUITE_P(Bodies, PointConstraintsTest,
+                         ::testing::Values(Body{"planar", FootShape::kOneEllipsoid},
+                                           Body{"planar", FootShape::kTwoEllipsoids},
+                                           Body{"human29", FootShape::kOneEllipsoid},
+                                           Body{"human29", FootShape::kTwoEllipsoids}));
 
 }  // namespace
 }  // namespace rollgait

@@ -1,53 +1,23 @@
-// The evaluations of the NLP allocate nothing. Matrices of Eigen come from malloc, which the linker wraps in this program
-// (see CMakeLists.txt); everything else comes from operator new, which is replaced here.
+// The evaluations of the NLP allocate nothing.
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/transcription/collocation_nlp.h"
 #include "tests/core/transcription/planar_request.h"
-
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-extern "C" {
-void* __real_malloc(size_t size);
-void* __real_realloc(void* block, size_t size);
-void* __wrap_malloc(size_t size) {
-  ++allocations;
-  return __real_malloc(size);
-}
-void* __wrap_realloc(void* block, size_t size) {
-  ++allocations;
-  return __real_realloc(block, size);
-}
-}
-
-// Not inlined: the compiler would take free() for the wrong partner of operator new.
-__attribute__((noinline)) void* operator new(size_t size) {
-  ++allocations;
-  void* block = __real_malloc(size == 0 ? 1 : size);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-__attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
-__attribute__((noinline)) void operator delete(void* block, size_t) noexcept { std::free(block); }
+#include "tests/support/allocation_counter.h"
 
 namespace rollgait {
 namespace {
 
 TEST(AllocationCounter, SeesVectorsAndMatrices) {
-  long before = allocations;
+  long before = Allocations();
   const VectorX vector = VectorX::Random(100);  // values that the compiler cannot do without
   EXPECT_GT(vector.norm(), 0);
-  EXPECT_GT(allocations, before);
-  before = allocations;
+  EXPECT_GT(Allocations(), before);
+  before = Allocations();
   operator delete(operator new(static_cast<size_t>(vector.size())));
-  EXPECT_GT(allocations, before);
+  EXPECT_GT(Allocations(), before);
 }
 
 class AllocationTest : public ::testing::TestWithParam<Scheme> {};
@@ -66,9 +36,9 @@ TEST_P(AllocationTest, EvaluationsAllocateNothing) {
   double objective;
   bool finite = true;
   const auto count = [&finite](auto&& evaluate) {
-    const long before = allocations;
+    const long before = Allocations();
     finite &= evaluate();
-    return allocations - before;
+    return Allocations() - before;
   };
   EXPECT_EQ(count([&] { return nlp.Objective(x.data(), &objective); }), 0);
   EXPECT_EQ(count([&] { return nlp.Gradient(x.data(), gradient.data()); }), 0);

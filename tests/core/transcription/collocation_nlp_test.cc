@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -110,6 +111,32 @@ TEST_P(CollocationNlpTest, HessianMeetsDifferencesOfFirstDerivatives) {
     int row;
     const double error = (difference - hessian.col(j)).cwiseAbs().maxCoeff(&row);
     EXPECT_LT(error, 1e-5 * (1 + difference.cwiseAbs().maxCoeff())) << "column " << j << " row " << row;
+  }
+}
+
+TEST_P(CollocationNlpTest, BothDerivativesAtOnceAreThoseApart) {
+  const VectorX lambda = VectorX::LinSpaced(nlp_->constraints(), -1, 2);
+  VectorX jacobian(nlp_->jacobian_pattern().size()), hessian(nlp_->hessian_pattern().size());
+  VectorX jacobian_apart(jacobian), hessian_apart(hessian);
+  ASSERT_TRUE(nlp_->Derivatives(x_.data(), 0.7, lambda.data(), jacobian.data(), hessian.data()));
+  ASSERT_TRUE(nlp_->Jacobian(x_.data(), jacobian_apart.data()));
+  ASSERT_TRUE(nlp_->Hessian(x_.data(), 0.7, lambda.data(), hessian_apart.data()));
+  EXPECT_EQ(jacobian, jacobian_apart);
+  EXPECT_EQ(hessian, hessian_apart);
+}
+
+// Whatever is eliminated early is known by then to few: every unknown and row has a group, and none but the first node, the
+// durations and the displacement is in the last one.
+TEST_P(CollocationNlpTest, EliminationFollowsTheStages) {
+  const EliminationGroups groups = nlp_->elimination_groups();
+  ASSERT_EQ(static_cast<int>(groups.variables.size()), nlp_->variables());
+  ASSERT_EQ(static_cast<int>(groups.constraints.size()), nlp_->constraints());
+  const int last = groups.variables.back();
+  const long in_last = std::count(groups.variables.begin(), groups.variables.end(), last);
+  EXPECT_EQ(in_last, 18 + nlp_->layout().phases() + 1);
+  for (int k = 1; k <= nlp_->layout().intervals(); ++k) {
+    EXPECT_LT(groups.variables[nlp_->layout().efforts(k - 1, 0)], groups.variables[nlp_->layout().node(k)]);
+    EXPECT_LT(groups.variables[nlp_->layout().node(k)], last);
   }
 }
 

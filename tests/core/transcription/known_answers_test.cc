@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/nlp/ipopt_solver.h"
+#include "core/nlp/solve_nlp.h"
 #include "core/ocp/costs/point_costs.h"
 #include "core/transcription/collocation_nlp.h"
 
@@ -73,9 +73,9 @@ class FromRestToRest : public NlpProblem {
 };
 
 NlpResult Solve(CollocationNlp& nlp, NlpProblem& problem) {
-  IpoptOptions options;
+  NlpOptions options;
   options.tolerance = 1e-10;
-  const NlpResult result = SolveWithIpopt(problem, {nlp.MakeStart(Resting()), {}, {}, {}}, options, {});
+  const NlpResult result = SolveNlp(problem, {nlp.MakeStart(Resting()), {}, {}, {}}, options, {});
   EXPECT_EQ(result.termination, Termination::kOptimal) << result.message;
   return result;
 }

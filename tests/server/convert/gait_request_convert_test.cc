@@ -176,5 +176,29 @@ TEST(DecodeBody, NamesFieldsRelativeToTheSelection) {
   EXPECT_THAT(Fields(body.violations()), ElementsAre("sex"));
 }
 
+TEST(DecodeBody, EveryReductionArrives) {
+  const v1::SolveSpec spec = Parse(
+      "model { name: 'human29' segment_lengths_m { key: 'thigh' value: 0.45 } feet: FEET_TWO_ELLIPSOIDS toes: true "
+      "ranges: RANGES_WALKING "
+      "sagittal: true drop_arms: true rigid_trunk: true locked_joints_rad { key: 'knee_l' value: 0.2 } }");
+  const BodyRequest body = DecodeBody(spec.model()).value();
+  EXPECT_EQ(body.segment_lengths.at("thigh"), 0.45);
+  EXPECT_EQ(body.feet, FootShape::kTwoEllipsoids);
+  EXPECT_EQ(body.ranges, JointRanges::kWalking);
+  EXPECT_TRUE(body.toes && body.sagittal && body.drop_arms && body.rigid_trunk);
+  EXPECT_EQ(body.locked_joints.at("knee_l"), 0.2);
+  const BodyRequest unset = DecodeBody(v1::ModelSelection()).value();
+  EXPECT_FALSE(unset.feet || unset.ranges || unset.toes || unset.sagittal || unset.drop_arms || unset.rigid_trunk);
+  EXPECT_TRUE(unset.segment_lengths.empty() && unset.locked_joints.empty());
+}
+
+TEST(DecodeBody, RefusesFeetWithoutAName) {
+  v1::ModelSelection selection;
+  selection.set_feet(static_cast<v1::ModelSelection::Feet>(7));
+  const Result<BodyRequest> body = DecodeBody(selection);
+  ASSERT_FALSE(body.ok());
+  EXPECT_THAT(Fields(body.violations()), ElementsAre("feet"));
+}
+
 }  // namespace
 }  // namespace rollgait::server

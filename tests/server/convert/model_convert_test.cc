@@ -108,7 +108,7 @@ TEST(EncodeModel, ContactsNameTheirSurfaceAndMirror) {
     const ContactSurface& contact = scene.contacts[i];
     EXPECT_EQ(encoded.contacts(i).name(), contact.name);
     EXPECT_EQ(encoded.contacts(i).joint(), contact.joint);
-    EXPECT_EQ(Decode(encoded.contacts(i).surface().ellipsoid().semi_axes_m()), contact.surface.semi_axes());
+    EXPECT_EQ(Decode(encoded.contacts(i).surface().ellipsoid().semi_axes_m()), contact.surface.ellipsoid()->semi_axes());
     EXPECT_EQ(Decode(encoded.contacts(i).center_m()), contact.p_LE);
     EXPECT_LT((Decode(encoded.contacts(i).orientation()) - contact.R_LE).norm(), 1e-14);
     EXPECT_EQ(encoded.contacts(i).mirror_contact(), scene.contacts[1 - i].name);
@@ -132,6 +132,23 @@ TEST(EncodeSummary, IsTheSameForTheCatalogueAndTheModel) {
               EncodeModel(BuildScene(body).value(), 9.81).summary().SerializeAsString());
     EXPECT_GT(EncodeSummary(entry).degrees_of_freedom(), 0);
   }
+}
+
+// What comes back selects the same body again.
+TEST(EncodeModel, SelectionNamesTheReductions) {
+  BodyRequest body;
+  body.model = "human29";
+  body.toes = true;
+  body.rigid_trunk = true;
+  body.segment_lengths = {{"thigh", 0.45}};
+  body.locked_joints = {{"elbow_l", 0.3}, {"elbow_r", 0.3}};
+  const v1::ModelSelection selection = EncodeModel(BuildScene(body).value(), 9.81).selection();
+  EXPECT_EQ(selection.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);
+  EXPECT_TRUE(selection.toes() && selection.rigid_trunk());
+  EXPECT_FALSE(selection.sagittal() || selection.drop_arms());
+  EXPECT_EQ(selection.segment_lengths_m().at("thigh"), 0.45);
+  EXPECT_EQ(selection.locked_joints_rad().at("elbow_r"), 0.3);
+  EXPECT_EQ(selection.locked_joints_rad().size(), 2u);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/validation/integrator.h"
+#include "core/math/integrator.h"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +73,58 @@ TEST(Dop853, StepsFollowTheProblem) {
   EXPECT_GT(integrator.accepted_steps(), 5);
   EXPECT_LT(integrator.accepted_steps(), 60);
   EXPECT_GT(integrator.proposed_step(), 0);
+}
+
+// Error of the continuous extension at the middle of a step of Kepler's ellipse against ever shorter steps; order 7 means
+// an error of h⁸ within one step.
+TEST(Dop853, InterpolationWithinAStepIsOfOrderSeven) {
+  std::vector<MeshError> errors;
+  for (double h : {0.05, 0.07, 0.1}) {
+    Dop853 integrator;
+    double t = 0.3, worst = 0;
+    VectorX x = Eigen::Vector4d(0.4, 0.3, -1.1, 1.3), between, exact;
+    const VectorX start = x;
+    int attempts = 0;
+    integrator.Start(Kepler, t, x, h);
+    ASSERT_EQ(integrator.Advance(Kepler, t + h, 1, 10, &t, &x, &attempts), IntegrationStatus::kReachedEnd);
+    integrator.PrepareInterpolation(Kepler);
+    integrator.Interpolate(integrator.step_start(), &between);
+    EXPECT_TRUE(MatrixNear(between, start, 1e-15));
+    integrator.Interpolate(t, &between);
+    EXPECT_TRUE(MatrixNear(between, x, 1e-14));
+    for (double s : {0.2, 0.5, 0.9}) {
+      Dop853 fine;
+      exact = start;
+      Dop853::Options options;
+      options.tolerance = 1e-15;
+      fine.Integrate(Kepler, 0.3, 0.3 + s * h, options, &exact);
+      integrator.Interpolate(0.3 + s * h, &between);
+      worst = std::max(worst, (between - exact).norm());
+    }
+    errors.push_back({h, worst});
+  }
+  const auto order = ObserveOrder(errors);
+  ASSERT_TRUE(order.has_value());
+  EXPECT_NEAR(order->order, 8.0, 0.7);
+}
+
+// A quadrature of any size changes no step.
+TEST(Dop853, QuadraturesDoNotTakePartInTheErrorControl) {
+  Dop853 plain, with;
+  Dop853::Options options;
+  VectorX x = KeplerStart(), extended(5);
+  extended << KeplerStart(), 0;
+  with.SetQuadratures(1);
+  const auto right_side = [](double t, const VectorX& y, VectorX* dy) {
+    VectorX part(4);
+    Kepler(t, y, &part);
+    *dy << part, 1e9 * y[1];
+  };
+  ASSERT_EQ(plain.Integrate(Kepler, 0, M_PI, options, &x), IntegrationStatus::kReachedEnd);
+  ASSERT_EQ(with.Integrate(right_side, 0, M_PI, options, &extended), IntegrationStatus::kReachedEnd);
+  EXPECT_TRUE(MatrixNear(extended.head(4), x, 0));
+  EXPECT_EQ(with.accepted_steps(), plain.accepted_steps());
+  EXPECT_GT(extended[4], 1e8);
 }
 
 TEST(Dop853, AnEmptySpanDoesNothing) {

@@ -1,0 +1,196 @@
+// What every solver of nonlinear programs must do: Ipopt, the interior point method of our own, and the one that combines them.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/nlp/interior_point.h"
+#include "core/nlp/ipopt_solver.h"
+#include "core/nlp/solve_nlp.h"
+#include "tests/core/nlp/hs071.h"
+
+namespace rollgait {
+namespace {
+
+using Solve = NlpResult (*)(NlpProblem&, const NlpStart&, const NlpOptions&, const SolveControl&);
+
+NlpResult SolveAlone(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
+                     const SolveControl& control) {
+  return SolveWithInteriorPoint(problem, start, options, control).result;
+}
+
+class NlpSolverTest : public ::testing::TestWithParam<Solve> {
+ protected:
+  NlpResult SolveHs071(double sum_of_squares, const NlpOptions& options, const SolveControl& control = {}) {
+    Hs071 problem(sum_of_squares);
+    return GetParam()(problem, {Hs071::Start(), {}, {}, {}}, options, control);
+  }
+};
+
+// Optimum and multipliers as published with the problem (Ipopt's tutorial prints them to these digits).
+TEST_P(NlpSolverTest, FindsTheKnownOptimumAndItsMultipliers) {
+  NlpOptions options;
+  options.tolerance = 1e-9;
+  const NlpResult result = SolveHs071(40, options);
+  ASSERT_EQ(result.termination, Termination::kOptimal) << result.message;
+  EXPECT_NEAR(result.objective, 17.0140173, 1e-6);
+  EXPECT_TRUE(result.x.isApprox(Eigen::Vector4d(1, 4.7429994, 3.8211503, 1.3794082), 1e-6));
+  EXPECT_NEAR(result.constraint_multipliers(0), -0.5522937, 1e-6);
+  EXPECT_NEAR(result.constraint_multipliers(1), 0.1614686, 1e-6);
+  EXPECT_NEAR(result.lower_bound_multipliers(0), 1.0878712, 1e-6);
+  EXPECT_LT(result.upper_bound_multipliers.cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LE(result.kkt_error, 1e-8);
+  EXPECT_LE(result.constraint_violation, 1e-8);
+  EXPECT_GT(result.iterations, 0);
+}
+
+// With x ≤ 5 the squares add up to at most 100.
+TEST_P(NlpSolverTest, SaysThatAProblemIsInfeasible) {
+  if (GetParam() == SolveAlone) GTEST_SKIP() << "has no restoration phase; see InteriorPoint.AsksForRestoration";
+  const NlpResult result = SolveHs071(150, {});
+  EXPECT_EQ(result.termination, Termination::kInfeasible) << result.message;
+  ASSERT_EQ(result.x.size(), 4);
+  EXPECT_TRUE(result.x.allFinite());
+  EXPECT_GT(result.constraint_violation, 1);
+}
+
+TEST_P(NlpSolverTest, StopsAtTheIterationLimit) {
+  NlpOptions options;
+  options.max_iterations = 2;
+  const NlpResult result = SolveHs071(40, options);
+  EXPECT_EQ(result.termination, Termination::kIterationLimit);
+  EXPECT_EQ(result.iterations, 2);
+  EXPECT_EQ(result.x.size(), 4);
+}
+
+TEST_P(NlpSolverTest, StopsWhenAskedTo) {
+  StopFlag stop;
+  SolveControl control;
+  int last = -1;
+  control.stop = &stop;
+  control.observer = [&](const IterationInfo& info) {
+    last = info.index;
+    if (info.index == 3) stop.Request();
+  };
+  const NlpResult result = SolveHs071(40, {}, control);
+  EXPECT_EQ(result.termination, Termination::kCancelled);
+  EXPECT_EQ(last, 3);
+}
+
+TEST_P(NlpSolverTest, StopsWhenItsTimeIsUp) {
+  NlpOptions options;
+  options.max_wall_time_s = 0;
+  const NlpResult result = SolveHs071(40, options);
+  EXPECT_EQ(result.termination, Termination::kTimeLimit);
+  EXPECT_NE(result.message.find("max_wall_time_s"), std::string::npos);
+}
+
+TEST_P(NlpSolverTest, ReportsEveryIterationInOrder) {
+  NlpOptions options;
+  options.mesh = 3;
+  std::vector<IterationInfo> seen;
+  SolveControl control;
+  control.observer = [&seen](const IterationInfo& info) { seen.push_back(info); };
+  const NlpResult result = SolveHs071(40, options, control);
+  ASSERT_EQ(static_cast<int>(seen.size()), result.iterations + 1);
+  for (size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(seen[i].index, static_cast<int>(i));
+    EXPECT_EQ(seen[i].mesh, 3);
+  }
+  EXPECT_NEAR(seen.back().objective, result.objective, 1e-4);
+  EXPECT_LE(seen.back().primal_infeasibility, 1e-6);
+  EXPECT_LT(seen.back().barrier_parameter, seen.front().barrier_parameter);
+}
+
+TEST_P(NlpSolverTest, WarmStartKeepsTheMultipliersAndSavesIterations) {
+  const NlpResult cold = SolveHs071(40, {});
+  ASSERT_EQ(cold.termination, Termination::kOptimal);
+  Hs071 problem(40.1);
+  NlpOptions options;
+  const NlpResult from_cold = GetParam()(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+  options.initial_barrier = 1e-6;
+  const NlpResult warm = GetParam()(problem,
+                                    {cold.x, cold.constraint_multipliers, cold.lower_bound_multipliers,
+                                     cold.upper_bound_multipliers},
+                                    options, {});
+  ASSERT_EQ(warm.termination, Termination::kOptimal) << warm.message;
+  EXPECT_NEAR(warm.objective, from_cold.objective, 1e-5);
+  EXPECT_LT(warm.iterations, from_cold.iterations);
+}
+
+// An objective that is nowhere finite.
+class NotFinite : public Hs071 {
+ public:
+  bool Objective(const double*, double*) override { return false; }
+};
+
+TEST_P(NlpSolverTest, AnObjectiveThatIsNotFiniteEndsInAWordedOutcome) {
+  NotFinite problem;
+  const NlpResult result = GetParam()(problem, {Hs071::Start(), {}, {}, {}}, {}, {});
+  EXPECT_EQ(result.termination, Termination::kNumericalDifficulty);
+  EXPECT_FALSE(result.message.empty());
+}
+
+// Three of the four unknowns cannot move.
+class Fixed : public Hs071 {
+ public:
+  Fixed() {
+    bounds_ = Eigen::Vector4d(1, 4.7429994, 3.8211503, 1.3794082);
+    low_ = bounds_;
+    low_(3) = 1;
+  }
+  const VectorX& lower_bounds() const override { return low_; }
+  const VectorX& upper_bounds() const override { return bounds_; }
+
+ private:
+  VectorX bounds_, low_;
+};
+
+TEST_P(NlpSolverTest, KeepsFixedVariablesWhereTheyAre) {
+  Fixed problem;
+  NlpOptions options;
+  const NlpResult result = GetParam()(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+  ASSERT_EQ(result.x.size(), 4);
+  EXPECT_EQ(result.x.head(3), problem.lower_bounds().head(3));
+}
+
+INSTANTIATE_TEST_SUITE_P(IpoptAndInteriorPointAndBoth, NlpSolverTest,
+                         ::testing::Values(SolveWithIpopt, SolveAlone, SolveNlp));
+
+// Both methods are the same algorithm: the objectives, barrier parameters and step lengths of all iterations agree.
+TEST(InteriorPoint, TakesTheIterationsOfIpopt) {
+  std::vector<IterationInfo> ours, ipopt;
+  SolveControl control;
+  Hs071 problem;
+  control.observer = [&ours](const IterationInfo& info) { ours.push_back(info); };
+  SolveWithInteriorPoint(problem, {Hs071::Start(), {}, {}, {}}, {}, control);
+  control.observer = [&ipopt](const IterationInfo& info) { ipopt.push_back(info); };
+  SolveWithIpopt(problem, {Hs071::Start(), {}, {}, {}}, {}, control);
+  ASSERT_EQ(ours.size(), ipopt.size());
+  for (size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_NEAR(ours[i].objective, ipopt[i].objective, 1e-6) << i;
+    EXPECT_NEAR(ours[i].primal_step, ipopt[i].primal_step, 1e-5) << i;
+    EXPECT_NEAR(ours[i].primal_infeasibility, ipopt[i].primal_infeasibility, 1e-6 + 1e-5 * ipopt[i].primal_infeasibility);
+  }
+}
+
+TEST(InteriorPoint, AsksForRestoration) {
+  Hs071 problem(150);
+  const InteriorPointResult alone = SolveWithInteriorPoint(problem, {Hs071::Start(), {}, {}, {}}, {}, {});
+  EXPECT_TRUE(alone.needs_restoration);
+  std::vector<int> indices;
+  SolveControl control;
+  int restored = 0;
+  control.observer = [&](const IterationInfo& info) {
+    indices.push_back(info.index);
+    restored += info.restoration ? 1 : 0;
+  };
+  const NlpResult both = SolveNlp(problem, {Hs071::Start(), {}, {}, {}}, {}, control);
+  EXPECT_EQ(both.restored_from, alone.result.iterations);
+  EXPECT_GT(restored, 0);
+  for (size_t i = 0; i < indices.size(); ++i) EXPECT_EQ(indices[i], static_cast<int>(i));
+}
+
+TEST(IpoptSolver, NamesItsVersion) { EXPECT_EQ(IpoptVersion().rfind("Ipopt 3.", 0), 0u) << IpoptVersion(); }
+
+}  // namespace
+}  // namespace rollgait

@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/initial_guess.h"
+#include "core/gait/mesh_refinement.h"
+#include "core/nlp/solve_nlp.h"
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+namespace {
+
+class MultiplierTransferTest : public ::testing::TestWithParam<Scheme> {
+ protected:
+  MultiplierTransferTest() {
+    GaitRequest request;
+    request.body.model = "planar";
+    request.slope = 0.1745;
+    request.motion.speed = 1.3;
+    request.discretization.scheme = GetParam();
+    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
+    problem_ = BuildProblem(*spec_);
+    mesh_ = Mesh::Uniform({8, 16});
+    nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam(), mesh_);
+    solution_ = SolveNlp(*nlp_, {nlp_->MakeStart(WalkingGuess(*spec_, *problem_)), {}, {}, {}}, {}, {});
+  }
+
+  std::unique_ptr<GaitSpec> spec_;
+  std::unique_ptr<OptimalControlProblem> problem_;
+  Mesh mesh_;
+  std::unique_ptr<CollocationNlp> nlp_;
+  NlpResult solution_;
+};
+INSTANTIATE_TEST_SUITE_P(Schemes, MultiplierTransferTest,
+                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+
+TEST_P(MultiplierTransferTest, TheSameMeshKeepsThemAll) {
+  ASSERT_EQ(solution_.termination, Termination::kOptimal);
+  const CollocationNlp again(*problem_, GetParam(), mesh_);
+  NlpStart start;
+  again.TransferMultipliers(*nlp_, solution_, &start);
+  // Times of points are sums of fractions: equal but for rounding.
+  const double size = solution_.constraint_multipliers.lpNorm<Eigen::Infinity>();
+  EXPECT_LT((start.constraint_multipliers - solution_.constraint_multipliers).lpNorm<Eigen::Infinity>(), 1e-10 * size);
+  // Free accelerations have no bounds, and no multipliers to lose.
+  EXPECT_LT((start.lower_bound_multipliers - solution_.lower_bound_multipliers).lpNorm<Eigen::Infinity>(), 1e-8 * size);
+  EXPECT_LT((start.upper_bound_multipliers - solution_.upper_bound_multipliers).lpNorm<Eigen::Infinity>(), 1e-8 * size);
+}
+
+// Halving every interval doubles the rows and halves their multipliers: sums over a phase stay what they were.
+TEST_P(MultiplierTransferTest, SumsOverAPhaseSurviveRefinement) {
+  const CollocationNlp finer(*problem_, GetParam(), Halved(mesh_));
+  NlpStart start;
+  finer.TransferMultipliers(*nlp_, solution_, &start);
+  const auto sums = [&](const CollocationNlp& nlp, const NlpResult& at, const VectorX& multipliers) {
+    std::map<std::string, double> total;
+    for (int row = 0; row < nlp.constraints(); ++row) {
+      const RowInfo info = nlp.Describe(at.x.data(), row);
+      if (info.name.rfind("dynamics", 0) == 0 && info.phase == 1) total[info.name] += multipliers(row);
+    }
+    return total;
+  };
+  NlpResult moved = solution_;
+  moved.x = VectorX::Zero(finer.variables());
+  const auto before = sums(*nlp_, solution_, solution_.constraint_multipliers);
+  const auto after = sums(finer, moved, start.constraint_multipliers);
+  ASSERT_EQ(before.size(), 9u);
+  double largest = 0;
+  for (const auto& [name, value] : before) largest = std::max(largest, std::abs(value));
+  // Linear interpolation between points of intervals that are 1/16 of the phase.
+  for (const auto& [name, value] : before) EXPECT_NEAR(after.at(name), value, 0.05 * largest) << name;
+}
+
+TEST_P(MultiplierTransferTest, TheyBringAFinerMeshCloserToItsSolution) {
+  const Mesh mesh = Halved(mesh_);
+  CollocationNlp finer(*problem_, GetParam(), mesh);
+  NlpStart start{finer.MakeStart(GuessFromTrajectory(nlp_->Extract(solution_.x.data()))), {}, {}, {}};
+  NlpOptions options;
+  options.initial_barrier = 1e-3;
+  const NlpResult without = SolveNlp(finer, start, options, {});
+  finer.TransferMultipliers(*nlp_, solution_, &start);
+  const NlpResult with = SolveNlp(finer, start, options, {});
+  ASSERT_EQ(with.termination, Termination::kOptimal);
+  EXPECT_LT(with.iterations, without.iterations);
+}
+
+}  // namespace
+}  // namespace rollgait
