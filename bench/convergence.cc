@@ -11,7 +11,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
-#include "core/nlp/ipopt_solver.h"
+#include "core/nlp/solve_nlp.h"
 #include "core/validation/report.h"
 
 namespace rollgait {
@@ -33,10 +33,10 @@ std::vector<Level> Run(const GaitSpec& spec, Scheme scheme, const Trajectory& st
     const int n = base << level;
     const Mesh mesh = Mesh::Uniform({n / 2, n});
     CollocationNlp nlp(*problem, scheme, mesh);
-    IpoptOptions options;
+    NlpOptions options;
     options.tolerance = 1e-7;
     options.initial_barrier = 1e-4;
-    const NlpResult result = SolveWithIpopt(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, {});
+    const NlpResult result = SolveNlp(nlp, {nlp.MakeStart(guess), {}, {}, {}}, options, {});
     const Trajectory trajectory = nlp.Extract(result.x.data());
     ValidationOptions judge;
     judge.gravity = spec.gravity;
@@ -101,7 +101,7 @@ int Main(int argc, char** argv) {
   const auto problem = BuildProblem(spec.value());
   CollocationNlp nlp(*problem, Scheme::kRadau3, Mesh::Uniform({32, 64}));
   const NlpResult first =
-      SolveWithIpopt(nlp, {nlp.MakeStart(WalkingGuess(spec.value(), *problem)), {}, {}, {}}, IpoptOptions(), {});
+      SolveNlp(nlp, {nlp.MakeStart(WalkingGuess(spec.value(), *problem)), {}, {}, {}}, NlpOptions(), {});
   if (first.termination != Termination::kOptimal) return 1;
   const Trajectory start = nlp.Extract(first.x.data());
   std::printf("start: radau3, N 64, objective %.7f, double support %.4f s, single support %.4f s\n",

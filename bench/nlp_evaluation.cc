@@ -57,8 +57,8 @@ void AllThree(benchmark::State& state) {
   Problem p(static_cast<Scheme>(state.range(0)));
   for (auto _ : state) {
     benchmark::DoNotOptimize(p.nlp->Constraints(p.x.data(), p.g.data()));
-    benchmark::DoNotOptimize(p.nlp->Jacobian(p.x.data(), p.jacobian.data()));
-    benchmark::DoNotOptimize(p.nlp->Hessian(p.x.data(), 1, p.lambda.data(), p.hessian.data()));
+    benchmark::DoNotOptimize(
+        p.nlp->Derivatives(p.x.data(), 1, p.lambda.data(), p.jacobian.data(), p.hessian.data()));
   }
   PerPoint(state, p.points);
 }

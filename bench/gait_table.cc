@@ -1,5 +1,8 @@
-// Planar gait from the built-in guess: iterations, time, objective and accuracy for every slope, scheme and mesh.
-//   planar_table [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10] [--standard | --fine] [--verbose]
+// Gaits from the built-in guess: iterations, time, objective and accuracy for every slope, scheme and mesh.
+//   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step 0.65]
+//              [--double 8]
+//              [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10]
+//              [--costs torque:1,work:1] [--standard | --fine] [--verbose]
 
 #include <cstdio>
 #include <ctime>
@@ -46,6 +49,27 @@ Scheme SchemeOf(const std::string& name) {
   return Scheme::kRadau2;
 }
 
+FootShape FeetOf(const std::string& name) {
+  return name == "two" ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid;
+}
+
+decltype(GaitRequest::CostTerm::term) TermOf(const std::string& name) {
+  if (name == "rate") return GaitRequest::SquaredTorqueRate{};
+  if (name == "work") return GaitRequest::MechanicalWork{};
+  if (name == "time") return GaitRequest::Time{};
+  return GaitRequest::SquaredTorque{};
+}
+
+std::vector<GaitRequest::CostTerm> CostsOf(const std::string& text) {
+  std::vector<GaitRequest::CostTerm> costs;
+  for (const std::string& part : Split(text)) {
+    const size_t colon = part.find(':');
+    costs.push_back({TermOf(part.substr(0, colon)), std::nullopt});
+    if (colon != std::string::npos) costs.back().weight = std::stod(part.substr(colon + 1));
+  }
+  return costs;
+}
+
 void PrintIteration(const IterationInfo& i) {
   std::fprintf(stderr, "  %4d f %.8e pr %.2e du %.2e mu %.1e reg %.1e ap %.2e ad %.2e%s\n", i.index, i.objective,
                i.primal_infeasibility, i.dual_infeasibility, i.barrier_parameter, i.regularization, i.primal_step,
@@ -56,13 +80,26 @@ int Main(int argc, char** argv) {
   std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
                            schemes = {"radau2", "radau3", "hermite-simpson"};
   bool verbose = false;
+  GaitRequest request;
+  request.body.model = "planar";
+  request.motion.speed = 1.3;
   auto level = GaitRequest::AccuracyLevel::kDraft;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--verbose") verbose = true;
     if (flag == "--standard") level = GaitRequest::AccuracyLevel::kStandard;
     if (flag == "--fine") level = GaitRequest::AccuracyLevel::kFine;
+    if (flag == "--toes") request.body.toes = true;
+    if (flag == "--sagittal") request.body.sagittal = true;
+    if (flag == "--drop-arms") request.body.drop_arms = true;
+    if (flag == "--rigid-trunk") request.body.rigid_trunk = true;
     if (i + 1 >= argc) continue;
+    if (flag == "--model") request.body.model = argv[++i];
+    if (flag == "--feet") request.body.feet = FeetOf(argv[++i]);
+    if (flag == "--speed") request.motion.speed = std::stod(argv[++i]);
+    if (flag == "--step") request.motion.step_length = std::stod(argv[++i]);
+    if (flag == "--double") request.discretization.double_support_intervals = std::stoi(argv[++i]);
+    if (flag == "--costs") request.costs = CostsOf(argv[++i]);
     if (flag == "--intervals") intervals = Split(argv[++i]);
     if (flag == "--slopes") slopes = Split(argv[++i]);
     if (flag == "--schemes") schemes = Split(argv[++i]);
@@ -74,10 +111,7 @@ int Main(int argc, char** argv) {
   for (const auto& scheme : schemes) {
     for (const auto& slope : slopes) {
       for (const auto& n : intervals) {
-        GaitRequest request;
-        request.body.model = "planar";
         request.slope = std::stod(slope) * std::numbers::pi / 180;
-        request.motion.speed = 1.3;
         request.discretization.scheme = SchemeOf(scheme);
         request.discretization.single_support_intervals = std::stoi(n);
         request.accuracy.level = level;

@@ -1,0 +1,165 @@
+// Time per call of the dynamics of the planar human (9 degrees of freedom) and of the human in space (29), one thread.
+//   dynamics [--benchmark_filter=/29]                         ns per call (Google Benchmark; Release)
+//   dynamics --count NAME MODEL CALLS                         runs one function only, for instructions per call:
+//   valgrind --tool=callgrind --toggle-collect='rollgait::Repeat*' dynamics --count inverse_dynamics human29 1000
+//     "Collected" of callgrind divided by the calls.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "core/models/catalog.h"
+#include "core/multibody/tree_dynamics.h"
+#include "core/ocp/rolling_dynamics.h"
+
+namespace rollgait {
+
+// Everything the functions work on, at one random state.
+struct Case {
+  explicit Case(const std::string& name) {
+    BodyRequest request;
+    request.model = name;
+    scene = std::make_unique<Scene>(BuildScene(request).value());
+    n = scene->model.size();
+    tree = std::make_unique<TreeDynamics>(scene->model);
+    const std::vector<ContactSurface>& contacts = scene->contacts;
+    one_contact = std::make_unique<RollingDynamics>(scene->model, std::vector<ContactSurface>{contacts[0]});
+    two_contacts = std::make_unique<RollingDynamics>(scene->model, contacts);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+    const auto vector = [&] {
+      VectorX x(n);
+      for (double& value : x) value = uniform(random);
+      return x;
+    };
+    q = vector();
+    v = vector();
+    a = vector();
+    lambda = vector();
+    tau = VectorX::Zero(n);
+    dq = dv = da = qq = qv = qa = vv = MatrixX::Zero(n, n);
+    tree->Update(q.data(), v.data(), a.data(), gravity);
+  }
+
+  std::unique_ptr<Scene> scene;
+  int n = 0;
+  std::unique_ptr<TreeDynamics> tree;
+  std::unique_ptr<RollingDynamics> one_contact, two_contacts;
+  VectorX q, v, a, lambda, tau;
+  MatrixX dq, dv, da, qq, qv, qa, vv;
+  Vector3 gravity{0, 0, -9.81};
+};
+
+void InverseDynamics(Case& c) {
+  c.tree->Update(c.q.data(), c.v.data(), c.a.data(), c.gravity);
+  c.tree->InverseDynamics(c.tau.data());
+}
+
+void FirstDerivatives(Case& c) {
+  c.tree->Update(c.q.data(), c.v.data(), c.a.data(), c.gravity);
+  c.tree->FirstDerivatives(c.dq, c.dv, c.da);
+}
+
+// The Hessian of one combination of the rows, together with everything before it.
+void ContractedSecond(Case& c) {
+  c.tree->Update(c.q.data(), c.v.data(), c.a.data(), c.gravity);
+  c.tree->AddContractedHessian(c.lambda.data(), c.qq, c.qv, c.qa, c.vv);
+}
+
+// The Hessian of every row.
+void AllSecond(Case& c) {
+  c.tree->Update(c.q.data(), c.v.data(), c.a.data(), c.gravity);
+  VectorX& unit = c.tau;
+  for (int i = 0; i < c.n; ++i) {
+    unit.setZero();
+    unit(i) = 1;
+    c.tree->AddContractedHessian(unit.data(), c.qq, c.qv, c.qa, c.vv);
+  }
+}
+
+void MassMatrix(Case& c) { c.tree->MassMatrix(c.q.data(), c.da); }
+
+// Without contact, by factorising the mass matrix.
+void ForwardDynamics(Case& c) {
+  c.tree->ForwardDynamics(c.q.data(), c.v.data(), c.lambda.data(), c.gravity, c.tau.data());
+}
+
+void Roll(Case& c, RollingDynamics& dynamics) {
+  dynamics.Evaluate(c.q.data(), c.v.data(), c.lambda.data(), c.gravity);
+}
+void OneContact(Case& c) { Roll(c, *c.one_contact); }
+void TwoContacts(Case& c) { Roll(c, *c.two_contacts); }
+
+// With the derivatives of accelerations and forces by q, v and τ.
+void OneContactDerivatives(Case& c) {
+  OneContact(c);
+  c.one_contact->Differentiate();
+}
+void TwoContactsDerivatives(Case& c) {
+  TwoContacts(c);
+  c.two_contacts->Differentiate();
+}
+
+void Kinematics(Case& c) { c.tree->UpdateKinematics(c.q.data(), c.v.data()); }
+
+const std::map<std::string, void (*)(Case&)> kFunctions = {
+    {"kinematics", Kinematics},
+    {"inverse_dynamics", InverseDynamics},
+    {"mass_matrix", MassMatrix},
+    {"forward_dynamics", ForwardDynamics},
+    {"one_contact", OneContact},
+    {"one_contact_derivatives", OneContactDerivatives},
+    {"two_contacts", TwoContacts},
+    {"two_contacts_derivatives", TwoContactsDerivatives},
+    {"first_derivatives", FirstDerivatives},
+    {"contracted_second", ContractedSecond},
+    {"all_second", AllSecond},
+};
+
+// A function of its own, so that callgrind can count it alone.
+__attribute__((noinline)) void Repeat(void (*function)(Case&), Case& at, int calls) {
+  for (int i = 0; i < calls; ++i) function(at);
+}
+
+int Count(const char* name, const char* model, int calls) {
+  const auto found = kFunctions.find(name);
+  if (found == kFunctions.end() || calls < 1) {
+    std::fprintf(stderr, "--count NAME MODEL CALLS: no function \"%s\", or no calls\n", name);
+    return 2;
+  }
+  Case at(model);
+  Repeat(found->second, at, calls);
+  return 0;
+}
+
+void RegisterAll() {
+  for (const auto& [name, function] : kFunctions) {
+    for (const auto& [model, degrees] : {std::pair("planar", "9"), std::pair("human29", "29")}) {
+      auto at = std::make_shared<Case>(model);
+      benchmark::RegisterBenchmark((name + "/" + degrees).c_str(), [at, run = function](benchmark::State& state) {
+        for (auto _ : state) {
+          run(*at);
+          benchmark::ClobberMemory();
+        }
+      });
+    }
+  }
+}
+
+}  // namespace rollgait
+
+int main(int argc, char** argv) {
+  if (argc == 5 && std::strcmp(argv[1], "--count") == 0) return rollgait::Count(argv[2], argv[3], std::atoi(argv[4]));
+  rollgait::RegisterAll();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Draws the pictures of docs/numerical_limits.md from the CSV of bench/numerical_limits.
+
+    numerical_limits > limits.csv && python3 docs/plot_limits.py limits.csv docs/images
+"""
+import csv
+import math
+import sys
+
+# name: (title, x axis, logarithmic x)
+PLOTS = {
+    "axis_ratio": ("Ellipsoid: relative error against axis ratio", "largest / smallest semi-axis", True),
+    "pairs": ("Two ellipsoids in touch: error against axis ratio", "largest / smallest semi-axis", True),
+    "size": ("Ellipsoid: relative error against size", "largest semi-axis (m)", True),
+    "gap": ("Gap: absolute error against distance from the origin", "distance of the body from the plane's point (m)", True),
+    "speed": ("Velocity over the surface: relative error against spin", "spin about the normal / other turning", True),
+    "exponent": ("Superellipsoid: relative error against exponent", "exponent", False),
+}
+COLOURS = ["#1b6ca8", "#c1440e", "#2e8b57", "#7a4f9a"]
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 360, 70, 20, 36, 50
+
+
+def draw(title, label, logarithmic, series):
+    xs = [x for points in series.values() for x, _ in points]
+    ys = [y for points in series.values() for _, y in points]
+    place = (lambda x: math.log10(x)) if logarithmic else (lambda x: x)
+    x_low, x_high = place(min(xs)), place(max(xs))
+    y_low, y_high = math.floor(math.log10(min(ys))), math.ceil(math.log10(max(ys)))
+    y_high = max(y_high, y_low + 2)
+    to_x = lambda x: LEFT + (place(x) - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT)
+    to_y = lambda y: HEIGHT - BOTTOM - (math.log10(y) - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM)
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" '
+           f'font-size="12"><rect width="100%" height="100%" fill="white"/>',
+           f'<text x="{LEFT}" y="20" font-size="14">{title}</text>']
+    for power in range(y_low, y_high + 1, max(1, (y_high - y_low) // 8)):
+        y = to_y(10.0 ** power)
+        out.append(f'<path d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}" stroke="#ddd"/>'
+                   f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">1e{power}</text>')
+    ticks = sorted(set(xs))
+    ticks = ticks[::max(1, len(ticks) // 7)]
+    for x in ticks:
+        text = f"1e{round(math.log10(x))}" if logarithmic else f"{x:g}"
+        out.append(f'<text x="{to_x(x):.1f}" y="{HEIGHT - BOTTOM + 18}" text-anchor="middle">{text}</text>')
+    out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle">{label}</text>')
+    for index, (name, points) in enumerate(series.items()):
+        colour = COLOURS[index % len(COLOURS)]
+        path = " ".join(f"{to_x(x):.1f},{to_y(y):.1f}" for x, y in points)
+        text = name.replace("<", "&lt;")
+        out.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>'
+                   f'<text x="{LEFT + 10}" y="{TOP + 14 + 16 * index}" fill="{colour}">{text}</text>')
+    out.append("</svg>")
+    return "\n".join(out) + "\n"
+
+
+def main():
+    data = {}
+    with open(sys.argv[1], newline="") as file:
+        for row in csv.DictReader(file):
+            data.setdefault(row["plot"], {}).setdefault(row["series"], []).append((float(row["x"]), float(row["y"])))
+    for name, (title, label, logarithmic) in PLOTS.items():
+        with open(f"{sys.argv[2]}/limits_{name}.svg", "w") as file:
+            file.write(draw(title, label, logarithmic, data[name]))
+
+
+main()
