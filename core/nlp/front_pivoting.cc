@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/nlp/subtract_products.h"
 
@@ -16,7 +15,9 @@ constexpr double kZeroColumn = 1e-250;
 
 class Elimination {
  public:
-  Elimination(const FrontPanel& panel, double threshold) : p_(panel), threshold_(threshold), done_(panel.columns, 0) {}
+  Elimination(const FrontPanel& panel, double threshold) : p_(panel), threshold_(threshold) {
+    std::fill_n(p_.updated, p_.columns, 0);
+  }
 
   FrontPivots Run() {
     int tried = 0;  // columns at the end of the list that were refused since the last pivot
@@ -40,11 +41,11 @@ class Elimination {
   double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.rows; }
 
   void Update(int c) {
-    const int first = done_[c];
+    const int first = p_.updated[c];
     SubtractProducts(p_.l + static_cast<size_t>(first) * p_.rows + found_.count, p_.rows,
                      p_.ld + static_cast<size_t>(first) * p_.rows + c, p_.rows, found_.count - first,
                      p_.rows - found_.count, Column(c) + found_.count);
-    done_[c] = found_.count;
+    p_.updated[c] = found_.count;
   }
 
   void UpdateAll() {
@@ -58,10 +59,11 @@ class Elimination {
     for (int c = 0; c < p_.columns; ++c) std::swap(Column(c)[a], Column(c)[b]);
     for (int c = 0; c < found_.count; ++c) std::swap(Scaled(c)[a], Scaled(c)[b]);
     std::swap(p_.unknowns[a], p_.unknowns[b]);
-    std::swap(done_[a], done_[b]);
+    std::swap(p_.updated[a], p_.updated[b]);
   }
 
-  // Largest entry of a column below the pivots without rows `skip` and `other`; *where: its row among the fully summed.
+  // Largest entry of a column below the pivots, its diagonal and row `other` left out; *where: the row of the largest one
+  // among the fully summed, or -1.
   double Largest(int column, int other, int* where) {
     const double* x = Column(column);
     double most = 0, most_summed = 0;
@@ -142,7 +144,6 @@ class Elimination {
 
   const FrontPanel& p_;
   const double threshold_;
-  std::vector<int> done_;  // pivots that column c has seen
   int flushed_ = 0;
   FrontPivots found_;
 };

@@ -12,6 +12,7 @@ struct FrontPanel {
   double* diagonal;  // out, columns: D
   double* coupling;  // in: zero; out: off-diagonal of a pivot of order 2 at its first column
   int* unknowns;     // rows; exchanged with the columns
+  int* updated;      // columns: scratch, the number of pivots that a column has seen
 };
 
 struct FrontPivots {

@@ -79,8 +79,8 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
     front.schur.resize(front.update.size() * front.update.size());
     most = std::max(most, front.own.size() + front.update.size());
   }
-  map_.reserve(2 * most);
-  gathered_.resize(2 * most);
+  map_.reserve(most);
+  gathered_.resize(size_);
 }
 
 FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double threshold) {
@@ -171,13 +171,15 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
   front->diagonal.assign(front->columns, 0.0);
   front->coupling.assign(front->columns, 0.0);
   if (scaled_.size() < front->panel.size()) scaled_.resize(front->panel.size());
+  if (updated_.size() < static_cast<size_t>(front->columns)) updated_.resize(front->columns);
   FrontPanel panel{front->rows,
                    front->columns,
                    front->panel.data(),
                    scaled_.data(),
                    front->diagonal.data(),
                    front->coupling.data(),
-                   front->unknowns.data()};
+                   front->unknowns.data(),
+                   updated_.data()};
   const FrontPivots found = EliminateFront(panel, threshold);
   front->pivots = found.count;
   inertia_.negative += found.negative;
@@ -194,7 +196,6 @@ void FrontalLdlt::UpdateSchur(Front* front) {
 }
 
 void FrontalLdlt::Solve(double* x) {
-  if (gathered_.size() < static_cast<size_t>(size_)) gathered_.resize(size_);
   double* y = gathered_.data();
   for (const Front& front : fronts_) {
     const int pivots = front.pivots, rows = front.rows;

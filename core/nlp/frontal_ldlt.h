@@ -66,7 +66,7 @@ class FrontalLdlt {
   int size_;
   std::vector<Front> fronts_;
   std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
-  std::vector<int> map_;
+  std::vector<int> map_, updated_;
   std::vector<double> scaled_;        // L D of the front in work
   std::vector<double> gathered_;
   Inertia inertia_;

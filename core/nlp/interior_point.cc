@@ -142,7 +142,7 @@ class Solver {
   }
 
   void ReduceBarrier(bool stuck) {
-    const double least = std::min(options_.tolerance, std::max(options_.tolerance, 1e-6)) / (kKappaEpsilon + 1);
+    const double least = options_.tolerance / (kKappaEpsilon + 1);
     while (mu_ > least &&
            (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
                          kKappaEpsilon * mu_)) {
@@ -170,7 +170,7 @@ class Solver {
     dual_step_ = MaxDualStep(multipliers_, step_.multipliers, tau_);
     trials_ = 0;
     if (IsTiny(step_.w)) {
-      Try(alpha, step_.w);
+      if (!Try(alpha, step_.w)) return Search::kFailed;
       Accept(alpha, step_);
       return Search::kTinyStep;
     }
@@ -239,7 +239,7 @@ class Solver {
     for (int k = 0; k < kMostCorrections && (k == 0 || theta <= kKappaSoc * last_theta); ++k) {
       last_theta = theta;
       corrected_c_ = alpha * corrected_c_ + trial_.c;
-      if (!newton_.SolveAgain(point_, multipliers_, corrected_c_, mu_, &corrected_)) return false;
+      if (!newton_.Solve(point_, multipliers_, corrected_c_, mu_, &corrected_)) return false;
       alpha = MaxPrimalStep(barrier_, point_, corrected_.w, tau_);
       ++trials_;
       if (!Try(alpha, corrected_.w)) return false;

@@ -100,11 +100,6 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
   return false;
 }
 
-bool NewtonSystem::SolveAgain(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c,
-                              double mu, NewtonStep* step) {
-  return Solve(point, multipliers, c, mu, step);
-}
-
 bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
                          NewtonStep* step) {
   const int n = barrier_.variables();

@@ -36,14 +36,12 @@ class NewtonSystem {
   bool Compute(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& lagrangian, double mu,
                NewtonStep* step);
   // With the last factors, for other values of the constraints.
-  bool SolveAgain(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
-                  NewtonStep* step);
+  bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+             NewtonStep* step);
 
  private:
   bool Factorise(double mu);
   bool TryShift(double shift, double mu);
-  bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
-             NewtonStep* step);
 
   BarrierProblem& barrier_;
   KktSystem kkt_;

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "tests/support/allocation_counter.h"
+
 namespace rollgait {
 namespace {
 
@@ -120,6 +122,21 @@ TEST(FrontalLdlt, AnyGroupingIsRight) {
     delayed += factors.delayed_pivots();
   }
   EXPECT_GT(delayed, 0) << "no trial needed what this test is about";
+}
+
+TEST(FrontalLdlt, AllocatesNothingTheSecondTime) {
+  const Sample sample = Chain(6, 18, 4, 10, 2);
+  FrontalLdlt factors(sample.size(), sample.pattern, sample.groups);
+  VectorX x = VectorX::Ones(sample.size());
+  const auto factor_and_solve = [&] {
+    const long before = Allocations();
+    factors.Factorise(sample.values.data(), 1e-2);
+    factors.Solve(x.data());
+    return Allocations() - before;
+  };
+  EXPECT_GT(factor_and_solve(), 0) << "the counter counts nothing";
+  EXPECT_GT(factors.delayed_pivots(), 0) << "no front is wider than its own columns";
+  EXPECT_EQ(factor_and_solve(), 0);
 }
 
 TEST(FrontalLdlt, SaysHowManyPivotsAreMissing) {
