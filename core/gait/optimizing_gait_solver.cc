@@ -1,77 +1,13 @@
 #include "core/gait/optimizing_gait_solver.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
-#include "core/gait/mesh_refinement.h"
-#include "core/nlp/solve_nlp.h"
-#include "core/transcription/collocation_nlp.h"
+#include "core/gait/mesh_sequence.h"
 
 namespace rollgait {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double Since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-bool Converged(Termination termination) {
-  return termination == Termination::kOptimal || termination == Termination::kAcceptable;
-}
-
-std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, CollocationNlp& nlp, const double* x) {
-  const VectorX integrals = nlp.CostIntegrals(x);
-  std::vector<CostValue> values;
-  for (size_t t = 0; t < problem.costs.size(); ++t) {
-    const CostDescription& term = problem.costs[t];
-    CostValue value;
-    value.name = term.Name();
-    value.unit = term.Unit();
-    value.weight = term.weight;
-    value.value = integrals(static_cast<int>(t));
-    value.contribution = term.weight * value.value / nlp.Denominator(x);
-    values.push_back(value);
-  }
-  return values;
-}
-
-// Rows that miss their bounds by more than the tolerance, worst (in natural sizes) first.
-std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, double tolerance) {
-  constexpr size_t kMost = 10;
-  VectorX g(nlp.constraints());
-  if (!nlp.Constraints(x, g.data())) return {};
-  std::vector<std::pair<double, int>> misses;
-  for (int r = 0; r < g.size(); ++r) {
-    const double miss = std::max(nlp.constraint_lower()(r) - g(r), g(r) - nlp.constraint_upper()(r));
-    if (miss > tolerance) misses.emplace_back(miss, r);
-  }
-  std::sort(misses.rbegin(), misses.rend());
-  std::vector<UnmetConstraint> unmet;
-  for (size_t i = 0; i < std::min(kMost, misses.size()); ++i) {
-    const auto info = nlp.Describe(x, misses[i].second);
-    unmet.push_back({info.name, info.phase, info.time, misses[i].first * info.size, info.unit});
-  }
-  return unmet;
-}
-
-// Feet that slip between nodes at a fair part of the walking speed: the optimiser has found a motion that exists on this mesh
-// only.
-bool IsArtefact(const GaitSolution& solution) {
-  return solution.accuracy && solution.accuracy->max_slip > 0.2 * solution.speed;
-}
-
-// What converged on every mesh is no motion of the body: say so, and where.
-void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
-  solution->termination = Termination::kNumericalDifficulty;
-  solution->message =
-      "Only motions that exist on the mesh were found: the feet slip between its nodes. Use more intervals, more "
-      "refinements or a less demanding request.";
-  solution->unmet_constraints.insert(
-      solution->unmet_constraints.begin(),
-      {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.max_slip, "m/s"});
-}
 
 // A gait that is periodic leaves its momentum as it was: over a cycle the ground's mean force is the weight, which on a slope
 // leans by the slope. Within the friction cone at every instant, the mean is within it too.
@@ -81,124 +17,19 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   return UnmetConstraint{"friction, mean over the cycle", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
-ValidationOptions JudgeOptions(const GaitSpec& spec) {
-  ValidationOptions options;
-  options.gravity = spec.gravity;
-  return options;
-}
-
-MeshStatistics Describe(const CollocationNlp& nlp, const NlpResult& result) {
-  MeshStatistics statistics;
-  statistics.intervals = nlp.mesh().Intervals();
-  statistics.unknowns = nlp.variables();
-  statistics.constraints = nlp.constraints();
-  statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
-  statistics.hessian_nonzeros = nlp.hessian_pattern().size();
-  statistics.iterations = result.iterations;
-  statistics.wall_time = result.wall_time_s;
-  statistics.evaluation_time = result.evaluation_time_s;
-  statistics.kkt_error = result.kkt_error;
-  return statistics;
-}
-
-// The solution of one mesh, judged.
-void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, CollocationNlp& nlp, const NlpResult& result,
-           GaitSolution* solution) {
-  const double* x = result.x.data();
-  solution->objective = result.objective / nlp.objective_scale();
-  solution->kkt_error = result.kkt_error;
-  solution->constraint_violation = result.constraint_violation;
-  solution->trajectory = nlp.Extract(x);
-  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
-  solution->costs = ReportCosts(problem, nlp, x);
-  solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
-  solution->speed = nlp.displacement(x) / nlp.duration(x);
-  solution->step_length = nlp.displacement(x) / (problem.mirrored ? 1 : 2);
-  solution->within_requested_accuracy = Converged(result.termination) && solution->accuracy->max_gap <= spec.max_gap &&
-                                        solution->accuracy->max_slip <= spec.max_slip;
-}
-
-// Observers see the objective of the problem, not that of the scaled NLP.
-SolveControl Unscaled(const SolveControl& control, double scale) {
-  SolveControl unscaled = control;
-  if (control.observer) {
-    unscaled.observer = [&control, scale](IterationInfo info) {
-      info.objective /= scale;
-      control.observer(info);
-    };
-  }
-  return unscaled;
-}
-
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
-  const auto begin = Clock::now();
-  const auto problem = BuildProblem(spec);
-  GaitSolution solution;
+  SolveBudget budget(spec, control);
   if (const auto contradiction = FindContradiction(spec)) {
+    GaitSolution solution;
     solution.termination = Termination::kInfeasible;
     solution.message = "No gait can meet the request: without sliding, the ground must carry the weight at this slope.";
     solution.unmet_constraints = {*contradiction};
     return solution;
   }
-  std::vector<int> intervals;
-  for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
-  Mesh mesh = Mesh::Uniform(intervals);
-  MotionGuess guess = WalkingGuess(spec, *problem);
-  NlpOptions options;
-  options.tolerance = spec.kkt_tolerance;
-  int iterations_left = spec.max_iterations;
-  std::unique_ptr<CollocationNlp> previous;  // the coarser mesh, if this one starts from its solution
-  NlpResult previous_result;
-
-  for (int level = 0; level <= spec.max_refinements; ++level) {
-    auto current = std::make_unique<CollocationNlp>(*problem, spec.scheme, mesh);
-    CollocationNlp& nlp = *current;
-    NlpStart start{nlp.MakeStart(guess), {}, {}, {}};
-    if (previous) nlp.TransferMultipliers(*previous, previous_result, &start);
-    options.mesh = level;
-    options.max_iterations = iterations_left;
-    options.max_wall_time_s = spec.max_wall_time - Since(begin);
-    const NlpResult result = SolveNlp(nlp, start, options, Unscaled(control, nlp.objective_scale()));
-    iterations_left = std::max(1, iterations_left - result.iterations);
-
-    MeshStatistics statistics = Describe(nlp, result);
-    // A finer mesh that fails does not take back a real answer of the coarser one.
-    const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(solution);
-    if (!keep_previous) {
-      solution.termination = result.termination;
-      solution.message = result.message;
-      if (result.x.size() > 0 && result.x.allFinite()) {
-        Adopt(spec, *problem, nlp, result, &solution);
-        statistics.objective = solution.objective;
-        statistics.max_gap = solution.accuracy->max_gap;
-        statistics.max_slip = solution.accuracy->max_slip;
-      }
-    }
-    solution.meshes.push_back(statistics);
-    if (keep_previous) {
-      solution.message += " The next finer mesh did not converge (" + result.message + ")";
-      break;
-    }
-    if (!Converged(result.termination) || solution.within_requested_accuracy) break;
-    if (IsArtefact(solution)) {
-      // Start afresh: a finer mesh started from there would stay near it.
-      mesh = Halved(mesh);
-      previous = nullptr;
-      continue;
-    }
-    guess = GuessFromTrajectory(*solution.trajectory);
-    mesh = RefineMesh(mesh, spec, *solution.trajectory);
-    options.initial_barrier = 1e-3;
-    previous = std::move(current);
-    previous_result = result;
-  }
-  // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
-  const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
-  if (bounded && Converged(solution.termination) && IsArtefact(solution)) RefuseArtefact(spec, &solution);
-  solution.wall_time = Since(begin);
-  return solution;
+  const auto problem = BuildProblem(spec);
+  return SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), &budget);
 }
 
 }  // namespace rollgait
