@@ -2,7 +2,8 @@
 //   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step 0.65]
 //              [--double 8]
 //              [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10]
-//              [--costs torque:1,work:1] [--standard | --fine] [--verbose]
+//              [--costs torque:1,work:1] [--standard | --fine] [--verbose] [--normative]
+// --normative prints how far each gait is from people's (core/validation/normative.h).
 
 #include <cstdio>
 #include <ctime>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/gait/optimizing_gait_solver.h"
+#include "core/validation/normative.h"
 
 namespace rollgait {
 namespace {
@@ -76,10 +78,58 @@ void PrintIteration(const IterationInfo& i) {
                i.dual_step, i.restoration ? " R" : "");
 }
 
+std::string Text(const std::optional<double>& value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value.value_or(0));
+  return value ? text : "-";
+}
+
+const char* Name(NormativeQuantity quantity) {
+  switch (quantity) {
+    case NormativeQuantity::kAngle:
+      return "deg";
+    case NormativeQuantity::kMoment:
+      return "N m/kg";
+    case NormativeQuantity::kVerticalForce:
+      return "up %BW";
+    case NormativeQuantity::kForwardForce:
+      return "fore %BW";
+  }
+  return "?";
+}
+
+void PrintHumps(const ForceHumps& humps) {
+  std::printf("force %s / %s / %s %%BW%s", Text(humps.first).c_str(), Text(humps.trough).c_str(),
+              Text(humps.second).c_str(), humps.two ? ", two humps\n" : "\n");
+}
+
+void PrintNormative(const NormativeComparison& people) {
+  std::printf("    stance %.1f %%, double support %.1f %%, step %.3f m, cadence %.0f /min, opposite toe-off %s, "
+              "opposite heel strike %s, toe-off %s %%, ",
+              100 * people.stance, 100 * people.double_support, people.step_length, people.cadence,
+              Text(people.opposite_toe_off).c_str(), Text(people.opposite_heel_strike).c_str(),
+              Text(people.toe_off).c_str());
+  PrintHumps(people.humps);
+  std::printf("    at a limit through stance:");
+  for (const RestingJoint& joint : people.resting) {
+    std::printf(" %s %s %.0f %%", joint.joint.c_str(), joint.at_max ? "max" : "min", 100 * joint.share);
+  }
+  std::printf("\n");
+  for (const DatasetComparison& set : people.datasets) {
+    std::printf("    %s: stance %.1f %%, ", set.dataset.c_str(), 100 * set.stance);
+    PrintHumps(set.humps);
+    for (const CurveComparison& curve : set.curves) {
+      std::printf("      %-5s %-8s r %6.3f  rms %7.3f = %5.2f sd  ours %7.2f .. %7.2f  people %7.2f .. %7.2f\n",
+                  curve.joint.c_str(), Name(curve.quantity), curve.distance.correlation, curve.distance.rms,
+                  curve.distance.rms_deviations, curve.min, curve.max, curve.normative_min, curve.normative_max);
+    }
+  }
+}
+
 int Main(int argc, char** argv) {
   std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
                            schemes = {"radau2", "radau3", "hermite-simpson"};
-  bool verbose = false;
+  bool verbose = false, normative = false;
   GaitRequest request;
   request.body.model = "planar";
   request.motion.speed = 1.3;
@@ -87,6 +137,7 @@ int Main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--verbose") verbose = true;
+    if (flag == "--normative") normative = true;
     if (flag == "--standard") level = GaitRequest::AccuracyLevel::kStandard;
     if (flag == "--fine") level = GaitRequest::AccuracyLevel::kFine;
     if (flag == "--toes") request.body.toes = true;
@@ -141,6 +192,10 @@ int Main(int argc, char** argv) {
             std::printf("    mesh of %d intervals: %d iterations, %.3f s, objective %.3f, gap %.2e m, slip %.2e m/s\n", total,
                         mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
           }
+        }
+        if (normative && s.trajectory) {
+          const auto people = CompareWithPeople(spec.value().scene, *s.trajectory, spec.value().gravity);
+          if (people) PrintNormative(*people);
         }
         for (const auto& u : s.unmet_constraints) {
           std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());

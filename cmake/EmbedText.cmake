@@ -1,7 +1,7 @@
 # Writes text files into a C++ header as string constants.
-#   cmake -DOUTPUT=assets.h -DASSETS=kReportHtml=report.html,kReportCss=report.css -P embed.cmake
+#   cmake -DOUTPUT=assets.h -DNAMESPACE=rollgait::client -DASSETS=kReportHtml=report.html,kReportCss=report.css -P EmbedText.cmake
 string(REPLACE "," ";" assets "${ASSETS}")
-set(text "// Made by client/report/embed.cmake.\n#pragma once\n\nnamespace rollgait::client {\n")
+set(text "// Made by cmake/EmbedText.cmake.\n#pragma once\n\nnamespace ${NAMESPACE} {\n")
 foreach(asset ${assets})
   string(REGEX MATCH "^([A-Za-z0-9_]+)=(.*)$" whole "${asset}")
   set(name "${CMAKE_MATCH_1}")
@@ -12,5 +12,5 @@ foreach(asset ${assets})
   endif()
   string(APPEND text "inline constexpr char ${name}[] = R\"_asset(${content})_asset\";\n")
 endforeach()
-string(APPEND text "}  // namespace rollgait::client\n")
+string(APPEND text "}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${text}")

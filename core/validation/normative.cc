@@ -1,0 +1,210 @@
+#include "core/validation/normative.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "core/base/check.h"
+#include "core/contact/rolling_kinematics.h"
+#include "core/multibody/body_dynamics.h"
+#include "core/validation/gait_cycle.h"
+
+namespace rollgait {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kFiner = 4;                    // our grid against that of the data
+constexpr double kNearLimit = 0.5 * kDegree;
+constexpr double kBodyWeight = 100;          // forces are in % of it
+constexpr double kDepth = 5, kOnGround = 5;  // % of body weight
+
+// Curves of the right leg at 0 … 100 %, in the units and signs of NormativeQuantity.
+class LegCurves {
+ public:
+  LegCurves(const Scene& scene, const GaitCycle& cycle, const Vector3& gravity)
+      : scene_(scene), cycle_(cycle), gravity_(gravity), dynamics_(scene.model) {
+    const int steps = kFiner * kNormativeSamples;
+    for (int i = 0; i <= steps; ++i) Add(100.0 * i / steps);
+  }
+
+  // Empty if the model lacks the joint.
+  std::vector<double> Of(NormativeQuantity quantity, const std::string& joint) const {
+    std::vector<double> values;
+    if (quantity == NormativeQuantity::kVerticalForce) return vertical_;
+    if (quantity == NormativeQuantity::kForwardForce) return forward_;
+    const int index = RightJoint(scene_.model, joint);
+    if (index < 0) return values;
+    // Flexion and dorsiflexion are positive in our joints; moments of the data extend and plantarflex.
+    for (size_t i = 0; i < positions_.size(); ++i) {
+      values.push_back(quantity == NormativeQuantity::kAngle ? positions_[i][index] / kDegree
+                                                             : -moments_[i][index] / scene_.model.total_mass());
+    }
+    return values;
+  }
+
+ private:
+  void Add(double percent) {
+    const MotionSample sample = cycle_.At(percent);
+    positions_.push_back(sample.position);
+    dynamics_.ComputeState(sample.position, sample.velocity, &state_);
+    VectorX moments;
+    dynamics_.InverseDynamics(state_, sample.acceleration, gravity_, &workspace_, &moments);
+    Vector3 foot = Vector3::Zero();
+    for (int c = 0; c < static_cast<int>(scene_.contacts.size()); ++c) {
+      const Vector3 force = sample.forces.segment<3>(3 * c);
+      if (cycle_.IsRight(c)) foot += force;
+      if (force.isZero(0)) continue;
+      const RollingContact contact = ComputeRollingContact(scene_.contacts[c], state_);
+      MatrixX jacobian = MatrixX::Zero(6, scene_.model.size());
+      dynamics_.AddTwistJacobian(state_, scene_.contacts[c].joint, contact.p_WP, 1, &jacobian);
+      moments -= jacobian.bottomRows<3>().transpose() * force;
+    }
+    moments_.push_back(moments);
+    const double weight = scene_.model.total_mass() * gravity_.norm();
+    const Vector3 up = -gravity_.normalized();
+    vertical_.push_back(kBodyWeight * foot.dot(up) / weight);
+    forward_.push_back(kBodyWeight * foot.dot(Vector3::UnitY().cross(up)) / weight);
+  }
+
+  const Scene& scene_;
+  const GaitCycle& cycle_;
+  const Vector3 gravity_;
+  const BodyDynamics dynamics_;
+  BodyDynamics::State state_;
+  BodyDynamics::Workspace workspace_;
+  std::vector<VectorX> positions_, moments_;
+  std::vector<double> vertical_, forward_;
+};
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+CurveComparison Compare(const NormativeCurve& normal, const std::vector<double>& fine) {
+  CurveComparison result;
+  result.quantity = normal.quantity;
+  result.joint = normal.joint;
+  for (int i = 0; i < kNormativeSamples; ++i) result.ours.push_back(fine[static_cast<size_t>(i) * kFiner]);
+  result.mean = normal.mean;
+  result.deviation = normal.deviation;
+  result.distance = MeasureDistance(result.ours, normal.mean, normal.deviation);
+  const auto [low, high] = std::minmax_element(fine.begin(), fine.end());
+  const auto [normal_low, normal_high] = std::minmax_element(normal.mean.begin(), normal.mean.end());
+  result.min = *low;
+  result.max = *high;
+  result.normative_min = *normal_low;
+  result.normative_max = *normal_high;
+  return result;
+}
+
+// Share of the cycle, from 0 %, until the force on the foot falls to kOnGround.
+double StanceOf(const std::vector<double>& force) {
+  size_t i = force.size() / 4;  // mid-stance
+  while (i + 1 < force.size() && force[i + 1] > kOnGround) ++i;
+  if (i + 1 == force.size()) return 1;
+  const double part = (force[i] - kOnGround) / (force[i] - force[i + 1]);
+  return (static_cast<double>(i) + part) / static_cast<double>(force.size());
+}
+
+DatasetComparison CompareWith(const NormativeDataset& set, const LegCurves& curves) {
+  DatasetComparison result{set.name, set.source, set.deviation, set.speed, set.stride_time, 0, {}, {}};
+  for (const NormativeCurve& normal : set.curves) {
+    const std::vector<double> fine = curves.Of(normal.quantity, normal.joint);
+    if (!fine.empty()) result.curves.push_back(Compare(normal, fine));
+    if (normal.quantity != NormativeQuantity::kVerticalForce) continue;
+    result.stance = StanceOf(normal.mean);
+    const auto stance = static_cast<std::ptrdiff_t>(std::ceil(result.stance * kNormativeSamples));
+    result.humps = FindHumps({normal.mean.begin(), normal.mean.begin() + stance}, kDepth);
+  }
+  return result;
+}
+
+std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle) {
+  constexpr int kSteps = 200;
+  std::vector<RestingJoint> resting;
+  std::vector<VectorX> positions;
+  for (int i = 0; i <= kSteps; ++i) {
+    const MotionSample sample = cycle.At(100.0 * cycle.Stance() * i / kSteps);
+    positions.push_back(sample.position);
+  }
+  for (const int j : scene.model.actuated()) {
+    const Joint& joint = scene.model.joint(j);
+    if (joint.name.ends_with("_l")) continue;
+    const double count = static_cast<double>(positions.size());
+    const auto share = [&](auto rests) { return std::count_if(positions.begin(), positions.end(), rests) / count; };
+    const double low = share([&](const VectorX& q) { return q[j] <= joint.position_min + kNearLimit; });
+    const double high = share([&](const VectorX& q) { return q[j] >= joint.position_max - kNearLimit; });
+    if (low > 0) resting.push_back({joint.name, false, low});
+    if (high > 0) resting.push_back({joint.name, true, high});
+  }
+  std::stable_sort(resting.begin(), resting.end(),
+                   [](const RestingJoint& a, const RestingJoint& b) { return a.share > b.share; });
+  return resting;
+}
+
+std::vector<double> StanceForce(const LegCurves& curves, double stance) {
+  const std::vector<double> force = curves.Of(NormativeQuantity::kVerticalForce, "foot");
+  const auto samples = static_cast<std::ptrdiff_t>(std::floor(stance * static_cast<double>(force.size() - 1))) + 1;
+  return {force.begin(), force.begin() + std::min<std::ptrdiff_t>(samples, std::ssize(force))};
+}
+
+}  // namespace
+
+CurveDistance MeasureDistance(const std::vector<double>& ours, const std::vector<double>& mean,
+                              const std::vector<double>& deviation) {
+  ROLLGAIT_CHECK(ours.size() >= 2 && ours.size() == mean.size() && ours.size() == deviation.size());
+  const double center = Mean(ours), normal_center = Mean(mean);
+  double difference = 0, variance = 0, square = 0, normal_square = 0, product = 0;
+  for (size_t i = 0; i < ours.size(); ++i) {
+    const double a = ours[i] - center, b = mean[i] - normal_center;
+    difference += (ours[i] - mean[i]) * (ours[i] - mean[i]);
+    variance += deviation[i] * deviation[i];
+    square += a * a;
+    normal_square += b * b;
+    product += a * b;
+  }
+  const double n = static_cast<double>(ours.size()), scale = std::sqrt(square) * std::sqrt(normal_square);
+  return {std::sqrt(difference / n), variance > 0 ? std::sqrt(difference / variance) : kInfinity,
+          scale > 0 ? product / scale : 0};
+}
+
+ForceHumps FindHumps(const std::vector<double>& force, double depth) {
+  ForceHumps humps;
+  if (force.size() < 5) return humps;
+  const auto middle = force.begin() + static_cast<std::ptrdiff_t>(force.size() / 2);
+  const auto first = std::max_element(force.begin(), middle), second = std::max_element(middle, force.end());
+  if (first != force.begin() && first != middle - 1) humps.first = *first;
+  if (second != middle && second != force.end() - 1) humps.second = *second;
+  if (!humps.first || !humps.second) return humps;
+  humps.trough = *std::min_element(first, second);
+  humps.two = *humps.trough <= std::min(*humps.first, *humps.second) - depth;
+  return humps;
+}
+
+std::optional<NormativeComparison> CompareWithPeople(const Scene& scene, const Trajectory& trajectory,
+                                                     const Vector3& gravity) {
+  const auto cycle = GaitCycle::Of(scene, trajectory);
+  if (!cycle) return std::nullopt;
+  const LegCurves curves(scene, *cycle, gravity);
+  NormativeComparison result;
+  result.stride_time = cycle->duration();
+  result.speed = cycle->displacement() / cycle->duration();
+  result.step_length = cycle->displacement() / 2;
+  result.cadence = 2 * 60 / cycle->duration();
+  result.stance = cycle->Stance();
+  result.double_support = cycle->DoubleSupport();
+  result.opposite_toe_off = cycle->OppositeToeOff();
+  result.opposite_heel_strike = cycle->OppositeHeelStrike();
+  result.toe_off = cycle->ToeOff();
+  result.humps = FindHumps(StanceForce(curves, result.stance), kDepth);
+  result.resting = FindResting(scene, *cycle);
+  for (const NormativeDataset& set : NormativeDatasets()) result.datasets.push_back(CompareWith(set, curves));
+  return result;
+}
+
+}  // namespace rollgait

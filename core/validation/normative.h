@@ -1,0 +1,82 @@
+#ifndef ROLLGAIT_CORE_VALIDATION_NORMATIVE_H_
+#define ROLLGAIT_CORE_VALIDATION_NORMATIVE_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/models/scene.h"
+#include "core/trajectory/trajectory.h"
+#include "core/validation/normative_data.h"
+
+namespace rollgait {
+
+// How far a curve is from what people do, over equal steps of the cycle.
+struct CurveDistance {
+  double rms;             // root mean square of the difference, unit of the curves
+  double rms_deviations;  // the same over the root mean square of the standard deviation; infinite if that is zero
+  double correlation;     // Pearson's, −1 … 1; 0 if one of the two is constant
+};
+
+// Contract: same length >= 2; deviation >= 0.
+CurveDistance MeasureDistance(const std::vector<double>& ours, const std::vector<double>& mean,
+                              const std::vector<double>& deviation);
+
+// One curve of the right leg beside that of a data set. Units and signs: NormativeQuantity.
+struct CurveComparison {
+  NormativeQuantity quantity;
+  std::string joint;
+  std::vector<double> ours;  // kNormativeSamples
+  std::vector<double> mean, deviation;
+  CurveDistance distance;
+  double min, max;           // ours, on a grid four times as fine
+  double normative_min, normative_max;
+};
+
+// The vertical ground force of the right foot through its stance, % of body weight. A hump is the largest value of the
+// first or the second half of stance where the force rises before it and falls after it. Two humps: both, and the trough
+// between them is at least 5 % of body weight below the lower one.
+struct ForceHumps {
+  std::optional<double> first, second;  // empty: no such hump
+  std::optional<double> trough;         // between the two; empty without both
+  bool two = false;
+};
+
+// `force`: equally spaced through stance, any unit with `depth` for the 5 % of body weight.
+ForceHumps FindHumps(const std::vector<double>& force, double depth);
+
+// A joint of the right side or the trunk that lies within 0.5 deg of an end of its range, through a share of the right
+// leg's stance.
+struct RestingJoint {
+  std::string joint;
+  bool at_max;   // which end
+  double share;  // of stance, > 0
+};
+
+struct DatasetComparison {
+  std::string dataset, source, deviation;  // as in NormativeDataset
+  double speed, stride_time;               // m/s, s
+  double stance;                           // share of the cycle with more than 5 % of body weight on the foot
+  ForceHumps humps;
+  std::vector<CurveComparison> curves;     // of the joints that the model has
+};
+
+struct NormativeComparison {
+  double speed, stride_time, step_length;     // m/s, s, m
+  double cadence;                             // steps per minute
+  double stance, double_support;              // shares of the cycle, right leg
+  std::optional<double> opposite_toe_off, opposite_heel_strike, toe_off;  // % of the cycle
+  ForceHumps humps;
+  std::vector<RestingJoint> resting;          // largest share first
+  std::vector<DatasetComparison> datasets;
+};
+
+// The gait cycle of the right leg beside people's on level ground. `gravity` as in ValidationOptions; on a slope
+// "vertical" is against gravity. Joint moments are net, by inverse dynamics of the motion and the ground's forces, as a
+// laboratory measures them: passive torques are in them. Empty without a gait cycle, see GaitCycle::Of.
+std::optional<NormativeComparison> CompareWithPeople(const Scene& scene, const Trajectory& trajectory,
+                                                     const Vector3& gravity);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_VALIDATION_NORMATIVE_H_
