@@ -21,7 +21,7 @@ class GaitCycle {
   double duration() const { return duration_; }          // s
   double displacement() const { return displacement_; }  // m
 
-  // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases that of the later one, at 100 the limit from
+  // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases (to rounding) that of the later one, at 100 the limit from
   // the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. base_x goes on through
   // the cycle.
   MotionSample At(double percent) const;
