@@ -14,10 +14,12 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/contact/contact_sensitivity.h"
 #include "core/models/catalog.h"
 #include "core/multibody/tree_dynamics.h"
-#include "core/ocp/rolling_dynamics.h"
 
 namespace rollgait {
 
@@ -29,9 +31,15 @@ struct Case {
     scene = std::make_unique<Scene>(BuildScene(request).value());
     n = scene->model.size();
     tree = std::make_unique<TreeDynamics>(scene->model);
-    const std::vector<ContactSurface>& contacts = scene->contacts;
-    one_contact = std::make_unique<RollingDynamics>(scene->model, std::vector<ContactSurface>{contacts[0]});
-    two_contacts = std::make_unique<RollingDynamics>(scene->model, contacts);
+    std::vector<TreeContact> contacts;
+    for (const ContactSurface& surface : scene->contacts) {
+      TreeContact& foot = contacts.emplace_back();
+      foot.link = surface.joint;
+      foot.surface = {surface.surface, surface.p_LE, surface.R_LE};
+      if (surface.directions.size() == 2) foot.grip = Grip::kRollingAlong;
+    }
+    contact = std::make_unique<ContactDynamics>(BodyDynamics(scene->model), contacts);
+    sensitivity = std::make_unique<ContactSensitivitySolver>(scene->model, contact.get());
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     const auto vector = [&] {
@@ -51,7 +59,10 @@ struct Case {
   std::unique_ptr<Scene> scene;
   int n = 0;
   std::unique_ptr<TreeDynamics> tree;
-  std::unique_ptr<RollingDynamics> one_contact, two_contacts;
+  std::unique_ptr<ContactDynamics> contact;
+  std::unique_ptr<ContactSensitivitySolver> sensitivity;
+  const std::vector<FrameMotion> ground{1};
+  const std::vector<int> one{0}, two{0, 1};
   VectorX q, v, a, lambda, tau;
   MatrixX dq, dv, da, qq, qv, qa, vv;
   Vector3 gravity{0, 0, -9.81};
@@ -91,21 +102,20 @@ void ForwardDynamics(Case& c) {
   c.tree->ForwardDynamics(c.q.data(), c.v.data(), c.lambda.data(), c.gravity, c.tau.data());
 }
 
-void Roll(Case& c, RollingDynamics& dynamics) {
-  dynamics.Evaluate(c.q.data(), c.v.data(), c.lambda.data(), c.gravity);
+void Roll(Case& c, const std::vector<int>& active) {
+  c.contact->SetState(c.q, c.v, c.ground);
+  c.contact->Accelerate(active, c.lambda, c.gravity, {});
 }
-void OneContact(Case& c) { Roll(c, *c.one_contact); }
-void TwoContacts(Case& c) { Roll(c, *c.two_contacts); }
+void OneContact(Case& c) { Roll(c, c.one); }
+void TwoContacts(Case& c) { Roll(c, c.two); }
 
 // With the derivatives of accelerations and forces by q, v and τ.
-void OneContactDerivatives(Case& c) {
-  OneContact(c);
-  c.one_contact->Differentiate();
+void Differentiate(Case& c, const std::vector<int>& active) {
+  c.contact->SetState(c.q, c.v, c.ground);
+  c.sensitivity->Solve(active, c.lambda, c.gravity, {});
 }
-void TwoContactsDerivatives(Case& c) {
-  TwoContacts(c);
-  c.two_contacts->Differentiate();
-}
+void OneContactDerivatives(Case& c) { Differentiate(c, c.one); }
+void TwoContactsDerivatives(Case& c) { Differentiate(c, c.two); }
 
 void Kinematics(Case& c) { c.tree->UpdateKinematics(c.q.data(), c.v.data()); }
 

@@ -1,11 +1,13 @@
-// Drift over 1e4 revolutions: energy, gap, slip and quaternion norm against time, for a ball with spin on a slope-free
-// plane, a triaxial ellipsoid and an oblate one, without and with drift control. Prints one line per decade of revolutions.
+// Drift of energy, gap and slip over 1e4 revolutions of a ball with spin, a triaxial ellipsoid and an oblate one on a level
+// plane, without and with drift control: worst so far, ten points a decade, as CSV: plot,series,x,y (docs/plot_limits.py).
+// Steps and times go to stderr.
+//   long_rolling [REVOLUTIONS] > long.csv
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
+#include <utility>
 
 #include "core/simulation/simulation.h"
 #include "tests/support/rolling_scenes.h"
@@ -31,11 +33,13 @@ void Run(const char* name, const BodyOnPlane& body, DriftControl drift, double t
   SimulationScene scene = SceneOf(body);
   const double rate = body.omega_body.norm();
   scene.options.duration = revolutions * 2 * M_PI / rate;
-  scene.options.output_step = scene.options.duration / 1000;
   scene.options.tolerance = tolerance;
   scene.options.drift = drift;
   scene.options.max_steps = 1'000'000'000;
-  double energy = 0, gap = 0, slip = 0, next = revolutions / 1000, initial = 0;
+  scene.options.output_step = scene.options.duration / 100'000;
+  char series[64];
+  std::snprintf(series, sizeof series, "%s %.0e%s", name, tolerance, drift == DriftControl::kNone ? "" : " projected");
+  double energy = 0, gap = 0, slip = 0, next = 1, initial = 0;
   SimulationObserver observer;
   observer.sample = [&](const SimulationSample& sample) {
     const double now = sample.kinetic_energy + sample.potential_energy - sample.work;
@@ -45,9 +49,10 @@ void Run(const char* name, const BodyOnPlane& body, DriftControl drift, double t
     slip = std::max(slip, sample.contacts[0].slip.norm());
     const double turned = sample.time * rate / (2 * M_PI);
     if (turned >= 0.999999 * next) {
-      std::printf("%-10s %-10s %8.0e %10.0f %12.2e %12.2e %12.2e\n", name,
-                  drift == DriftControl::kNone ? "none" : "projection", tolerance, turned, energy, gap, slip);
-      next *= 10;
+      for (const auto& [plot, value] : {std::pair("long_energy", energy), {"long_gap", gap}, {"long_slip", slip}}) {
+        std::printf("%s,%s,%.4g,%.3g\n", plot, series, turned, std::max(value, 1e-18));
+      }
+      next *= std::pow(10, 0.1);
     }
     return true;
   };
@@ -55,11 +60,11 @@ void Run(const char* name, const BodyOnPlane& body, DriftControl drift, double t
   const Result<SimulationReport> report = Simulate(scene, observer);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!report.ok() || report.value().end != SimulationEnd::kDuration) {
-    std::printf("%s ended early\n", name);
+    std::fprintf(stderr, "%s ended early\n", series);
     std::exit(1);
   }
-  std::printf("%-10s %.1f s, %d steps, %d rejected, %.2f us an evaluation\n", name, seconds, report.value().steps,
-              report.value().rejected_steps, 1e6 * seconds / report.value().evaluations);
+  std::fprintf(stderr, "%s: %.1f s, %d steps, %d rejected, %.2f us an evaluation\n", series, seconds,
+               report.value().steps, report.value().rejected_steps, 1e6 * seconds / report.value().evaluations);
 }
 
 }  // namespace
@@ -70,7 +75,7 @@ int main(int argc, char** argv) {
   using namespace rollgait;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const double revolutions = argc > 1 ? std::atof(argv[1]) : 1e4;
-  std::printf("%-10s %-10s %8s %10s %12s %12s %12s\n", "body", "drift", "tol", "turns", "energy (rel)", "gap m", "slip m/s");
+  std::puts("plot,series,x,y");
   for (const double tolerance : {1e-9, 1e-12}) {
     for (const DriftControl drift : {DriftControl::kNone, DriftControl::kProjection}) {
       Run("ball", Body(Vector3(0.1, 0.1, 0.1), Vector3(3, 5, 20)), drift, tolerance, revolutions);

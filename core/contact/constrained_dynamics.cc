@@ -64,6 +64,8 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   solution->residual = 0;
   solution->forces.resize(m);
   if (m == 0) {
+    pivots_.clear();
+    q_.resize(mass.rows(), 0);
     solution->acceleration = free_;
     cholesky_.matrixU().solveInPlace(solution->acceleration);
     return;
@@ -111,6 +113,36 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
     const double residual = std::abs(jacobian.row(i).dot(solution->acceleration) - right_side[i]);
     if (!(residual <= solution->residual)) solution->residual = residual;
   }
+}
+
+void ConstrainedSolver::Response(ConstrainedResponse* response) {
+  const int n = static_cast<int>(cholesky_.rows()), m = static_cast<int>(pivots_.size());
+  const int rank = m == 0 ? 0 : rank_;
+  // a = M⁻¹ f − B Bᵀ f + B G r and λ = H (G r − Bᵀ f) with B = L⁻ᵀ Q, z = G r − …, λ = H z.
+  response->acceleration_force.setIdentity(n, n);
+  cholesky_.solveInPlace(response->acceleration_force);
+  basis_ = q_.leftCols(rank);
+  cholesky_.matrixU().solveInPlace(basis_);
+  from_right_.setZero(rank, m);
+  to_forces_.setZero(m, rank);
+  if (rank > 0) {
+    for (int i = 0; i < rank; ++i) from_right_(i, pivots_[i]) = scale_[pivots_[i]];
+    const auto square = r_.topLeftCorner(rank, rank);
+    square.transpose().triangularView<Eigen::Lower>().solveInPlace(from_right_);
+    MatrixX& inverse = gram_;
+    if (rank == m) {
+      inverse.setIdentity(m, m);
+      square.triangularView<Eigen::Upper>().solveInPlace(inverse);
+    } else {
+      const MatrixX products = r_.topRows(rank) * r_.topRows(rank).transpose();
+      inverse = r_.topRows(rank).transpose() * products.llt().solve(MatrixX::Identity(rank, rank));
+    }
+    for (int i = 0; i < m; ++i) to_forces_.row(pivots_[i]) = scale_[pivots_[i]] * inverse.row(i);
+  }
+  response->acceleration_force.noalias() -= basis_ * basis_.transpose();
+  response->acceleration_right.noalias() = basis_ * from_right_;
+  response->forces_force.noalias() = -to_forces_ * basis_.transpose();
+  response->forces_right.noalias() = to_forces_ * from_right_;
 }
 
 ConstrainedDynamics::ConstrainedDynamics(const BodyDynamics& dynamics, std::vector<ContactSurface> surfaces,

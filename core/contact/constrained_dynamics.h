@@ -24,12 +24,23 @@ struct ConstrainedSolution {
   double residual = 0;
 };
 
+// The inverse of that system's matrix: derivatives of a and λ by f and by r. If rows are redundant, r acts through the rows
+// that were chosen as independent, and λ is the one of least norm.
+struct ConstrainedResponse {
+  MatrixX acceleration_force;  // n × n
+  MatrixX acceleration_right;  // n × rows
+  MatrixX forces_force;        // rows × n
+  MatrixX forces_right;        // rows × rows
+};
+
 // Solves that system for one size of M. Allocates only when n or the number of rows grows.
 class ConstrainedSolver {
  public:
   // Contract: `mass` is symmetric positive definite, J has as many columns. J may have no rows.
   void Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const VectorX& right_side,
              ConstrainedSolution* solution);
+  // Of the last Solve.
+  void Response(ConstrainedResponse* response);
 
  private:
   // Orthonormal basis of the columns of A = L⁻¹ Jᵀ by pivoted Gram–Schmidt with reorthogonalisation.
@@ -40,6 +51,7 @@ class ConstrainedSolver {
   MatrixX q_;                // n × rank
   MatrixX r_;                // rank × rows, columns in the order of pivots_
   MatrixX gram_;
+  MatrixX basis_, from_right_, to_forces_;  // of Response
   VectorX scale_, free_, right_, z_, forces_;
   std::vector<int> pivots_;
   int rank_ = 0;
@@ -55,6 +67,8 @@ struct Baumgarte {
 // Forward dynamics of a tree on rolling contacts that are held at acceleration level, ẇ = 0: gap and slip of the initial
 // state are carried on (the gap's acceleration is zero, too), not corrected, unless Baumgarte terms are given.
 // Bilateral: forces may pull, and friction has no limit. Not thread-safe: one object a thread.
+// Simulation has the general ContactDynamics. This one stays beside it because trajectories are judged with it: it takes
+// contacts with the ground from RollingKinematics and shares with ContactDynamics only the solver above.
 class ConstrainedDynamics {
  public:
   // `surfaces` are the active contacts. Copies what it needs of them and of the dynamics' model.

@@ -39,11 +39,6 @@ ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeC
   }
 }
 
-int ContactDynamics::RowCount(const TreeContact& contact) {
-  const int directions = contact.grip == Grip::kRolling ? 3 : contact.grip == Grip::kRollingAlong ? 2 : 1;
-  return directions + (contact.no_spin ? 1 : 0);
-}
-
 void ContactDynamics::SetState(const VectorX& q, const VectorX& v, const std::vector<FrameMotion>& ground) {
   dynamics_.ComputeState(q, v, &state_);
   velocity_ = v;

@@ -34,6 +34,9 @@ class ContactDynamics {
   const VectorX& velocity() const { return velocity_; }
   // Of contact k with bias accelerations (zero joint accelerations); computed when first asked for after SetState.
   const PairKinematics& Kinematics(int k);
+  // The separation that it comes from, for a contact with another surface; null for one with a plane.
+  const Separation* separation(int k) const { return pairs_[k] ? &pairs_[k]->separation() : nullptr; }
+  const FrameMotion& ground(int i) const { return ground_[i]; }
   // Angular velocity of body 1 relative to body 2 about the normal, rad/s.
   double Spin(int k);
   // ∂w/∂v (3 × nv), world axes, and ∂(relative angular velocity)/∂v.
@@ -45,6 +48,9 @@ class ContactDynamics {
   // Not finite where the surface of an active contact is flat. Valid until the next call.
   const ConstrainedSolution& Accelerate(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                         const Baumgarte& baumgarte);
+  const ConstrainedSolution& solution() const { return solution_; }
+  // The derivatives of that solution by what it was solved for.
+  void Response(ConstrainedResponse* response) { solver_.Response(response); }
   // Of the last Accelerate: force on body 1 (N, world), torque about the normal on body 1 (N m); zero if not active.
   Vector3 Force(int k) const { return forces_[k]; }
   double SpinTorque(int k) const { return spin_torques_[k]; }
@@ -56,8 +62,6 @@ class ContactDynamics {
   // Turns row values (forces or impulses of the rows of `active`) into a force and a spin torque per contact.
   void Distribute(const std::vector<int>& active, const VectorX& rows, std::vector<Vector3>* forces,
                   std::vector<double>* spin_torques);
-
-  static int RowCount(const TreeContact& contact);
 
  private:
   const FrameMotion& Body(int link, int ground) const { return link < 0 ? ground_[ground] : links_[link]; }

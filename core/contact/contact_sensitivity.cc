@@ -1,100 +1,89 @@
 #include "core/contact/contact_sensitivity.h"
 
-#include <tuple>
-
-#include "core/multibody/configuration.h"
+#include <algorithm>
+#include <iterator>
 
 namespace rollgait {
-namespace {
 
-// Weights of f(k h) − f(−k h), k = 1 … 4, of order 8, and a step at which truncation and rounding are alike.
-constexpr double kWeights[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-constexpr double kStep = 5e-3;
+ContactSensitivitySolver::ContactSensitivitySolver(const Model& model, ContactDynamics* dynamics)
+    : dynamics_(*dynamics), motion_(model) {}
 
-class SensitivitySolver {
- public:
-  SensitivitySolver(const Model& model, const VectorX& tau, const Vector3& gravity,
-                    const std::vector<FrameMotion>& ground, const std::vector<int>& active, const Baumgarte& baumgarte,
-                    ContactDynamics* dynamics)
-      : model_(model), tau_(tau), gravity_(gravity), ground_(ground), active_(active), baumgarte_(baumgarte),
-        dynamics_(*dynamics) {}
+// Of a link or of the ground, accelerations complete.
+FrameMotion ContactSensitivitySolver::Frame(int link, int ground) const {
+  if (link < 0) return dynamics_.ground(ground);
+  const BodyDynamics::Link& body = dynamics_.state()[static_cast<size_t>(link)];
+  const MotionDerivatives::PointMotion origin = motion_.Origin(link);
+  return {body.R_WL, body.p_WL, origin.w, origin.v, origin.alpha, origin.a};
+}
 
-  ContactSensitivity Solve(const VectorX& q, const VectorX& v) {
-    dynamics_.SetState(q, v, ground_);
-    const ConstrainedSolution& solution = dynamics_.Accelerate(active_, tau_, gravity_, baumgarte_);
-    acceleration_ = solution.acceleration;
-    forces_ = solution.forces;
-    ContactSensitivity sensitivity;
-    sensitivity.redundant = solution.redundant;
+const ContactSensitivity& ContactSensitivitySolver::Solve(const std::vector<int>& active, const VectorX& tau,
+                                                          const Vector3& gravity, const Baumgarte& baumgarte) {
+  const ConstrainedSolution& solution = dynamics_.Accelerate(active, tau, gravity, baumgarte);
+  dynamics_.Response(&response_);
+  const int nv = static_cast<int>(tau.size()), rows = static_cast<int>(solution.forces.size());
+  result_.redundant = solution.redundant;
+  result_.exists = true;
+  motion_.Update(dynamics_.state(), dynamics_.velocity(), solution.acceleration, gravity);
+  motion_.InverseDynamics(&dynamics_q_, &dynamics_v_);
+  rows_q_.setZero(rows, nv);
+  rows_v_.setZero(rows, nv);
+  int row = 0;
+  for (int k : active) {
+    const TreeContact& contact = dynamics_.contact(k);
+    const int count = RowCount(contact);
+    const RowDerivatives derivatives = ComputeRowDerivatives(
+        contact, dynamics_.Kinematics(k), dynamics_.separation(k), Frame(contact.link, 0),
+        Frame(contact.other_link, contact.ground), baumgarte, solution.forces.segment(row, count));
+    result_.exists = result_.exists && derivatives.exist;
+    AddContact(contact, derivatives, row);
+    row += count;
+  }
+  result_.acceleration_tau = response_.acceleration_force;
+  result_.forces_tau = response_.forces_force;
+  const auto apply = [this](const MatrixX& force, const MatrixX& right, MatrixX* acceleration, MatrixX* forces) {
+    acceleration->noalias() = -response_.acceleration_force * force;
+    acceleration->noalias() -= response_.acceleration_right * right;
+    forces->noalias() = -response_.forces_force * force;
+    forces->noalias() -= response_.forces_right * right;
+  };
+  apply(dynamics_q_, rows_q_, &result_.acceleration_q, &result_.forces_q);
+  apply(dynamics_v_, rows_v_, &result_.acceleration_v, &result_.forces_v);
+  return result_;
+}
 
-    const int nv = model_.nv(), rows = static_cast<int>(forces_.size());
-    MatrixX along_q(nv + rows, nv), along_v(nv + rows, nv), along_tau = MatrixX::Zero(nv + rows, nv);
-    for (int j = 0; j < nv; ++j) {
-      const VectorX unit = VectorX::Unit(nv, j);
-      along_q.col(j) = Slope([&](double h) { return Residual(Retract(model_, q, h * unit), v); });
-      along_v.col(j) = Slope([&](double h) { return Residual(q, v + h * unit); });
+void ContactSensitivitySolver::AddContact(const TreeContact& contact, const RowDerivatives& derivatives, int row) {
+  const int links[2] = {contact.link, contact.other_link};
+  moving_.clear();
+  static const std::vector<int> kNone;
+  const std::vector<int>* paths[2] = {&motion_.path(links[0]), links[1] < 0 ? &kNone : &motion_.path(links[1])};
+  std::set_union(paths[0]->begin(), paths[0]->end(), paths[1]->begin(), paths[1]->end(), std::back_inserter(moving_));
+  const int count = static_cast<int>(derivatives.by_pose.rows());
+  for (int m : moving_) {
+    Vector12 pose = Vector12::Zero(), twist_q = pose, twist_v = pose, acceleration_q = pose, acceleration_v = pose;
+    for (int side = 0; side < 2; ++side) {
+      if (!std::binary_search(paths[side]->begin(), paths[side]->end(), m)) continue;
+      const MotionDerivatives::Change by_q = motion_.AlongPosition(links[side], m);
+      const MotionDerivatives::Change by_v = motion_.AlongVelocity(links[side], m);
+      pose.segment<6>(6 * side) << by_q.shift, by_q.turn;
+      twist_q.segment<6>(6 * side) << by_q.motion.v, by_q.motion.w;
+      twist_v.segment<6>(6 * side) << by_v.motion.v, by_v.motion.w;
+      acceleration_q.segment<6>(6 * side) << by_q.motion.a, by_q.motion.alpha;
+      acceleration_v.segment<6>(6 * side) << by_v.motion.a, by_v.motion.alpha;
     }
-    along_tau.topRows(nv) = -MatrixX::Identity(nv, nv);
-
-    dynamics_.SetState(q, v, ground_);
-    VectorX right;
-    dynamics_.AccelerationRows(active_, baumgarte_, &jacobian_, &right);
-    const MatrixX mass = dynamics_.MassMatrix();
-    for (const auto& [residual, acceleration, forces] :
-         {std::tuple(&along_q, &sensitivity.acceleration_q, &sensitivity.forces_q),
-          std::tuple(&along_v, &sensitivity.acceleration_v, &sensitivity.forces_v),
-          std::tuple(&along_tau, &sensitivity.acceleration_tau, &sensitivity.forces_tau)}) {
-      acceleration->resize(nv, nv);
-      forces->resize(rows, nv);
-      for (int j = 0; j < nv; ++j) {
-        solver_.Solve(mass, -residual->col(j).head(nv), jacobian_, -residual->col(j).tail(rows), &change_);
-        acceleration->col(j) = change_.acceleration;
-        forces->col(j) = change_.forces;
+    rows_q_.col(m).segment(row, count).noalias() = derivatives.by_pose * pose + derivatives.by_twist * twist_q +
+                                                   derivatives.by_acceleration * acceleration_q;
+    rows_v_.col(m).segment(row, count).noalias() =
+        derivatives.by_twist * twist_v + derivatives.by_acceleration * acceleration_v;
+    // The generalised force S_k · W of a wrench W: W changes, and S_k turns with whatever moves it.
+    const Vector12 change = derivatives.wrenches_by_pose * pose;
+    for (int side = 0; side < 2; ++side) {
+      const Vector6 moved = change.segment<6>(6 * side), wrench = derivatives.wrenches.segment<6>(6 * side);
+      const Vector6 turned = -CrossForce(motion_.column(m), wrench);  // (S_m × S_k) · W = −S_k · (S_m ×* W)
+      for (int k : *paths[side]) {
+        dynamics_q_(k, m) -= motion_.column(k).dot(motion_.Moves(m, k) ? Vector6(moved + turned) : moved);
       }
     }
-    return sensitivity;
   }
-
- private:
-  template <typename F>
-  VectorX Slope(F value) const {
-    VectorX slope = VectorX::Zero(model_.nv() + forces_.size());
-    for (int k = 1; k <= 4; ++k) slope += kWeights[k - 1] / kStep * (value(k * kStep) - value(-k * kStep));
-    return slope;
-  }
-
-  // ID(q, v, a) − τ − Jᵀλ and J a − r at fixed a, λ, τ.
-  VectorX Residual(const VectorX& q, const VectorX& v) {
-    dynamics_.SetState(q, v, ground_);
-    VectorX right, needed;
-    dynamics_.AccelerationRows(active_, baumgarte_, &jacobian_, &right);
-    dynamics_.dynamics().InverseDynamics(dynamics_.state(), acceleration_, gravity_, &workspace_, &needed);
-    VectorX residual(model_.nv() + forces_.size());
-    residual << needed - tau_ - jacobian_.transpose() * forces_, jacobian_ * acceleration_ - right;
-    return residual;
-  }
-
-  const Model& model_;
-  const VectorX& tau_;
-  const Vector3& gravity_;
-  const std::vector<FrameMotion>& ground_;
-  const std::vector<int>& active_;
-  const Baumgarte& baumgarte_;
-  ContactDynamics& dynamics_;
-  BodyDynamics::Workspace workspace_;
-  ConstrainedSolver solver_;
-  ConstrainedSolution change_;
-  VectorX acceleration_, forces_;
-  MatrixX jacobian_;
-};
-
-}  // namespace
-
-ContactSensitivity ComputeSensitivity(const Model& model, const VectorX& q, const VectorX& v, const VectorX& tau,
-                                      const Vector3& gravity, const std::vector<FrameMotion>& ground,
-                                      const std::vector<int>& active, const Baumgarte& baumgarte,
-                                      ContactDynamics* dynamics) {
-  return SensitivitySolver(model, tau, gravity, ground, active, baumgarte, dynamics).Solve(q, v);
 }
 
 }  // namespace rollgait

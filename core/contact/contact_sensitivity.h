@@ -5,7 +5,8 @@
 
 #include "core/base/types.h"
 #include "core/contact/contact_dynamics.h"
-#include "core/multibody/model.h"
+#include "core/contact/row_derivatives.h"
+#include "core/multibody/motion_derivatives.h"
 
 namespace rollgait {
 
@@ -16,17 +17,37 @@ struct ContactSensitivity {
   // True if rows depend on each other: then the derivatives of the accelerations hold along motions that keep the rows
   // consistent, and those of the forces are of the ones of least norm.
   bool redundant = false;
+  // False if a surface has no curvature, or no derivative of it, at an active contact; then the entries are not finite.
+  bool exists = true;
 };
 
-// By the equation that the solution satisfies (contact-math 7):
-//   [M Jᵀ; J 0] [da; −dλ] = −d( [ID(q, v, a) − τ − Jᵀλ ; J a − r] )  at fixed a, λ.
-// The right side's derivatives along q and v are central differences of order 8 of inverse dynamics, Jacobian and drift, all
-// smooth and free of any solve, which leaves 1e-11 of their size or so; those along τ are exact. Not for evaluations by the
-// thousand: 16 · 2 nv kinematics and inverse dynamics. Leaves `dynamics` at (q, v). `ground` as in ContactDynamics::SetState.
-ContactSensitivity ComputeSensitivity(const Model& model, const VectorX& q, const VectorX& v, const VectorX& tau,
-                                      const Vector3& gravity, const std::vector<FrameMotion>& ground,
-                                      const std::vector<int>& active, const Baumgarte& baumgarte,
-                                      ContactDynamics* dynamics);
+// The equation that the solution satisfies (contact-math 7), linearised exactly, nothing by differences:
+//   [M −Jᵀ; J 0] [da; dλ] = −d( [ID(q, v, a) − τ − Jᵀλ ; J a − r] )  at fixed a, λ.
+// ID from MotionDerivatives; a contact's rows and forces from the derivatives of its pair by poses, twists and accelerations
+// of the two bodies (RowDerivatives), chained with the motion of the links. No allocation after the first call with as many
+// rows. One object a thread.
+class ContactSensitivitySolver {
+ public:
+  // `dynamics`, of the same model, must outlive the solver.
+  ContactSensitivitySolver(const Model& model, ContactDynamics* dynamics);
+
+  // At the state that ContactDynamics::SetState was given last; the arguments are those of Accelerate, which this calls.
+  // Valid until the next call.
+  const ContactSensitivity& Solve(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
+                                  const Baumgarte& baumgarte);
+
+ private:
+  FrameMotion Frame(int link, int ground) const;
+  // Adds the contact's share of the residual's derivatives; its rows begin at `row`.
+  void AddContact(const TreeContact& contact, const RowDerivatives& derivatives, int row);
+
+  ContactDynamics& dynamics_;
+  MotionDerivatives motion_;
+  ConstrainedResponse response_;
+  ContactSensitivity result_;
+  MatrixX dynamics_q_, dynamics_v_, rows_q_, rows_v_;  // of the residual
+  std::vector<int> moving_;
+};
 
 }  // namespace rollgait
 

@@ -8,6 +8,7 @@
 namespace rollgait {
 
 using Matrix3x12 = Eigen::Matrix<double, 3, 12>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using RowVector12 = Eigen::Matrix<double, 1, 12>;
 
@@ -36,6 +37,20 @@ PairDerivatives ComputeSurfacePairDerivatives(const PlacedSurface& surface_1, co
                                               const Separation& separation, int order);
 PairDerivatives ComputePlaneDerivatives(const PlacedSurface& surface, const FrameMotion& body, const PlacedPlane& plane,
                                         const FrameMotion& plane_frame, int order);
+
+// Derivatives with respect to ζ of the rates of PairKinematics while the twists ξ of the two frames (world axes, at their
+// origins) keep their values, as the linearisation of a drift needs them: ∂(p_1 ξ)/∂ζ_k = p_1_second[ξ, e_k] +
+// ½ p_1 [ω × θ_k], the second term because a twist in world axes does not turn with the body. By ξ they are `first`.
+struct PairRateDerivatives {
+  PairDerivatives first;                    // of order 1 only
+  Matrix3x12 normal_dot, p_dot_1, p_dot_2;  // infinite where T does not exist (first.order < 2)
+};
+
+PairRateDerivatives ComputeSurfacePairRateDerivatives(const PlacedSurface& surface_1, const FrameMotion& body_1,
+                                                      const PlacedSurface& surface_2, const FrameMotion& body_2,
+                                                      const Separation& separation);
+PairRateDerivatives ComputePlaneRateDerivatives(const PlacedSurface& surface, const FrameMotion& body,
+                                                const PlacedPlane& plane, const FrameMotion& plane_frame);
 
 }  // namespace rollgait
 

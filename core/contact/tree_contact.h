@@ -29,6 +29,12 @@ struct TreeContact {
   bool no_spin = false;              // also forbid relative spin about the normal
 };
 
+// Rows that an active contact adds to the equations; their order is in ContactDynamics.
+inline int RowCount(const TreeContact& contact) {
+  const int directions = contact.grip == Grip::kRolling ? 3 : contact.grip == Grip::kRollingAlong ? 2 : 1;
+  return directions + (contact.no_spin ? 1 : 0);
+}
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_CONTACT_TREE_CONTACT_H_

@@ -53,6 +53,42 @@ struct SpatialInertia {
   }
 };
 
+// A moving composite of bodies: inertia, the Coriolis operator  B X = V ×* I X + X ×* I V − I (V × X)  summed over its bodies
+// (docs/derivatives.md), which is  [b x_ω; −2 p × x_ω]  with p the linear momentum. Sums like the inertia.
+struct CompositeMotion {
+  Matrix3 coriolis = Matrix3::Zero();
+  Vector3 momentum = Vector3::Zero();
+
+  // Of one body with this inertia and twist.
+  void Set(const SpatialInertia& inertia, const Vector6& twist) {
+    const Vector3 w = twist.head<3>(), v = twist.tail<3>(), &h = inertia.moment;
+    momentum = inertia.mass * v - h.cross(w);
+    // 2 [ω] J − 2 [h][v] − tr(J) [ω], with [h][v] = v hᵀ − (h·v) 1.
+    const Matrix3 doubled = 2 * inertia.rotational;
+    for (int k = 0; k < 3; ++k) coriolis.col(k) = w.cross(doubled.col(k)) - (2 * h(k)) * v;
+    coriolis.diagonal().array() += 2 * h.dot(v);
+    coriolis -= Skew(inertia.rotational.trace() * w);
+  }
+  CompositeMotion& operator+=(const CompositeMotion& other) {
+    coriolis += other.coriolis;
+    momentum += other.momentum;
+    return *this;
+  }
+  // B X and Bᵀ W.
+  Vector6 Apply(const Vector6& x) const {
+    Vector6 y;
+    y.head<3>().noalias() = coriolis * x.head<3>();
+    y.tail<3>() = -2 * momentum.cross(x.head<3>());
+    return y;
+  }
+  Vector6 ApplyTranspose(const Vector6& w) const {
+    Vector6 y;
+    y.head<3>() = coriolis.transpose() * w.head<3>() + 2 * momentum.cross(w.tail<3>());
+    y.tail<3>().setZero();
+    return y;
+  }
+};
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_MULTIBODY_SPATIAL_H_

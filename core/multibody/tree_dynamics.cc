@@ -17,23 +17,6 @@ Matrix3 AxisRotation(const Vector3& axis, double angle) {
   return r + s * Skew(axis);
 }
 
-// B X and Bᵀ W of a composite.
-template <typename Composite>
-Vector6 ApplyCoriolis(const Composite& c, const Vector6& x) {
-  Vector6 y;
-  y.head<3>().noalias() = c.coriolis * x.head<3>();
-  y.tail<3>() = -2 * c.momentum.cross(x.head<3>());
-  return y;
-}
-
-template <typename Composite>
-Vector6 ApplyCoriolisTranspose(const Composite& c, const Vector6& w) {
-  Vector6 y;
-  y.head<3>() = c.coriolis.transpose() * w.head<3>() + 2 * c.momentum.cross(w.tail<3>());
-  y.tail<3>().setZero();
-  return y;
-}
-
 }  // namespace
 
 TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()) {
@@ -185,24 +168,13 @@ void TreeDynamics::UpdateComposites() {
     if (p >= 0) psi2_[i] += CrossMotion(twist_[p], psi_[i]);
     Composite& c = composite_[i];
     if (!joints_[i].massive) {
-      c.coriolis.setZero();
-      c.momentum.setZero();
+      c.motion = CompositeMotion();
       continue;
     }
-    const SpatialInertia& inertia = link_inertia_[i];
-    const Vector3 w = twist_[i].head<3>(), v = twist_[i].tail<3>(), &h = inertia.moment;
-    c.momentum = inertia.mass * v - h.cross(w);
-    // 2 [ω] J − 2 [h][v] − tr(J) [ω], with [h][v] = v hᵀ − (h·v) 1.
-    const Matrix3 doubled = 2 * inertia.rotational;
-    for (int k = 0; k < 3; ++k) c.coriolis.col(k) = w.cross(doubled.col(k)) - (2 * h(k)) * v;
-    c.coriolis.diagonal().array() += 2 * h.dot(v);
-    c.coriolis -= Skew(inertia.rotational.trace() * w);
+    c.motion.Set(link_inertia_[i], twist_[i]);
   }
   for (int i = n_ - 1; i > 0; --i) {
-    const int p = joints_[i].parent;
-    if (p < 0) continue;
-    composite_[p].coriolis += composite_[i].coriolis;
-    composite_[p].momentum += composite_[i].momentum;
+    if (joints_[i].parent >= 0) composite_[joints_[i].parent].motion += composite_[i].motion;
   }
   has_composites_ = true;
 }
@@ -218,9 +190,9 @@ void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> 
     const Composite& c = composite_[k];
     const Vector6& s = axis_[k];
     const Vector6 u = c.inertia * s;
-    const Vector6 b = ApplyCoriolisTranspose(c, s);
-    const Vector6 column_v = 2 * (c.inertia * psi_[k]) + ApplyCoriolis(c, s);
-    const Vector6 column_q = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi_[k]);
+    const Vector6 b = c.motion.ApplyTranspose(s);
+    const Vector6 column_v = 2 * (c.inertia * psi_[k]) + c.motion.Apply(s);
+    const Vector6 column_q = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + c.motion.Apply(psi_[k]);
     // Row k against its ancestors and itself; column k against its proper ancestors.
     for (int m = k; m >= 0; m = joints_[m].parent) {
       dq(k, m) = u.dot(psi2_[m]) + b.dot(psi_[m]);
@@ -286,11 +258,11 @@ void TreeDynamics::AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX
       return y;
     };
     // Covectors of ∂L/∂q_k, ∂L/∂v_k, ∂L/∂a_k on the triple (Ω, Ψ, Ψ2); see the class comment.
-    const Vector6 q_omega = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + ApplyCoriolis(c, psi);
-    const Vector6 q_psi = ApplyCoriolisTranspose(c, omega_[k]) + 2 * CrossForce(psi, w.momentum) + CrossForce(s, w.z) +
+    const Vector6 q_omega = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + c.motion.Apply(psi);
+    const Vector6 q_psi = c.motion.ApplyTranspose(omega_[k]) + 2 * CrossForce(psi, w.momentum) + CrossForce(s, w.z) +
                           e_transpose(psi);
     const Vector6 q_psi2 = c.inertia * omega_[k] + CrossForce(s, w.momentum);
-    const Vector6 v_omega = 2 * (c.inertia * psi) + ApplyCoriolis(c, s);
+    const Vector6 v_omega = 2 * (c.inertia * psi) + c.motion.Apply(s);
     const Vector6 v_psi = 2 * CrossForce(s, w.momentum) + e_transpose(s);
     const Vector6 a_omega = c.inertia * s;
     for (int m = k; m >= 0; m = joints_[m].parent) {

@@ -72,12 +72,10 @@ class TreeDynamics {
     Matrix3 R_PJ, inertia;
     double mass;
   };
-  // Composite (subtree) quantities of one joint. B X = [b x_ω; −2 p × x_ω] is the Coriolis operator of the subtree,
-  // p its linear momentum.
+  // Subtree quantities of one joint.
   struct Composite {
     SpatialInertia inertia;
-    Matrix3 coriolis = Matrix3::Zero();
-    Vector3 momentum = Vector3::Zero();
+    CompositeMotion motion;
   };
   // The same for the virtual velocity W: momentum P, Z = BᵀW, and E X = [e x_ω − 2 P_v × x_v; 0].
   struct VirtualComposite {

@@ -8,66 +8,24 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/contact/contact_sensitivity.h"
 #include "core/contact/impact.h"
 #include "core/multibody/configuration.h"
+#include "tests/support/contact_tree.h"
 #include "tests/support/matrix_near.h"
-#include "tests/support/random_tree.h"
 
 namespace rollgait {
 namespace {
 
-using testing::RandomRotation;
 using testing::RandomVector;
 
 const Vector3 kGravity(1.1, -0.6, -9.3);
 
-// Two free bodies joined by an arm, three contacts: with the ground frame 1 (moving), with the ground frame 0, and of one
-// link with the plane of another.
 class ContactDynamicsTest : public ::testing::TestWithParam<int> {
  protected:
-  ContactDynamicsTest() : random_(GetParam()), model_(MakeModel()), dynamics_(BodyDynamics(model_), MakeContacts()) {
-    q_ = NeutralConfiguration(model_);
-    q_ = Retract(model_, q_, RandomVector(random_, model_.nv()));
-    v_ = RandomVector(random_, model_.nv());
-    ground_.resize(2);
-    ground_[1] = {RandomRotation(random_),   RandomVector(random_, 3), RandomVector(random_, 3),
-                  RandomVector(random_, 3), RandomVector(random_, 3), RandomVector(random_, 3)};
+  ContactDynamicsTest()
+      : tree_(static_cast<unsigned>(GetParam())), random_(tree_.random), model_(tree_.model),
+        dynamics_(BodyDynamics(model_), tree_.contacts), q_(tree_.q), v_(tree_.v), ground_(tree_.ground) {
     dynamics_.SetState(q_, v_, ground_);
-  }
-
-  Model MakeModel() {
-    std::vector<Joint> joints = testing::RandomTree(random_, 4).joints();
-    // A chain, so that three joints lie between the links 0 and 3, which touch.
-    for (int i = 0; i < 4; ++i) joints[static_cast<size_t>(i)].parent = i - 1;
-    for (Joint& joint : joints) joint.mirror_joint = -1;
-    joints[0].type = JointType::kFree;
-    joints[0].actuated = false;
-    joints[0].effort_min = joints[0].effort_max = 0;
-    for (Joint& joint : joints) {
-      if (joint.mass > 0) continue;
-      joint.mass = 0.7;
-      joint.inertia = Vector3(0.2, 0.3, 0.4).asDiagonal();
-    }
-    return Model::Create(std::move(joints)).value();
-  }
-
-  PlacedSurface RandomSurface() {
-    const Vector3 axes = RandomVector(random_, 3).cwiseAbs() + Vector3::Constant(0.2);
-    return {Ellipsoid(axes), RandomVector(random_, 3), RandomRotation(random_)};
-  }
-
-  std::vector<TreeContact> MakeContacts() {
-    std::vector<TreeContact> contacts(3);
-    for (TreeContact& contact : contacts) contact.surface = RandomSurface();
-    contacts[0].link = 0, contacts[0].ground = 1, contacts[0].no_spin = true;
-    contacts[1].link = 3, contacts[1].grip = Grip::kFrictionless;
-    contacts[2].link = 0, contacts[2].other_link = 3, contacts[2].grip = Grip::kRollingAlong;
-    contacts[2].along = RandomVector(random_, 3);
-    for (TreeContact& contact : contacts) {
-      contact.other = PlacedPlane{RandomVector(random_, 3), Vector3(RandomVector(random_, 3)).normalized()};
-    }
-    return contacts;
   }
 
   // Moves for a time h with accelerations a and the ground's full motion; what the velocities are then.
@@ -85,19 +43,21 @@ class ContactDynamicsTest : public ::testing::TestWithParam<int> {
     dynamics_.SetState(q, v, ground);
   }
 
-  std::mt19937 random_;
-  Model model_;
+  testing::ContactTree tree_;
+  std::mt19937& random_;
+  const Model& model_;
   ContactDynamics dynamics_;
-  VectorX q_, v_;
-  std::vector<FrameMotion> ground_;
+  VectorX& q_;
+  VectorX& v_;
+  const std::vector<FrameMotion>& ground_;
 };
 
 // The equations of motion with the forces that come out, by inverse dynamics, and the constraints.
 TEST_P(ContactDynamicsTest, AccelerationsAndForcesBelongTogether) {
   const VectorX tau = RandomVector(random_, model_.nv());
-  const std::vector<int> active = {0, 1, 2};
+  const std::vector<int> active = {0, 1, 2, 3};
   const ConstrainedSolution solution = dynamics_.Accelerate(active, tau, kGravity, {});
-  EXPECT_EQ(solution.rank, 7);
+  EXPECT_EQ(solution.rank, 10);
   EXPECT_FALSE(solution.redundant);
   EXPECT_LT(solution.residual, 1e-9);
   BodyDynamics::Workspace workspace;
@@ -105,7 +65,7 @@ TEST_P(ContactDynamicsTest, AccelerationsAndForcesBelongTogether) {
   dynamics_.dynamics().InverseDynamics(dynamics_.state(), solution.acceleration, kGravity, &workspace, &needed);
   VectorX given = tau;
   MatrixX linear, angular;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 4; ++k) {
     dynamics_.SlipJacobian(k, &linear, &angular);
     given += linear.transpose() * dynamics_.Force(k);
     given += angular.transpose() * dynamics_.Kinematics(k).normal * dynamics_.SpinTorque(k);
@@ -120,7 +80,7 @@ TEST_P(ContactDynamicsTest, AccelerationsAndForcesBelongTogether) {
 // The Jacobian against the slip, with body 2 standing still or not: it is linear in v.
 TEST_P(ContactDynamicsTest, SlipIsItsJacobianTimesTheVelocity) {
   MatrixX linear, angular;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 4; ++k) {
     dynamics_.SetState(q_, v_, ground_);
     const Vector3 slip = dynamics_.Kinematics(k).slip;
     const double spin = dynamics_.Spin(k);
@@ -136,7 +96,7 @@ TEST_P(ContactDynamicsTest, SlipIsItsJacobianTimesTheVelocity) {
 // differences of order 4 is zero for the rolling and the spin rows up to what turning rows add, which is zero without slip.
 TEST_P(ContactDynamicsTest, HeldVelocitiesStayHeld) {
   // First a state without slip: the velocity of least energy change.
-  const std::vector<int> active = {0, 1, 2};
+  const std::vector<int> active = {0, 1, 2, 3};
   const Impact impact = ResolveImpact(active, active, &dynamics_);
   v_ = impact.velocity;
   dynamics_.SetState(q_, v_, ground_);
@@ -161,51 +121,14 @@ TEST_P(ContactDynamicsTest, BaumgarteAddsItsTerms) {
   terms.frequency = 3, terms.damping = 0.7, terms.slip_rate = 5;
   MatrixX rows;
   VectorX plain, with;
-  dynamics_.AccelerationRows({0, 1, 2}, {}, &rows, &plain);
-  dynamics_.AccelerationRows({0, 1, 2}, terms, &rows, &with);
+  dynamics_.AccelerationRows({0, 1, 2, 3}, {}, &rows, &plain);
+  dynamics_.AccelerationRows({0, 1, 2, 3}, terms, &rows, &with);
   const PairKinematics pair = dynamics_.Kinematics(0);
   const double normal = -2 * 0.7 * 3 * pair.gap_rate - 9 * pair.gap;
   const Vector3 tangential = -5 * (pair.slip - pair.normal * pair.normal.dot(pair.slip));
   EXPECT_TRUE(MatrixNear((with - plain).head(3), normal * pair.normal + tangential, 1e-10));
   EXPECT_NEAR((with - plain)[3], -5 * dynamics_.Spin(0), 1e-10);
   EXPECT_NEAR((with - plain)[4], -2 * 0.7 * 3 * dynamics_.Kinematics(1).gap_rate - 9 * dynamics_.Kinematics(1).gap, 1e-10);
-}
-
-// Against differences of the whole solution (order 4, another step).
-TEST_P(ContactDynamicsTest, SensitivitiesAreDifferencesOfTheSolution) {
-  const VectorX tau = RandomVector(random_, model_.nv());
-  const std::vector<int> active = {0, 1, 2};
-  Baumgarte terms;
-  terms.frequency = 2, terms.damping = 1, terms.slip_rate = 3;
-  const ContactSensitivity sensitivity =
-      ComputeSensitivity(model_, q_, v_, tau, kGravity, ground_, active, terms, &dynamics_);
-  EXPECT_FALSE(sensitivity.redundant);
-  const int nv = model_.nv();
-  const auto solve = [&](const VectorX& q, const VectorX& v, const VectorX& effort) {
-    dynamics_.SetState(q, v, ground_);
-    const ConstrainedSolution& solution = dynamics_.Accelerate(active, effort, kGravity, terms);
-    VectorX both(nv + solution.forces.size());
-    both << solution.acceleration, solution.forces;
-    return both;
-  };
-  const double h = 1e-4;
-  const auto slope = [&](auto at) {
-    return VectorX((8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h));
-  };
-  for (int j = 0; j < nv; ++j) {
-    const VectorX unit = VectorX::Unit(nv, j);
-    const VectorX dq = slope([&](double s) { return solve(Retract(model_, q_, s * unit), v_, tau); });
-    const VectorX dv = slope([&](double s) { return solve(q_, v_ + s * unit, tau); });
-    const VectorX dtau = slope([&](double s) { return solve(q_, v_, tau + s * unit); });
-    const double size = 1e-6 * (1 + dq.norm() + dv.norm() + dtau.norm());
-    EXPECT_TRUE(MatrixNear(sensitivity.acceleration_q.col(j), dq.head(nv), size));
-    EXPECT_TRUE(MatrixNear(sensitivity.forces_q.col(j), dq.tail(dq.size() - nv), size));
-    EXPECT_TRUE(MatrixNear(sensitivity.acceleration_v.col(j), dv.head(nv), size));
-    EXPECT_TRUE(MatrixNear(sensitivity.forces_v.col(j), dv.tail(dv.size() - nv), size));
-    EXPECT_TRUE(MatrixNear(sensitivity.acceleration_tau.col(j), dtau.head(nv), size));
-    EXPECT_TRUE(MatrixNear(sensitivity.forces_tau.col(j), dtau.tail(dtau.size() - nv), size));
-    EXPECT_GT(dq.norm(), 1e-6);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ContactDynamicsTest, ::testing::Range(1, 7));

@@ -17,7 +17,6 @@
 namespace rollgait {
 namespace {
 
-using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Vector10 = Eigen::Matrix<double, 10, 1>;
 
 Matrix3 Turn(const Vector3& theta) {

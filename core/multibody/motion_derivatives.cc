@@ -1,0 +1,156 @@
+#include "core/multibody/motion_derivatives.h"
+
+#include "core/base/check.h"
+
+namespace rollgait {
+namespace {
+
+Vector6 Stack(const Vector3& angular, const Vector3& linear) {
+  Vector6 both;
+  both << angular, linear;
+  return both;
+}
+
+// A motion vector at the point p in world axes, moved to the world's origin.
+Vector6 FromPoint(const Vector3& p, const Vector3& angular, const Vector3& linear) {
+  return Stack(angular, linear + p.cross(angular));
+}
+
+SpatialInertia WorldInertia(const Joint& joint, const BodyDynamics::Link& link) {
+  SpatialInertia inertia;
+  const Vector3 com = link.p_WL + link.R_WL * joint.center_of_mass;
+  inertia.mass = joint.mass;
+  inertia.moment = joint.mass * com;
+  inertia.rotational.noalias() = link.R_WL * joint.inertia * link.R_WL.transpose();
+  inertia.rotational.noalias() -= inertia.moment * com.transpose();
+  inertia.rotational.diagonal().array() += inertia.moment.dot(com);
+  return inertia;
+}
+
+}  // namespace
+
+MotionDerivatives::MotionDerivatives(const Model& model) : model_(model) {
+  columns_.resize(static_cast<size_t>(model.nv()));
+  bodies_.resize(static_cast<size_t>(model.size()));
+  paths_.resize(bodies_.size());
+  for (int i = 0; i < model.size(); ++i) {
+    std::vector<int>& path = paths_[static_cast<size_t>(i)];
+    if (model.parent(i) >= 0) path = paths_[static_cast<size_t>(model.parent(i))];
+    for (int c = 0; c < VelocityCount(model.joint(i).type); ++c) {
+      path.push_back(model.v_index(i) + c);
+      joint_of_.push_back(i);
+    }
+  }
+}
+
+void MotionDerivatives::Update(const BodyDynamics::State& state, const VectorX& v, const VectorX& a,
+                               const Vector3& gravity) {
+  ROLLGAIT_CHECK(v.size() == model_.nv() && a.size() == model_.nv());
+  gravity_ = gravity;
+  const Vector6 root = Stack(Vector3::Zero(), -gravity);
+  for (int i = 0; i < model_.size(); ++i) {
+    const Joint& joint = model_.joint(i);
+    const BodyDynamics::Link& link = state[static_cast<size_t>(i)];
+    Body& body = bodies_[static_cast<size_t>(i)];
+    const bool at_root = joint.parent < 0;
+    const Vector6 parent_twist = at_root ? Vector6(Vector6::Zero()) : bodies_[static_cast<size_t>(joint.parent)].twist;
+    const Vector6& parent_acceleration = at_root ? root : bodies_[static_cast<size_t>(joint.parent)].acceleration;
+    const Vector3& p = body.origin = link.p_WL;
+    body.twist = FromPoint(p, link.R_WL * link.twist.angular, link.R_WL * link.twist.linear);
+    // A_k = A_p + Σ S a + V_p × (V_k − V_p)
+    body.acceleration = parent_acceleration + CrossMotion(parent_twist, body.twist);
+    const int first = model_.v_index(i);
+    for (int c = 0; c < VelocityCount(joint.type); ++c) {
+      Column& column = columns_[static_cast<size_t>(first + c)];
+      const bool free = joint.type == JointType::kFree;
+      const Vector3 direction = free ? Vector3(link.R_WL.col(c % 3)) : Vector3(link.R_WL * joint.axis);
+      const bool turns = free ? c < 3 : joint.type == JointType::kRevolute;
+      column.s = turns ? FromPoint(p, direction, Vector3::Zero()) : Stack(Vector3::Zero(), direction);
+      column.psi = CrossMotion(parent_twist, column.s);
+      column.psi2 = CrossMotion(parent_acceleration, column.s) + CrossMotion(parent_twist, column.psi);
+      column.s_dot = CrossMotion(body.twist, column.s);
+      body.acceleration += column.s * a[first + c];
+    }
+    body.inertia = WorldInertia(joint, link);
+    body.motion.Set(body.inertia, body.twist);
+    body.force = body.inertia * body.acceleration + CrossForce(body.twist, body.inertia * body.twist);
+  }
+  for (int i = model_.size() - 1; i > 0; --i) {
+    if (model_.parent(i) < 0) continue;
+    const Body& body = bodies_[static_cast<size_t>(i)];
+    Body& parent = bodies_[static_cast<size_t>(model_.parent(i))];
+    parent.inertia += body.inertia;
+    parent.motion += body.motion;
+    parent.force += body.force;
+  }
+}
+
+void MotionDerivatives::InverseDynamics(MatrixX* dq, MatrixX* dv) {
+  dq->setZero(model_.nv(), model_.nv());
+  dv->setZero(model_.nv(), model_.nv());
+  for (int i = 0; i < model_.size(); ++i) {
+    const Body& body = bodies_[static_cast<size_t>(i)];
+    const std::vector<int>& path = paths_[static_cast<size_t>(i)];
+    const int first = model_.v_index(i), count = VelocityCount(model_.joint(i).type);
+    const size_t before = path.size() - static_cast<size_t>(count);  // columns of proper ancestors
+    for (int k = first; k < first + count; ++k) {
+      const Column& column = columns_[static_cast<size_t>(k)];
+      // Row k along what moves it: itself, its joint, the joints before.
+      const Vector6 u = body.inertia * column.s, b = body.motion.ApplyTranspose(column.s);
+      for (int m : path) {
+        const Column& moving = columns_[static_cast<size_t>(m)];
+        (*dq)(k, m) = u.dot(moving.psi2) + b.dot(moving.psi);
+        (*dv)(k, m) = u.dot(moving.psi + moving.s_dot) + b.dot(moving.s);
+      }
+      // Column k in the rows before, which stand still.
+      const Vector6 by_q = CrossForce(column.s, body.force) + body.inertia * column.psi2 + body.motion.Apply(column.psi);
+      const Vector6 by_v = body.inertia * (column.psi + column.s_dot) + body.motion.Apply(column.s);
+      for (size_t j = 0; j < before; ++j) {
+        const Vector6& s = columns_[static_cast<size_t>(path[j])].s;
+        (*dq)(path[j], k) = s.dot(by_q);
+        (*dv)(path[j], k) = s.dot(by_v);
+      }
+    }
+  }
+}
+
+MotionDerivatives::PointMotion MotionDerivatives::Origin(int link) const {
+  const Body& body = bodies_[static_cast<size_t>(link)];
+  PointMotion motion;
+  motion.w = body.twist.head<3>();
+  motion.v = body.twist.tail<3>() + motion.w.cross(body.origin);
+  motion.alpha = body.acceleration.head<3>();
+  motion.a = body.acceleration.tail<3>() + gravity_ + motion.alpha.cross(body.origin) + motion.w.cross(motion.v);
+  return motion;
+}
+
+MotionDerivatives::Change MotionDerivatives::AtOrigin(const Body& body, const Vector6& pose, const Vector6& twist,
+                                                      const Vector6& acceleration) const {
+  const Vector3& p = body.origin;
+  const Vector3 w = body.twist.head<3>(), v = body.twist.tail<3>() + w.cross(p), alpha = body.acceleration.head<3>();
+  Change change;
+  change.turn = pose.head<3>();
+  change.shift = pose.tail<3>() + change.turn.cross(p);
+  PointMotion& motion = change.motion;
+  motion.w = twist.head<3>();
+  motion.v = twist.tail<3>() + motion.w.cross(p) + w.cross(change.shift);
+  motion.alpha = acceleration.head<3>();
+  motion.a = acceleration.tail<3>() + motion.alpha.cross(p) + alpha.cross(change.shift) + motion.w.cross(v) +
+             w.cross(motion.v);
+  return change;
+}
+
+MotionDerivatives::Change MotionDerivatives::AlongPosition(int link, int c) const {
+  const Body& body = bodies_[static_cast<size_t>(link)];
+  const Column& column = columns_[static_cast<size_t>(c)];
+  return AtOrigin(body, column.s, CrossMotion(column.s, body.twist) + column.psi,
+                  CrossMotion(column.s, body.acceleration) + column.psi2 - CrossMotion(body.twist, column.psi));
+}
+
+MotionDerivatives::Change MotionDerivatives::AlongVelocity(int link, int c) const {
+  const Body& body = bodies_[static_cast<size_t>(link)];
+  const Column& column = columns_[static_cast<size_t>(c)];
+  return AtOrigin(body, Vector6::Zero(), column.s, column.psi + column.s_dot - CrossMotion(body.twist, column.s));
+}
+
+}  // namespace rollgait
