@@ -1,5 +1,9 @@
 #include "core/gait/build_problem.h"
 
+#include <algorithm>
+
+#include "core/models/passive_torque.h"
+#include "core/ocp/costs/muscle_costs.h"
 #include "core/ocp/costs/point_costs.h"
 
 namespace rollgait {
@@ -24,26 +28,53 @@ TrackingCost DescribeTracking(const GaitRequest::Tracking& tracking, const Model
   return cost;
 }
 
-CostDescription DescribeCost(const GaitSpec::CostTerm& term, const OptimalControlProblem& problem) {
-  const PointLayout layout = problem.Layout(0);
-  CostDescription description;
-  description.weight = term.weight;
-  if (const auto* torque = std::get_if<GaitRequest::SquaredTorque>(&term.term)) {
-    description.term = std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, torque->joint_weights), layout,
-                                                           problem.effort_size());
-  } else if (const auto* rate = std::get_if<GaitRequest::SquaredTorqueRate>(&term.term)) {
-    description.term = EffortRateCost{JointWeights(problem.model, rate->joint_weights), problem.effort_size()};
-  } else if (const auto* work = std::get_if<GaitRequest::MechanicalWork>(&term.term)) {
-    // About 0.5 J per newton of weight and metre.
-    description.term = std::make_unique<MechanicalWorkCost>(work->smoothing.value(), problem.model.actuated(), layout,
-                                                            0.5 * problem.force_size());
-  } else if (std::holds_alternative<GaitRequest::Time>(term.term)) {
-    description.term = std::make_unique<TimeCost>();
-  } else {
-    description.term = DescribeTracking(std::get<GaitRequest::Tracking>(term.term), problem.model);
+std::vector<MuscledJoint> MuscledJoints(const Scene& scene, const std::map<std::string, double>& weights) {
+  std::vector<MuscledJoint> joints;
+  for (int index : scene.model.actuated()) {
+    const Joint& joint = scene.model.joint(index);
+    const double strength = std::max(-joint.effort_min, joint.effort_max);
+    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint.name, scene.selection.mass)});
   }
-  return description;
+  return joints;
 }
+
+// Describes each kind of term.
+struct TermDescription {
+  const Scene& scene;
+  const OptimalControlProblem& problem;
+  PointLayout layout;
+  // Mechanical power of a walker, W: about 0.5 J per newton of weight and metre.
+  double power() const { return 0.5 * problem.force_size(); }
+
+  using Term = decltype(CostDescription::term);
+  Term operator()(const GaitRequest::SquaredTorque& term) const {
+    return std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, term.joint_weights), layout,
+                                               problem.effort_size());
+  }
+  Term operator()(const GaitRequest::SquaredTorqueRate& term) const {
+    return EffortRateCost{JointWeights(problem.model, term.joint_weights), problem.effort_size()};
+  }
+  Term operator()(const GaitRequest::MechanicalWork& term) const {
+    return std::make_unique<MechanicalWorkCost>(term.smoothing.value(), problem.model.actuated(), layout, power());
+  }
+  Term operator()(const GaitRequest::Time&) const { return std::make_unique<TimeCost>(); }
+  Term operator()(const GaitRequest::Tracking& term) const { return DescribeTracking(term, problem.model); }
+  Term operator()(const GaitRequest::MuscleEffort& term) const {
+    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, term.joint_weights), term.exponent.value(), layout);
+  }
+  Term operator()(const GaitRequest::MuscleWork& term) const {
+    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, term.joint_weights), term.positive_efficiency.value(),
+                                            term.negative_efficiency.value(), term.smoothing.value(), layout, power());
+  }
+  Term operator()(const GaitRequest::PassiveLoad& term) const {
+    return std::make_unique<PassiveLoadCost>(MuscledJoints(scene, term.joint_weights), layout);
+  }
+  Term operator()(const GaitRequest::SquaredAcceleration& term) const {
+    VectorX weights = VectorX::Zero(problem.model.size());
+    for (const auto& [name, weight] : term.joint_weights) weights(problem.model.Find(name)) = weight;
+    return std::make_unique<SquaredAccelerationCost>(weights, layout);
+  }
+};
 
 CostDenominator Denominator(GaitRequest::Normalization normalization) {
   switch (normalization) {
@@ -88,7 +119,11 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   problem->displacement = Scaled(steps, spec.step_length_range);
   problem->duration = Scaled(steps, spec.step_duration_range);
   problem->speed = Scaled(1, spec.speed_range);
-  for (const GaitSpec::CostTerm& term : spec.costs) problem->costs.push_back(DescribeCost(term, *problem));
+  if (spec.duty_factor) problem->duty_factor = Scaled(1, *spec.duty_factor);
+  const TermDescription describe{spec.scene, *problem, problem->Layout(0)};
+  for (const GaitSpec::CostTerm& term : spec.costs) {
+    problem->costs.push_back({std::visit(describe, term.term), term.weight});
+  }
   return problem;
 }
 

@@ -57,6 +57,39 @@ struct TermCheck {
     }
   }
 
+  void operator()(GaitRequest::MuscleEffort& term) const {
+    const std::string field = path + ".muscle_effort";
+    term.exponent = check.Number(field + ".exponent", term.exponent, 2, {2, 10});
+    term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
+  }
+
+  void operator()(GaitRequest::MuscleWork& term) const {
+    const std::string field = path + ".muscle_work";
+    const NumberLimits efficiency{0.01, 100};
+    term.positive_efficiency = check.Number(field + ".positive_efficiency", term.positive_efficiency, 0.25, efficiency);
+    term.negative_efficiency = check.Number(field + ".negative_efficiency", term.negative_efficiency, 1.2, efficiency);
+    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, 20, {0.01, 1000, "W"});
+    term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
+  }
+
+  void operator()(GaitRequest::PassiveLoad& term) const {
+    term.joint_weights = CheckWeights(path + ".passive_load.joint_weights", term.joint_weights, scene, check);
+  }
+
+  // Of every joint, the base too; those that are not named have weight 1, of the base 0.
+  void operator()(GaitRequest::SquaredAcceleration& term) const {
+    const std::string field = path + ".squared_acceleration.joint_weights";
+    Weights completed;
+    if (scene != nullptr) {
+      for (int joint : scene->model.actuated()) completed[scene->model.joint(joint).name] = 1;
+    }
+    for (const auto& [joint, weight] : term.joint_weights) {
+      check.Number(Keyed(field, joint), weight, 1, kWeightLimits);
+      if (scene == nullptr || check.Joint(Keyed(field, joint), joint, *scene, false) >= 0) completed[joint] = weight;
+    }
+    term.joint_weights = completed;
+  }
+
   void CheckChannel(const std::string& field, GaitRequest::Tracking::Channel& channel) const {
     if (scene != nullptr) check.Joint(field + ".joint", channel.joint, *scene, false);
     channel.weight = check.Number(field + ".weight", channel.weight, 1, kWeightLimits);

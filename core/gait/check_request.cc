@@ -71,6 +71,9 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
   }
   std::vector<GaitSpec::Phase> phases = CheckPhases(request, known, check);
   const CheckedMotion motion = CheckMotion(request, known, gravity, phases, check);
+  if (request.motion.duty_factor) {
+    check.Range("motion.duty_factor", *request.motion.duty_factor, {0.5, 0.95}, true);
+  }
   std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, check);
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);
@@ -95,6 +98,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
                   .speed_range = motion.speed_range,
                   .step_length_range = motion.step_length_range,
                   .step_duration_range = motion.step_duration_range,
+                  .duty_factor = request.motion.duty_factor,
                   .cycle = request.cycle,
                   .phases = std::move(phases),
                   .costs = std::move(costs),

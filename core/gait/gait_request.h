@@ -35,6 +35,21 @@ struct GaitRequest {
     std::optional<double> smoothing;  // W
   };
   struct Time {};
+  struct MuscleEffort {
+    std::optional<double> exponent;
+    std::map<std::string, double> joint_weights;
+  };
+  struct MuscleWork {
+    std::optional<double> positive_efficiency, negative_efficiency;
+    std::optional<double> smoothing;  // W
+    std::map<std::string, double> joint_weights;
+  };
+  struct PassiveLoad {
+    std::map<std::string, double> joint_weights;
+  };
+  struct SquaredAcceleration {
+    std::map<std::string, double> joint_weights;
+  };
   struct Tracking {
     struct Channel {
       std::string joint;
@@ -44,7 +59,9 @@ struct GaitRequest {
     std::vector<Channel> channels;
   };
   struct CostTerm {
-    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking> term;
+    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking, MuscleEffort, MuscleWork, PassiveLoad,
+                 SquaredAcceleration>
+        term;
     std::optional<double> weight;
   };
   enum class Normalization { kPerDistance, kPerTime, kNone };
@@ -55,6 +72,7 @@ struct GaitRequest {
   struct Motion {
     std::optional<double> speed, step_length, step_duration;  // m/s, m, s
     bool free_speed = false;
+    std::optional<Range> duty_factor;
   } motion;
   Cycle cycle = Cycle::kHalf;
   std::optional<std::vector<Phase>> phases;
@@ -102,6 +120,7 @@ struct GaitSpec {
   Vector3 gravity;  // world axes, m/s²
   std::optional<double> speed, step_length, step_duration;  // prescribed ones
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
+  std::optional<GaitRequest::Range> duty_factor;
   Cycle cycle;
   std::vector<Phase> phases;
   std::vector<CostTerm> costs;

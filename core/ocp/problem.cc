@@ -25,6 +25,17 @@ std::vector<int> OptimalControlProblem::PreviousActive(int phase) const {
   return previous;
 }
 
+int OptimalControlProblem::StandingFeet(int phase) const {
+  int own = 0;
+  bool left = false, right = false;
+  for (int contact : phases[phase].active) {
+    left |= contact < contacts[contact].mirror_contact;
+    right |= contact > contacts[contact].mirror_contact;
+    own += contact == contacts[contact].mirror_contact ? 1 : 0;
+  }
+  return own + (left ? 1 : 0) + (right ? 1 : 0);
+}
+
 std::vector<ContactSurface> OptimalControlProblem::PhaseContacts(int phase) const {
   std::vector<ContactSurface> seen = contacts;
   std::vector<int> links;

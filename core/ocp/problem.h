@@ -47,12 +47,16 @@ struct OptimalControlProblem {
   Interval displacement;         // m over all phases
   Interval duration;             // s over all phases
   Interval speed;                // m/s; equal bounds prescribe it
+  // Share of the cycle that a foot stands, mean of both feet; equal bounds prescribe it.
+  std::optional<Interval> duty_factor;
 
   double force_size() const { return model.total_mass() * gravity.norm(); }
   double effort_size() const { return 0.15 * force_size(); }  // N m: about 100 for an adult
 
   // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored.
   std::vector<int> PreviousActive(int phase) const;
+  // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
+  int StandingFeet(int phase) const;
   // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first
   // acts in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
   // that joins them: the rows would depend on each other, and the forces along it would be free.

@@ -213,6 +213,7 @@ void IntervalBlock::EvaluateHessian(int i, double h, const double* lambda, const
 void IntervalBlock::AccumulateHessian(int i) {
   const int n = layout_.n, q = 0, v = n, u = 3 * n;
   AccumulateStates(i);
+  if (bends_accelerations_) AccumulateAccelerations(i);
   const int control = ControlOffset(i);
   for (int s = 0; s < scheme_.sources(); ++s) {
     const double sq = value_[0](i, s), sv = value_[1](i, s);
@@ -259,6 +260,18 @@ void IntervalBlock::AccumulateStates(int i) {
   }
 }
 
+void IntervalBlock::AccumulateAccelerations(int i) {
+  const int n = layout_.n, a = 2 * n;
+  aa_ = hessian_.block(a, a, n, n);
+  for (int s = 0; s < scheme_.sources(); ++s) {
+    for (int t = 0; t < scheme_.sources(); ++t) {
+      const double factor = value_[2](i, s) * value_[2](i, t);
+      if (SourceOffset(t) > SourceOffset(s) || factor == 0) continue;
+      local_.block(SourceOffset(s), SourceOffset(t), n, n) += factor * aa_;
+    }
+  }
+}
+
 // Everything against h: H ż with the symmetric Hessian of (q, v, a), and the gradient times the derivatives of the coefficients.
 void IntervalBlock::AccumulateStep(int i) {
   const int n = layout_.n, q = 0, v = n, a = 2 * n, u = 3 * n;
@@ -266,6 +279,7 @@ void IntervalBlock::AccumulateStep(int i) {
   turned_.segment(q, n).noalias() = qq_ * rate_q + qv_ * rate_v + qa_ * rate_a;
   turned_.segment(v, n).noalias() = vq_ * rate_q + vv_ * rate_v;
   turned_.segment(a, n).noalias() = aq_ * rate_q;
+  if (bends_accelerations_) turned_.segment(a, n).noalias() += aa_ * rate_a;
   auto step_row = local_.row(local_size_);
   for (int s = 0; s < scheme_.sources(); ++s) {
     for (int kind = 0; kind < 3; ++kind) {

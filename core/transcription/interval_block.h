@@ -16,7 +16,8 @@ namespace rollgait {
 // after it (local variables, scaled) and of its length h (the last local variable, in s). Position, velocity and acceleration
 // at a point are linear in the slice for given h; this class carries the derivatives of the point functions through that map:
 //   ∂g/∂y = Σ c_α J_α,   ∂²ℓ/∂y∂y' = Σ c_α c_β H_αβ,   and the terms of h.
-// Second derivatives that involve accelerations are with positions only (PointConstraint's contract in this project's physics).
+// Second derivatives that involve accelerations are with positions or accelerations, not with velocities or efforts: so it is in
+// rigid-body dynamics and with costs of the acceleration.
 class IntervalBlock {
  public:
   IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
@@ -84,11 +85,12 @@ class IntervalBlock {
   void BuildJacobianPattern();
   void BuildHessianPattern();
   std::vector<int> Behind(int i, int column) const;
-  void PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) const;
+  void PointPairs(int i, Entries* pairs, std::set<int>* step_coupled);
   int SourceOffset(int source) const;
   int ControlOffset(int point) const { return 2 * layout_.n + (points_count_ - 2) * layout_.n + point * controls_; }
   void AccumulateHessian(int i);
   void AccumulateStates(int i);
+  void AccumulateAccelerations(int i);
   void AccumulateStep(int i);
 
   const OptimalControlProblem& problem_;
@@ -111,6 +113,8 @@ class IntervalBlock {
   PointContext context_;
   VectorX z_, z_rate_, z_curve_;  // z and the first two derivatives of its first 3n entries by h
   MatrixX hessian_;
+  bool bends_accelerations_ = false;          // something has second derivatives by accelerations alone
+  MatrixX aa_;                                // those, if so
   MatrixX qq_, qv_, vq_, qa_, aq_, vv_;  // blocks of hessian_ and their transposes
   std::vector<double> hessian_scale_;    // per entry of hessian_pattern_
   VectorX gradient_, cost_gradient_, scaled_lambda_;

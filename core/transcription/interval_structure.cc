@@ -133,7 +133,7 @@ std::vector<int> IntervalBlock::Behind(int i, int column) const {
 
 // Pairs of variables of z with a second derivative at point i, and the variables of z that meet h: all that enter anything
 // nonlinear.
-void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) const {
+void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) {
   const int n = layout_.n;
   for (PointConstraint* constraint : points_[i].constraints) {
     const Entries p = constraint->HessianPattern();
@@ -150,6 +150,7 @@ void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_couple
     }
   }
   for (const auto& [a, b] : *pairs) {
+    bends_accelerations_ |= a >= 2 * n && b >= 2 * n && a < 3 * n && b < 3 * n;
     if (a < 3 * n) step_coupled->insert(b);
     if (b < 3 * n) step_coupled->insert(a);
   }

@@ -67,6 +67,22 @@ void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& l
     if (problem.speed.min > -kInfinity) add_speed(problem.speed.min, 0, kInfinity);
     if (problem.speed.max < kInfinity) add_speed(problem.speed.max, -kInfinity, 0);
   }
+  if (problem.duty_factor) {
+    const auto add_duty = [&](double duty, double lower, double upper) {
+      LinearRows::Row row{"duty factor", "s", lower, upper, {}, 1};
+      for (int p = 0; p < layout.phases(); ++p) {
+        row.terms.emplace_back(layout.duration(p), 0.5 * problem.StandingFeet(p) - duty);
+      }
+      rows->Add(std::move(row));
+    };
+    const Interval& duty = *problem.duty_factor;
+    if (duty.min == duty.max) {
+      add_duty(duty.min, 0, 0);
+    } else {
+      add_duty(duty.min, 0, kInfinity);
+      add_duty(duty.max, -kInfinity, 0);
+    }
+  }
   if (problem.duration.min > -kInfinity || problem.duration.max < kInfinity) {
     rows->Add({"step duration", "s", problem.duration.min, problem.duration.max, durations(1), 1});
   }

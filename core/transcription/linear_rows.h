@@ -37,7 +37,7 @@ class LinearRows {
 
 // x_N = mirror(x_0) + displacement along x, without the mirror in a full cycle.
 void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
-// Range of the mean speed, and of the sum of the durations.
+// Range of the mean speed, of the duty factor and of the sum of the durations.
 void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
 // In schemes whose intervals share an instant (the first point is a node), efforts whose rate costs something are the same
 // on both sides.

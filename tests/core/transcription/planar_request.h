@@ -11,6 +11,7 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
   request.body.model = "planar";
   request.slope = 0.1;
   request.motion.speed = 1.3;
+  request.motion.duty_factor = GaitRequest::Range{0.55, 0.65};
   request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
   request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
   request.costs.push_back({GaitRequest::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
@@ -19,6 +20,10 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
   request.costs.push_back({GaitRequest::Time{}, 100.0});
   request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}},
                            5e4});
+  request.costs.push_back({GaitRequest::MuscleEffort{3.0, {{"knee_r", 0.5}}}, 5e3});
+  request.costs.push_back({GaitRequest::MuscleWork{{}, {}, 5.0, {}}, 10.0});
+  request.costs.push_back({GaitRequest::PassiveLoad{}, 1e4});
+  request.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", 0.5}}}, 0.1});
   return request;
 }
 

@@ -1,0 +1,96 @@
+#ifndef ROLLGAIT_CORE_OCP_COSTS_MUSCLE_COSTS_H_
+#define ROLLGAIT_CORE_OCP_COSTS_MUSCLE_COSTS_H_
+
+#include <vector>
+
+#include "core/math/exponential_spring.h"
+#include "core/ocp/point_function.h"
+
+namespace rollgait {
+
+// One actuated joint as its muscles see it. What ligaments and stretched muscles give (`passive`) costs nothing: the muscles
+// pay for  m = τ − p(q), the rest of the joint's torque.
+struct MuscledJoint {
+  int coordinate = 0;   // index into q and v
+  double strength = 1;  // N m, > 0
+  double weight = 1;
+  ExponentialSpring passive;     // rad -> N m
+};
+
+// Σ w_j |m_j / S_j|^κ, dimensionless, κ ≥ 2: effort of muscles against their strength S_j.
+class MuscleEffortCost : public PointCost {
+ public:
+  MuscleEffortCost(std::vector<MuscledJoint> joints, double exponent, const PointLayout& layout);
+  std::string Name() const override { return "muscle effort"; }
+  std::string Unit() const override { return "s"; }
+  double Typical() const override;
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  std::vector<MuscledJoint> joints_;  // in the order of the efforts
+  double exponent_;
+  PointLayout layout_;
+};
+
+// Σ w_j (c_a (√(P_j² + ε²) − ε) + c_l P_j), W, of the power P_j = m_j v_j of the muscles, smooth by ε. With c_a = (1/η⁺ + 1/η⁻)/2
+// and c_l = (1/η⁺ − 1/η⁻)/2 this is the chemical energy of muscles that do positive work with the efficiency η⁺ and are
+// stretched at the price 1/η⁻ for each joule: P⁺/η⁺ + P⁻/η⁻.
+class MuscleWorkCost : public PointCost {
+ public:
+  MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency, double smoothing,
+                 const PointLayout& layout, double typical);
+  std::string Name() const override { return "muscle work"; }
+  std::string Unit() const override { return "J"; }
+  double Typical() const override { return typical_ * absolute_; }
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  std::vector<MuscledJoint> joints_;  // in the order of the efforts
+  double absolute_, linear_, smoothing_;
+  PointLayout layout_;
+  double typical_;  // W, of Σ |P_j|
+};
+
+// Σ w_j (p_j(q_j) / S_j)², dimensionless: the load on what stops the joints at the ends of their range.
+class PassiveLoadCost : public PointCost {
+ public:
+  PassiveLoadCost(std::vector<MuscledJoint> joints, const PointLayout& layout);
+  std::string Name() const override { return "passive load"; }
+  std::string Unit() const override { return "s"; }
+  double Typical() const override;
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  std::vector<MuscledJoint> joints_;
+  PointLayout layout_;
+};
+
+// Σ w_j a_j², rad²/s⁴ (m²/s⁴ for a prismatic joint), over all joints.
+class SquaredAccelerationCost : public PointCost {
+ public:
+  SquaredAccelerationCost(VectorX weights, const PointLayout& layout);
+  std::string Name() const override { return "squared acceleration"; }
+  std::string Unit() const override { return "rad²/s³"; }
+  double Typical() const override;
+  Entries HessianPattern() const override;
+  double Value(const PointContext& at) override;
+  void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
+  void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
+
+ private:
+  VectorX weights_;
+  PointLayout layout_;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_OCP_COSTS_MUSCLE_COSTS_H_
