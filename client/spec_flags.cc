@@ -33,12 +33,19 @@ double ParseWeight(const std::string& cost, const std::string& text) {
 }
 
 v1::CostTerm ParseCost(const std::string& cost) {
-  enum class Term { kTorque, kTorqueRate, kWork, kTime };
+  enum class Term { kTorque, kTorqueRate, kWork, kTime, kEffort, kMuscleWork, kPassiveLoad, kAcceleration };
   const size_t colon = cost.find(':');
   v1::CostTerm term;
   switch (Lookup<Term>(
       "--cost", cost.substr(0, colon),
-      {{"torque", Term::kTorque}, {"torque-rate", Term::kTorqueRate}, {"work", Term::kWork}, {"time", Term::kTime}})) {
+      {{"torque", Term::kTorque},
+       {"torque-rate", Term::kTorqueRate},
+       {"work", Term::kWork},
+       {"time", Term::kTime},
+       {"effort", Term::kEffort},
+       {"muscle-work", Term::kMuscleWork},
+       {"passive-load", Term::kPassiveLoad},
+       {"acceleration", Term::kAcceleration}})) {
     case Term::kTorque:
       term.mutable_squared_torque();
       break;
@@ -50,6 +57,18 @@ v1::CostTerm ParseCost(const std::string& cost) {
       break;
     case Term::kTime:
       term.mutable_time();
+      break;
+    case Term::kEffort:
+      term.mutable_muscle_effort();
+      break;
+    case Term::kMuscleWork:
+      term.mutable_muscle_work();
+      break;
+    case Term::kPassiveLoad:
+      term.mutable_passive_load();
+      break;
+    case Term::kAcceleration:
+      term.mutable_squared_acceleration();
       break;
   }
   if (colon != std::string::npos) term.set_weight(ParseWeight(cost, cost.substr(colon + 1)));
@@ -79,7 +98,7 @@ bool HasBodyFlags(const SpecFlags& flags) {
 }
 
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
-  if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed) return;
+  if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed && !flags.duty_factor) return;
   v1::Motion& motion = *spec.mutable_motion();
   if (flags.free_speed) {
     motion.set_free_speed(true);
@@ -91,6 +110,10 @@ void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
   }
   if (flags.step_length_m) motion.set_step_length_m(*flags.step_length_m);
   if (flags.step_duration_s) motion.set_step_duration_s(*flags.step_duration_s);
+  if (flags.duty_factor) {
+    motion.mutable_duty_factor()->set_min(*flags.duty_factor);
+    motion.mutable_duty_factor()->set_max(*flags.duty_factor);
+  }
 }
 
 void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
@@ -147,12 +170,15 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--speed", flags.speed_m_s, "Motion", "Mean speed along the slope in m/s, (0, 4]");
   add("--step-length", flags.step_length_m, "Motion", "Distance of a step in m, (0, 2]");
   add("--step-duration", flags.step_duration_s, "Motion", "Duration of a step in s, [0.1, 5]");
+  add("--duty-factor", flags.duty_factor, "Motion", "Share of the cycle that a foot stands, [0.5, 0.95]");
   command.add_flag("--free-speed", flags.free_speed, "Leave the speed to the optimiser")->group("Motion");
   add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
   add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
   add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");
-  add("--cost", flags.costs, "Cost", "torque, torque-rate, work or time, with [:WEIGHT]; may be repeated")->take_all();
+  add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
+  add("--cost", flags.costs, "Cost", "torque, torque-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
+  add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
   add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
@@ -206,8 +232,19 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   }
   if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
   if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
-  if (!flags.costs.empty()) spec.clear_costs();
+  // Either takes the place of what the file says; both at once are the server's to refuse.
+  if (!flags.costs.empty() || flags.preset) {
+    spec.clear_costs();
+    spec.clear_preset();
+  }
   for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
+  if (flags.preset) {
+    spec.set_preset(Lookup<v1::Preset>("--preset", *flags.preset,
+                                       {{"torque", v1::PRESET_TORQUE},
+                                        {"transport", v1::PRESET_TRANSPORT},
+                                        {"human", v1::PRESET_HUMAN}}));
+  }
+  if (flags.starts) spec.set_starts(*flags.starts);
   if (flags.normalization) {
     spec.set_cost_normalization(Lookup<v1::CostNormalization>("--normalize", *flags.normalization,
                                                               {{"distance", v1::COST_NORMALIZATION_PER_DISTANCE},

@@ -18,6 +18,9 @@ namespace rollgait::client {
 struct SpecFlags {
   std::string file;
   std::optional<std::string> model, sex, scheme, cycle, accuracy, normalization;
+  std::optional<std::string> preset;
+  std::optional<double> duty_factor;
+  std::optional<int> starts;
   std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;
   std::optional<double> friction, clearance_m, tolerance, time_limit_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;

@@ -13,9 +13,10 @@ _rollgait() {
     --scheme) COMPREPLY=($(compgen -W "radau2 radau3 hermite-simpson" -- "$current")); return ;;
     --cycle) COMPREPLY=($(compgen -W "half full" -- "$current")); return ;;
     --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
-    --cost) COMPREPLY=($(compgen -W "torque torque-rate work time" -- "$current")); return ;;
+    --cost) COMPREPLY=($(compgen -W "torque torque-rate work time effort muscle-work passive-load acceleration" -- "$current")); return ;;
     --feet) COMPREPLY=($(compgen -W "one two" -- "$current")); return ;;
     --ranges) COMPREPLY=($(compgen -W "anatomical walking" -- "$current")); return ;;
+    --preset) COMPREPLY=($(compgen -W "torque transport human" -- "$current")); return ;;
     --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;
     --state) COMPREPLY=($(compgen -W "queued running succeeded failed cancelled" -- "$current")); return ;;
     --output | -o | --spec | --scene) COMPREPLY=($(compgen -f -- "$current")); return ;;
@@ -24,8 +25,8 @@ _rollgait() {
     local options=$global
     case $command in
       solve) options+=" $body --spec --model --slope --speed --step-length --step-duration --free-speed --cycle --friction
-        --clearance --cost --normalize --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
-        --max-iterations --time-limit --output --request-id --validate-only --detach --reconnect" ;;
+        --clearance --duty-factor --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy
+        --tolerance --max-refinements --max-iterations --time-limit --output --request-id --validate-only --detach --reconnect" ;;
       watch) options+=" --after-sequence --output --reconnect" ;;
       get) options+=" --output" ;;
       list) options+=" --state --limit" ;;

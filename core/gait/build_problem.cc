@@ -33,7 +33,7 @@ std::vector<MuscledJoint> MuscledJoints(const Scene& scene, const std::map<std::
   for (int index : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(index);
     const double strength = std::max(-joint.effort_min, joint.effort_max);
-    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint.name, scene.selection.mass)});
+    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint, scene.selection.mass)});
   }
   return joints;
 }

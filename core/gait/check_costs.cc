@@ -1,5 +1,6 @@
 #include <set>
 
+#include "core/gait/presets.h"
 #include "core/gait/request_check.h"
 
 namespace rollgait {
@@ -110,6 +111,11 @@ struct TermCheck {
 
 std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
   std::vector<GaitRequest::CostTerm> terms = request.costs;
+  if (request.preset) {
+    if (!terms.empty()) check.Add("preset", "contradicts costs; give one of the two");
+    if (scene == nullptr) return {};
+    terms = PresetCosts(*request.preset, *scene);
+  }
   if (terms.empty()) terms.push_back({GaitRequest::SquaredTorque{}, std::nullopt});
   if (terms.size() > static_cast<size_t>(kMaxCostTerms)) {
     check.Add("costs",

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "core/gait/gait_request.h"
+#include "core/gait/presets.h"
 #include "core/gait/request_check.h"
 
 namespace rollgait {
@@ -56,7 +57,9 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestChec
 
 }  // namespace
 
-Result<GaitSpec> CheckRequest(const GaitRequest& request) {
+Result<GaitSpec> CheckRequest(const GaitRequest& given) {
+  GaitRequest request = given;
+  FillFromPreset(&request);
   RequestCheck check;
   const std::optional<Scene> scene = CheckBody(request.body, check);
   const Scene* known = scene ? &*scene : nullptr;
@@ -83,6 +86,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
       check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, 1000, 1, 100000);
   const double max_wall_time =
       check.Number("solver_limits.max_wall_time_s", request.solver_limits.max_wall_time, 600, {0.01, 86400, "s"});
+  const int starts = check.Integer("starts", request.starts, 1, 1, 32);
   if (!check.ok()) return check.Take();
 
   Result<Model> model = Model::Create(std::move(joints));
@@ -114,7 +118,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& request) {
                   .max_slip = accuracy.max_slip,
                   .max_refinements = accuracy.max_refinements,
                   .max_iterations = max_iterations,
-                  .max_wall_time = max_wall_time};
+                  .max_wall_time = max_wall_time,
+                  .starts = starts};
 }
 
 }  // namespace rollgait

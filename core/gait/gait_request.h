@@ -14,6 +14,9 @@
 
 namespace rollgait {
 
+// What a request leaves open, by name; see rollgait.v1.Preset.
+enum class Preset { kTorque, kTransport, kHuman };
+
 // A gait request as it comes in: any numbers. Field for field rollgait.v1.SolveSpec, which documents meaning, unit, default
 // and range. An empty optional asks for the default.
 struct GaitRequest {
@@ -76,6 +79,7 @@ struct GaitRequest {
   } motion;
   Cycle cycle = Cycle::kHalf;
   std::optional<std::vector<Phase>> phases;
+  std::optional<Preset> preset;
   std::vector<CostTerm> costs;
   Normalization normalization = Normalization::kPerDistance;
   struct GroundContact {
@@ -100,6 +104,7 @@ struct GaitRequest {
     std::optional<int> max_iterations;
     std::optional<double> max_wall_time;  // s
   } solver_limits;
+  std::optional<int> starts;
   std::optional<double> gravity;  // m/s²
 };
 
@@ -132,6 +137,7 @@ struct GaitSpec {
   int max_refinements;
   int max_iterations;
   double max_wall_time;
+  int starts;
 };
 
 // Checks every field before any work starts. Violations name the fields as in the proto, relative to the spec.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace rollgait {
 namespace {
@@ -125,10 +126,26 @@ class Footfalls {
 // Arms swing against the leg of their side, elbows a little bent.
 constexpr double kArmSwing = -0.6, kArmMean = 5 * kDegree, kElbow = 20 * kDegree;
 
+// What a variant of the guess changes.
+struct Style {
+  double step = 1, hip = 1, knee = 1, ankle = 1;
+  double lean = 0;  // rad
+
+  explicit Style(int variant) {
+    if (variant == 0) return;
+    std::mt19937 generator(static_cast<std::mt19937::result_type>(variant));
+    // In [-1, 1], the same with every standard library.
+    const auto draw = [&generator] { return 2 * (static_cast<double>(generator()) / 4294967295.0) - 1; };
+    for (double* factor : {&step, &hip, &knee, &ankle}) *factor += 0.25 * draw();
+    lean = 10 * kDegree * draw();
+  }
+};
+
 class Walk {
  public:
-  Walk(const OptimalControlProblem& problem, std::vector<double> durations, double displacement)
+  Walk(const OptimalControlProblem& problem, std::vector<double> durations, double displacement, const Style& style)
       : problem_(problem),
+        style_(style),
         legs_(problem),
         durations_(std::move(durations)),
         displacement_(displacement),
@@ -145,12 +162,13 @@ class Walk {
       const double leg = footfalls_.LegFraction(legs_.of_contact[c], time);
       for (int j = problem_.contacts[c].joint; j >= 0; j = model.parent(j)) {
         const std::string joint = WithoutSide(model.joint(j).name);
-        if (joint == "hip") SwingArm(j, q(j) = LegAngle(leg, &LegPose::hip) * kDegree, &q);
-        if (joint == "knee") q(j) = LegAngle(leg, &LegPose::knee) * kDegree;
-        if (joint == "ankle") q(j) = LegAngle(leg, &LegPose::ankle) * kDegree;
+        if (joint == "hip") SwingArm(j, q(j) = style_.hip * LegAngle(leg, &LegPose::hip) * kDegree, &q);
+        if (joint == "knee") q(j) = style_.knee * LegAngle(leg, &LegPose::knee) * kDegree;
+        if (joint == "ankle") q(j) = style_.ankle * LegAngle(leg, &LegPose::ankle) * kDegree;
       }
     }
     q(problem_.forward_joint) = displacement_ * time / total_;
+    if (const int pitch = model.Find("base_pitch"); pitch >= 0) q(pitch) = style_.lean;
     LowerOntoGround(problem_.phases[phase].active, &q);
     return q;
   }
@@ -207,6 +225,7 @@ class Walk {
   }
 
   const OptimalControlProblem& problem_;
+  Style style_;
   Legs legs_;
   std::vector<double> durations_;
   double displacement_;
@@ -219,11 +238,11 @@ struct Travel {
   double duration, displacement;
 };
 
-Travel ChooseTravel(const GaitSpec& spec, const OptimalControlProblem& problem) {
+Travel ChooseTravel(const GaitSpec& spec, const OptimalControlProblem& problem, double step_factor) {
   const double steps = problem.mirrored ? 1 : 2;
   const double leg = spec.scene.leg_length;
   const double speed = spec.speed.value_or(std::clamp(1.3, problem.speed.min, problem.speed.max));
-  const double natural = 0.72 * leg * std::sqrt(speed / 1.3);
+  const double natural = step_factor * 0.72 * leg * std::sqrt(speed / 1.3);
   double step = spec.step_length.value_or(spec.step_duration ? speed * *spec.step_duration : natural);
   step = std::clamp(step, problem.displacement.min / steps, problem.displacement.max / steps);
   const double duration = spec.step_duration.value_or(step / speed);
@@ -232,8 +251,9 @@ Travel ChooseTravel(const GaitSpec& spec, const OptimalControlProblem& problem) 
 
 }  // namespace
 
-MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem) {
-  const Travel travel = ChooseTravel(spec, problem);
+MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem, int variant) {
+  const Style style(variant);
+  const Travel travel = ChooseTravel(spec, problem, style.step);
   MotionGuess guess;
   guess.displacement = travel.displacement;
   // A phase on both legs takes a quarter of what a phase on one leg takes.
@@ -248,7 +268,7 @@ MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& prob
     const double share = part(phase) / weight;
     guess.durations.push_back(std::clamp(share * travel.duration, phase.duration.min, phase.duration.max));
   }
-  const auto walk = std::make_shared<Walk>(problem, guess.durations, guess.displacement);
+  const auto walk = std::make_shared<Walk>(problem, guess.durations, guess.displacement, style);
   guess.motion = [walk](int phase, double fraction) { return walk->Sample(phase, fraction); };
   return guess;
 }
@@ -256,6 +276,7 @@ MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& prob
 MotionGuess GuessFromTrajectory(const Trajectory& trajectory) {
   MotionGuess guess;
   guess.displacement = trajectory.displacement;
+  guess.near_solution = true;
   for (const TrajectoryPhase& phase : trajectory.phases) guess.durations.push_back(phase.duration);
   guess.motion = [trajectory](int phase, double fraction) {
     const std::vector<double>& nodes = trajectory.phases[phase].node_times;

@@ -11,9 +11,11 @@ namespace rollgait {
 // linearly between the feet. Works for any phases in which every leg touches down once a cycle. Joints are found by name:
 // hip, knee and ankle on the path of each contact, shoulder and elbow of the same side; others stay at zero, where the body
 // stands straight.
-MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem);
+//   variant  0: as said. From 1 on, another walk each: step length and the angles of hip, knee and ankle are scaled by up to
+//            ±25 %, the trunk leans by up to ±10°, drawn from a generator with this number as its seed.
+MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& problem, int variant = 0);
 
-// A solution on another mesh.
+// A solution on another mesh, or of a problem like this one.
 MotionGuess GuessFromTrajectory(const Trajectory& trajectory);
 
 }  // namespace rollgait

@@ -156,7 +156,8 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
                            Mesh mesh, SolveBudget* budget) {
   GaitSolution solution;
   MotionGuess guess = first_guess;
-  double initial_barrier = NlpOptions().initial_barrier;
+  constexpr double kBarrierNearSolution = 1e-3;
+  double initial_barrier = guess.near_solution ? kBarrierNearSolution : NlpOptions().initial_barrier;
   std::unique_ptr<CollocationNlp> previous;  // the coarser mesh, if this one starts from its solution
   NlpResult previous_result;
 
@@ -194,7 +195,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
     }
     guess = GuessFromTrajectory(*solution.trajectory);
     mesh = RefineMesh(mesh, spec, *solution.trajectory);
-    initial_barrier = 1e-3;
+    initial_barrier = kBarrierNearSolution;
     previous = std::move(current);
     previous_result = result;
   }

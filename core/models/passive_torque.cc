@@ -1,5 +1,6 @@
 #include "core/models/passive_torque.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,35 +32,37 @@ ExponentialSpring Ankle() {
   return {1.792, {{Exponential(-1, 2.1016 - 0.0176 * kKnee, 0.0843), Exponential(1, -7.9763 + 0.0008 * kKnee, -0.1949)}}};
 }
 
-ExponentialSpring Reference(const std::string& joint) {
-  if (joint == "hip") return Hip();
-  if (joint == "knee") return Knee();
-  if (joint == "ankle") return Ankle();
-  if (joint == "hip_adduction") return Stops(0.03, 14.94, -0.5, 0.03, 14.94, 0.5);
-  if (joint == "hip_rotation") return Stops(0.03, 14.94, -0.92, 0.03, 14.94, 0.92);
-  if (joint == "ankle_inversion") return Stops(60.21, 16.32, -0.65, 60.21, 16.32, 0.65);
-  if (joint == "toe") return Stops(0.18, 70.08, 0, 0.9, 14.87, 1.134);
-  if (joint == "trunk_flexion") return Stops(0.35, 30.72, -0.17, 0.25, 20.36, 0.5236);
-  if (joint == "trunk_bending" || joint == "trunk_rotation") return Stops(0.25, 20.36, -0.35, 0.25, 20.36, 0.35);
-  return {};
+// A fiftieth of the joint's strength 10° before the end of its range, or a quarter of a short range before it; a quarter of
+// the strength at the end.
+ExponentialSpring AssumedStops(const Joint& joint) {
+  const double margin = std::min(10 / kPerDegree, (joint.position_max - joint.position_min) / 4);
+  const double k = 0.02 * joint.effort_max, s = std::log(0.25 / 0.02) / margin;
+  return Stops(k, s, joint.position_min + margin, k, s, joint.position_max - margin);
+}
+
+ExponentialSpring Scaled(ExponentialSpring spring, double factor) {
+  spring.offset *= factor;
+  for (ExponentialSpring::Term& term : spring.terms) term.k *= factor;
+  return spring;
 }
 
 }  // namespace
 
-ExponentialSpring PassiveTorque(const std::string& joint, double mass) {
-  const bool sided = joint.ends_with("_l") || joint.ends_with("_r");
-  ExponentialSpring spring = Reference(sided ? joint.substr(0, joint.size() - 2) : joint);
-  spring.offset *= mass / kMass;
-  for (ExponentialSpring::Term& term : spring.terms) term.k *= mass / kMass;
-  return spring;
+ExponentialSpring PassiveTorque(const Joint& joint, double mass) {
+  const bool sided = joint.name.ends_with("_l") || joint.name.ends_with("_r");
+  const std::string name = sided ? joint.name.substr(0, joint.name.size() - 2) : joint.name;
+  if (name == "hip") return Scaled(Hip(), mass / kMass);
+  if (name == "knee") return Scaled(Knee(), mass / kMass);
+  if (name == "ankle") return Scaled(Ankle(), mass / kMass);
+  return joint.actuated ? AssumedStops(joint) : ExponentialSpring();
 }
 
 std::vector<std::string> PassiveTorqueSources() {
   return {
       "Passive torques of hip, knee and ankle: the exponentials that Riener and Edrich (1999, J Biomech 32:539) fitted to "
       "measurements (from memory), with the neighbouring joints fixed at ankle 0, knee 15, hip 10 deg.",
-      "Passive stops of hip adduction and rotation, foot, toes and trunk: exponentials after Anderson (1999) as they are "
-      "used with OpenSim models (from memory).",
+      "Passive stops of the other joints (assumption): 0.02 of the largest torque 10 deg before the end of the range (or a "
+      "quarter of it), rising exponentially to 0.25 at the end.",
   };
 }
 

@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "core/math/exponential_spring.h"
+#include "core/multibody/model.h"
 
 namespace rollgait {
 
-// What ligaments and stretched muscles of a person of the given mass (kg) exert on a joint of the human, by its name with or
-// without side: rad -> N m, signs as in human.h. No spring for joints of which nothing is known: the arms.
-// Proportional to body mass (assumption). Joints that share a muscle are taken one by one, the others as in mid-stance: ankle
-// at 0, knee at 15°, hip at 10° of flexion.
-ExponentialSpring PassiveTorque(const std::string& joint, double mass);
+// What ligaments and stretched muscles of a person of the given mass (kg) exert on a joint of the human (human.h): rad -> N m.
+// Hip, knee and ankle as measured, proportional to body mass (assumption), each with the joints that share its muscles as in
+// mid-stance: ankle at 0, knee at 15°, hip at 10° of flexion. The base has none; the others have stops near the ends of the
+// joint's range (assumption).
+ExponentialSpring PassiveTorque(const Joint& joint, double mass);
 
 // Where the numbers come from.
 std::vector<std::string> PassiveTorqueSources();

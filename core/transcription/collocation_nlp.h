@@ -23,6 +23,7 @@ struct MotionGuess {
   std::vector<double> durations;  // s, one a phase
   double displacement = 0;        // m
   std::function<MotionSample(int phase, double fraction)> motion;
+  bool near_solution = false;     // of a problem like this one: the solver stays near it
 };
 
 // The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).

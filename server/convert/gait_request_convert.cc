@@ -21,6 +21,7 @@ class RequestDecoder {
   }
   Cycle DecodeCycle(v1::Cycle cycle);
   GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization);
+  std::optional<Preset> DecodePreset(v1::Preset preset);
   Scheme DecodeScheme(v1::Discretization::Scheme scheme);
   GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
   GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& cost);
@@ -53,6 +54,11 @@ GaitRequest::Tracking DecodeTracking(const v1::CostTerm::Tracking& tracking) {
                                 ROLLGAIT_OPTIONAL(channel, weight)});
   }
   return decoded;
+}
+
+GaitRequest::MuscleWork DecodeMuscleWork(const v1::CostTerm::MuscleWork& work) {
+  return {ROLLGAIT_OPTIONAL(work, positive_efficiency), ROLLGAIT_OPTIONAL(work, negative_efficiency),
+          ROLLGAIT_OPTIONAL(work, smoothing_w), DecodeNumbers(work.joint_weights())};
 }
 
 GaitRequest::GroundContact DecodeGround(const v1::GroundContact& ground) {
@@ -142,6 +148,22 @@ GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormaliza
   }
 }
 
+std::optional<Preset> RequestDecoder::DecodePreset(v1::Preset preset) {
+  switch (preset) {
+    case v1::PRESET_UNSPECIFIED:
+      return std::nullopt;
+    case v1::PRESET_TORQUE:
+      return Preset::kTorque;
+    case v1::PRESET_TRANSPORT:
+      return Preset::kTransport;
+    case v1::PRESET_HUMAN:
+      return Preset::kHuman;
+    default:
+      RefuseEnum("preset", preset);
+      return std::nullopt;
+  }
+}
+
 Scheme RequestDecoder::DecodeScheme(v1::Discretization::Scheme scheme) {
   switch (scheme) {
     case v1::Discretization::SCHEME_UNSPECIFIED:
@@ -191,6 +213,19 @@ GaitRequest::CostTerm RequestDecoder::DecodeCost(const std::string& field, const
     case v1::CostTerm::kTracking:
       decoded.term = DecodeTracking(cost.tracking());
       break;
+    case v1::CostTerm::kMuscleEffort:
+      decoded.term = GaitRequest::MuscleEffort{ROLLGAIT_OPTIONAL(cost.muscle_effort(), exponent),
+                                               DecodeNumbers(cost.muscle_effort().joint_weights())};
+      break;
+    case v1::CostTerm::kMuscleWork:
+      decoded.term = DecodeMuscleWork(cost.muscle_work());
+      break;
+    case v1::CostTerm::kPassiveLoad:
+      decoded.term = GaitRequest::PassiveLoad{DecodeNumbers(cost.passive_load().joint_weights())};
+      break;
+    case v1::CostTerm::kSquaredAcceleration:
+      decoded.term = GaitRequest::SquaredAcceleration{DecodeNumbers(cost.squared_acceleration().joint_weights())};
+      break;
     case v1::CostTerm::TERM_NOT_SET:
       violations.push_back({field, "no term; set one, for example squared_torque"});
   }
@@ -202,12 +237,15 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.body = DecodeSelection("model.", spec.model());
   request.slope = spec.slope_rad();
   request.motion = {ROLLGAIT_OPTIONAL(spec.motion(), speed_m_s), ROLLGAIT_OPTIONAL(spec.motion(), step_length_m),
-                    ROLLGAIT_OPTIONAL(spec.motion(), step_duration_s), spec.motion().free_speed()};
+                    ROLLGAIT_OPTIONAL(spec.motion(), step_duration_s), spec.motion().free_speed(), std::nullopt};
+  if (spec.motion().has_duty_factor()) request.motion.duty_factor = DecodeRange(spec.motion().duty_factor());
   request.cycle = DecodeCycle(spec.cycle());
   if (spec.has_phases()) {
     request.phases.emplace();
     for (const v1::Phase& phase : spec.phases().phases()) request.phases->push_back(DecodePhase(phase));
   }
+  request.preset = DecodePreset(spec.preset());
+  request.starts = ROLLGAIT_OPTIONAL(spec, starts);
   for (int i = 0; i < spec.costs_size(); ++i) {
     request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i)));
   }

@@ -31,7 +31,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "0.6 "
       "--cycle full --friction 0.5 --clearance 0.02 --cost torque:2 --cost work:0.001 --cost torque-rate --cost time "
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
-      "--max-refinements 2 --max-iterations 77 --time-limit 12.5");
+      "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 --cost effort --cost muscle-work --cost passive-load "
+      "--cost acceleration:1e-5");
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_EQ(spec.model().stature_m(), 1.7);
@@ -43,7 +44,15 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
   EXPECT_EQ(spec.cycle(), v1::CYCLE_FULL);
   EXPECT_EQ(spec.ground_contact().friction_coefficient(), 0.5);
   EXPECT_EQ(spec.ground_contact().swing_clearance_m(), 0.02);
-  ASSERT_EQ(spec.costs_size(), 4);
+  EXPECT_EQ(spec.motion().duty_factor().min(), 0.61);
+  EXPECT_EQ(spec.motion().duty_factor().max(), 0.61);
+  EXPECT_EQ(spec.starts(), 4);
+  ASSERT_EQ(spec.costs_size(), 8);
+  EXPECT_TRUE(spec.costs(4).has_muscle_effort());
+  EXPECT_TRUE(spec.costs(5).has_muscle_work());
+  EXPECT_TRUE(spec.costs(6).has_passive_load());
+  EXPECT_TRUE(spec.costs(7).has_squared_acceleration());
+  EXPECT_EQ(spec.costs(7).weight(), 1e-5);
   EXPECT_TRUE(spec.costs(0).has_squared_torque());
   EXPECT_EQ(spec.costs(0).weight(), 2);
   EXPECT_TRUE(spec.costs(1).has_mechanical_work());
@@ -90,7 +99,7 @@ TEST(SpecFlagsTest, OutOfRangeNumbersArePassedOn) {
 
 TEST(SpecFlagsTest, UnknownWordsAreRefusedWithTheKnownOnes) {
   for (const std::string line : {"--cost pain", "--cost torque:much", "--cost work:", "--scheme euler", "--cycle third",
-                                 "--accuracy best", "--normalize mass", "--sex other"}) {
+                                 "--accuracy best", "--normalize mass", "--preset robot", "--sex other"}) {
     EXPECT_THROW(Parse(line), Failure) << line;
   }
   try {
@@ -131,6 +140,15 @@ TEST_F(SpecFileTest, RefusesWhatIsNotARequest) {
   EXPECT_THROW(Parse("--spec " + Write("{\"sloperad\": 1}")), Failure);
   EXPECT_THROW(Parse("--spec " + Write("not json")), Failure);
   EXPECT_THROW(Parse("--spec no_such_file.json"), Failure);
+}
+
+TEST(SpecFlagsTest, PresetAndCostsTakeEachOthersPlace) {
+  EXPECT_EQ(Parse("--preset human").preset(), v1::PRESET_HUMAN);
+  EXPECT_EQ(Parse("--preset torque").preset(), v1::PRESET_TORQUE);
+  EXPECT_EQ(Parse("--preset transport").preset(), v1::PRESET_TRANSPORT);
+  const v1::SolveSpec both = Parse("--preset human --cost torque");  // the server refuses it and says why
+  EXPECT_EQ(both.preset(), v1::PRESET_HUMAN);
+  EXPECT_EQ(both.costs_size(), 1);
 }
 
 }  // namespace

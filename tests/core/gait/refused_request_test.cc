@@ -64,6 +64,26 @@ const BadCase kBadCases[] = {
     {"SpeedNoOneCanRun", [](GaitRequest& r) { r.motion.speed = 12; }, "motion.speed_m_s", "12 is outside"},
     {"SpeedNoOneCanWalk", [](GaitRequest& r) { r.motion.speed = 3.9; }, "motion.speed_m_s", "walking is impossible"},
     {"DefaultSpeedOnTheMoon", [](GaitRequest& r) { r.gravity = 0.5; }, "motion.speed_m_s", "(the default)"},
+    {"DutyFactorOfARun", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.4, 0.6}; },
+     "motion.duty_factor.min", "[0.5, 0.95]"},
+    {"DutyFactorUpsideDown", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.62, 0.6}; },
+     "motion.duty_factor", "0.62"},
+    {"NoStart", [](GaitRequest& r) { r.starts = 0; }, "starts", "[1, 32]"},
+    {"PresetAndCosts",
+     [](GaitRequest& r) {
+       r.preset = Preset::kTorque;
+       r.costs.push_back({GaitRequest::Time{}, {}});
+     },
+     "preset", "contradicts costs"},
+    {"EffortBelowTheSquare", [](GaitRequest& r) { r.costs.push_back({GaitRequest::MuscleEffort{1.5, {}}, {}}); },
+     "costs[0].muscle_effort.exponent", "[2, 10]"},
+    {"MuscleWithoutEfficiency", [](GaitRequest& r) { r.costs.push_back({GaitRequest::MuscleWork{0.0, {}, {}, {}}, {}}); },
+     "costs[0].muscle_work.positive_efficiency", "[0.01, 100]"},
+    {"PassiveLoadOfNoJoint", [](GaitRequest& r) { r.costs.push_back({GaitRequest::PassiveLoad{{{"tail", 1}}}, {}}); },
+     "costs[0].passive_load.joint_weights[\"tail\"]", "no joint"},
+    {"NegativeAcceleration",
+     [](GaitRequest& r) { r.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", -1}}}, {}}); },
+     "costs[0].squared_acceleration.joint_weights[\"base_z\"]", "-1"},
     {"DerivedSpeed",
      [](GaitRequest& r) {
        r.motion.step_length = 1.4;

@@ -113,9 +113,25 @@ TEST(DecodeRequest, EveryCostTermArrives) {
       costs { squared_torque_rate { joint_weights { key: 'b' value: 4 } } }
       costs { mechanical_work { smoothing_w: 5 } }
       costs { time {} }
-      costs { tracking { channels { joint: 'c' positions: [6, 7] weight: 8 } } })"))
+      costs { tracking { channels { joint: 'c' positions: [6, 7] weight: 8 } } }
+      costs { muscle_effort { exponent: 3 joint_weights { key: 'd' value: 9 } } }
+      costs { muscle_work { positive_efficiency: 0.2 negative_efficiency: 1.1 smoothing_w: 7
+                            joint_weights { key: 'e' value: 10 } } }
+      costs { passive_load { joint_weights { key: 'f' value: 11 } } }
+      costs { squared_acceleration { joint_weights { key: 'g' value: 12 } } })"))
                                   .value();
-  ASSERT_EQ(request.costs.size(), 5u);
+  ASSERT_EQ(request.costs.size(), 9u);
+  const auto& effort = std::get<GaitRequest::MuscleEffort>(request.costs[5].term);
+  EXPECT_EQ(effort.exponent, 3);
+  EXPECT_THAT(effort.joint_weights, ElementsAre(Pair("d", 9)));
+  const auto& work = std::get<GaitRequest::MuscleWork>(request.costs[6].term);
+  EXPECT_EQ(work.positive_efficiency, 0.2);
+  EXPECT_EQ(work.negative_efficiency, 1.1);
+  EXPECT_EQ(work.smoothing, 7);
+  EXPECT_THAT(work.joint_weights, ElementsAre(Pair("e", 10)));
+  EXPECT_THAT(std::get<GaitRequest::PassiveLoad>(request.costs[7].term).joint_weights, ElementsAre(Pair("f", 11)));
+  EXPECT_THAT(std::get<GaitRequest::SquaredAcceleration>(request.costs[8].term).joint_weights,
+              ElementsAre(Pair("g", 12)));
   EXPECT_EQ(request.costs[0].weight, 3);
   EXPECT_FALSE(request.costs[1].weight);
   EXPECT_THAT(std::get<GaitRequest::SquaredTorque>(request.costs[0].term).joint_weights, ElementsAre(Pair("a", 2)));
@@ -126,6 +142,18 @@ TEST(DecodeRequest, EveryCostTermArrives) {
   EXPECT_EQ(channel.joint, "c");
   EXPECT_THAT(channel.positions, ElementsAre(6, 7));
   EXPECT_EQ(channel.weight, 8);
+}
+
+TEST(DecodeRequest, PresetStartsAndDutyFactorArrive) {
+  const GaitRequest request =
+      DecodeRequest(Parse("preset: PRESET_TRANSPORT starts: 5 motion { duty_factor { min: 0.6 max: 0.62 } }")).value();
+  EXPECT_EQ(request.preset, Preset::kTransport);
+  EXPECT_EQ(request.starts, 5);
+  EXPECT_EQ(request.motion.duty_factor->min, 0.6);
+  EXPECT_EQ(request.motion.duty_factor->max, 0.62);
+  EXPECT_EQ(DecodeRequest(Parse("preset: PRESET_HUMAN")).value().preset, Preset::kHuman);
+  EXPECT_EQ(DecodeRequest(Parse("preset: PRESET_TORQUE")).value().preset, Preset::kTorque);
+  EXPECT_FALSE(DecodeRequest(Parse("")).value().preset);
 }
 
 TEST(DecodeRequest, PhasesThatAreSetAndEmptyAreNotTheDefault) {
@@ -140,12 +168,13 @@ TEST(DecodeRequest, RefusesEnumValuesWithoutAName) {
   spec.set_cycle(static_cast<v1::Cycle>(-1));
   spec.set_cost_normalization(static_cast<v1::CostNormalization>(77));
   spec.mutable_discretization()->set_scheme(static_cast<v1::Discretization::Scheme>(4));
+  spec.set_preset(static_cast<v1::Preset>(4));
   spec.mutable_accuracy()->set_level(static_cast<v1::Accuracy::Level>(4));
   const Result<GaitRequest> request = DecodeRequest(spec);
   ASSERT_FALSE(request.ok());
   EXPECT_THAT(Fields(request.violations()),
-              ElementsAre("model.sex", "cycle", "cost_normalization", "discretization.scheme", "accuracy.level"));
-  EXPECT_THAT(request.violations()[2].message, HasSubstr("77"));
+              ElementsAre("model.sex", "cycle", "preset", "cost_normalization", "discretization.scheme", "accuracy.level"));
+  EXPECT_THAT(request.violations()[3].message, HasSubstr("77"));
 }
 
 TEST(DecodeRequest, RefusesACostWithoutATerm) {
