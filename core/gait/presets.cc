@@ -49,17 +49,17 @@ class Costs {
 void AddHumanCosts(const Scene& scene, Costs* costs) {
   const double size = scene.selection.mass / kMass;
   GaitRequest::MuscleEffort effort;
-  effort.joint_weights = OfBody({{"hip", 0.5}, {"knee", 0.2}, {"ankle", 0.025}}, scene);
+  effort.joint_weights = OfBody({{"hip", 0.5}, {"knee", 0.1}, {"ankle", 0.2}}, scene);
   costs->Add(std::move(effort), 1);
-  costs->Add(GaitRequest::MuscleWork{}, 2.5e-4 / size);
-  costs->Add(GaitRequest::PassiveLoad{}, 1);
-  costs->Add(GaitRequest::SquaredTorqueRate{}, 3e-8 / (size * size));
+  costs->Add(GaitRequest::MuscleWork{}, 5e-4 / size);
+  costs->Add(GaitRequest::PassiveLoad{}, 1.2);
+  costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 / (size * size));
   GaitRequest::SquaredAcceleration acceleration;
   acceleration.joint_weights =
-      OfBody({{"hip", 0.1}, {"knee", 0.5}, {"ankle", 2.5}, {"base_pitch", 2}, {"base_z", 0.5}}, scene);
-  costs->Add(std::move(acceleration), 2.5e-6);
+      OfBody({{"hip", 0.6}, {"knee", 0.4}, {"ankle", 2.7}, {"base_pitch", 1.6}, {"base_z", 0.7}}, scene);
+  costs->Add(std::move(acceleration), 2.7e-6);
   GaitRequest::Tracking posture = Posture(scene);
-  if (!posture.channels.empty()) costs->Add(std::move(posture), 0.2);
+  if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void FillFromPreset(GaitRequest* request) {
   if (request->preset != Preset::kHuman) return;
   if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
-  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.005;
+  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.004;
   if (!request->starts) request->starts = 3;
 }
 
