@@ -3,6 +3,9 @@
 # The tables are the law; docs/life_of_a_request.md says why the house is built this way.
 
 cmake_minimum_required(VERSION 3.25)
+if(NOT IS_DIRECTORY "${ROOT}")
+  message(FATAL_ERROR "Say where the repository is: cmake -DROOT=<repository> -P ${CMAKE_CURRENT_LIST_FILE}")
+endif()
 
 # What a floor may include besides itself. Not in the list: not allowed, so every edge points one way.
 set(CORE_FLOORS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)

@@ -1,6 +1,9 @@
 # Checks what the style guide counts: line budgets, assertions in tests, no unfinished work, no address of one machine.
 #   cmake -DROOT=<repository> -P tests/style/check_style.cmake
 cmake_minimum_required(VERSION 3.25)
+if(NOT IS_DIRECTORY "${ROOT}")
+  message(FATAL_ERROR "Say where the repository is: cmake -DROOT=<repository> -P ${CMAKE_CURRENT_LIST_FILE}")
+endif()
 
 set(HEADER_LINES 150)
 set(SOURCE_LINES 350)
