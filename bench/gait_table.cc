@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/gait/optimizing_gait_solver.h"
-#include "core/validation/normative.h"
 
 namespace rollgait {
 namespace {
@@ -193,10 +192,7 @@ int Main(int argc, char** argv) {
                         mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
           }
         }
-        if (normative && s.trajectory) {
-          const auto people = CompareWithPeople(spec.value().scene, *s.trajectory, spec.value().gravity);
-          if (people) PrintNormative(*people);
-        }
+        if (normative && s.normative) PrintNormative(*s.normative);
         for (const auto& u : s.unmet_constraints) {
           std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());
         }

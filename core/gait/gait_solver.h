@@ -8,6 +8,7 @@
 #include "core/gait/gait_request.h"
 #include "core/nlp/result.h"
 #include "core/trajectory/trajectory.h"
+#include "core/validation/normative.h"
 #include "core/validation/report.h"
 
 namespace rollgait {
@@ -41,6 +42,7 @@ struct GaitSolution {
   std::string message;
   std::optional<Trajectory> trajectory;      // present if the last iterate is finite
   std::optional<AccuracyReport> accuracy;    // present with the trajectory
+  std::optional<NormativeComparison> normative;  // present with a trajectory of a human that walks
   bool within_requested_accuracy = false;
   double objective = 0;
   double kkt_error = 0;

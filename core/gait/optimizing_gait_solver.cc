@@ -111,6 +111,19 @@ std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudge
   return last;
 }
 
+// From the requested starts, and on a slope that these do not reach by continuation.
+GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
+  const auto problem = BuildProblem(spec);
+  GaitSolution solution = spec.starts > 1
+                              ? SolveFromStarts(spec, *problem, budget)
+                              : SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), budget);
+  if (Converged(solution.termination) || spec.slope == 0 || !budget->Left()) return solution;
+  std::optional<GaitSolution> continued = SolveByContinuation(spec, budget);
+  if (!continued) return solution;
+  continued->meshes.insert(continued->meshes.begin(), solution.meshes.begin(), solution.meshes.end());
+  return std::move(*continued);
+}
+
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
@@ -122,15 +135,9 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     solution.unmet_constraints = {*contradiction};
     return solution;
   }
-  const auto problem = BuildProblem(spec);
-  GaitSolution solution = spec.starts > 1
-                              ? SolveFromStarts(spec, *problem, &budget)
-                              : SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), &budget);
-  if (Converged(solution.termination) || spec.slope == 0 || !budget.Left()) return solution;
-  std::optional<GaitSolution> continued = SolveByContinuation(spec, &budget);
-  if (!continued) return solution;
-  continued->meshes.insert(continued->meshes.begin(), solution.meshes.begin(), solution.meshes.end());
-  return std::move(*continued);
+  GaitSolution solution = Search(spec, &budget);
+  if (solution.trajectory) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
+  return solution;
 }
 
 }  // namespace rollgait

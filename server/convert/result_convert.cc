@@ -1,6 +1,7 @@
 #include "server/convert/result_convert.h"
 
 #include "server/convert/model_convert.h"
+#include "server/convert/normative_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -160,6 +161,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   if (solution.accuracy) {
     *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, spec.scene.model);
   }
+  if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);
   result.set_objective(solution.objective);
   for (const CostValue& cost : solution.costs) EncodeCost(cost, result.add_costs());
   for (const UnmetConstraint& unmet : solution.unmet_constraints) EncodeUnmet(unmet, result.add_unmet_constraints());

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
+
+#include "core/validation/gait_cycle.h"
 
 namespace rollgait {
 namespace {
@@ -68,6 +72,35 @@ TEST(StandardAccuracy, HoldsOnAllSlopesAndDownhillCostsMost) {
     if (slope != 0) cost[slope > 0] = solution.objective;
   }
   EXPECT_GT(cost[0], cost[1]);
+}
+
+// Without passive torques the net moments of the comparison with people, found from motion and forces, are the torques that
+// were optimised: two ways to one curve. At the points of the mesh they are equal; between them they differ by its error.
+TEST(Normative, NetMomentsAreTheTorques) {
+  const GaitSpec spec = CheckRequest(Planar(0)).value();
+  const GaitSolution solution = OptimizingGaitSolver().Solve(spec, {});
+  ASSERT_TRUE(solution.normative && solution.within_requested_accuracy);
+  EXPECT_NEAR(solution.normative->speed, solution.speed, 1e-9);
+  EXPECT_NEAR(solution.normative->step_length, solution.step_length, 1e-9);
+  const GaitCycle cycle = GaitCycle::Of(spec.scene, *solution.trajectory).value();
+  int curves = 0;
+  for (const DatasetComparison& set : solution.normative->datasets) {
+    for (const CurveComparison& curve : set.curves) {
+      if (curve.quantity != NormativeQuantity::kMoment) continue;
+      ++curves;
+      const int joint = RightJoint(spec.scene.model, curve.joint);
+      const auto& actuated = spec.scene.model.actuated();
+      const auto effort = std::find(actuated.begin(), actuated.end(), joint) - actuated.begin();
+      std::vector<double> torques;
+      for (int i = 0; i < kNormativeSamples; ++i) {
+        torques.push_back(-cycle.At(2.0 * i).efforts[effort] / spec.scene.model.total_mass());
+      }
+      const CurveDistance distance = MeasureDistance(curve.ours, torques, std::vector<double>(torques.size(), 1));
+      EXPECT_GT(distance.correlation, 0.99) << curve.joint;
+      EXPECT_LT(distance.rms, 0.02 * (curve.max - curve.min)) << curve.joint;
+    }
+  }
+  EXPECT_EQ(curves, 3);
 }
 
 // Two steps without imposed symmetry are the one step and its mirror image.
