@@ -37,6 +37,7 @@ struct Arguments {
   GetOptions get;
   ListOptions list;
   ReportOptions report;
+  ReproducePaperOptions paper;
   SpecFlags models;
   SimulateOptions simulate;
   PoincareOptions poincare;
@@ -112,6 +113,14 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   report->add_option("SOLVE", arguments.report.solves, "Names on the server, or .json files of --output")->required();
   report->add_option("-o,--output", arguments.report.output, "The page, one file that needs no network")->required();
   report->add_option("--title", arguments.report.title, "Title of the page");
+  report->add_flag("--no-normative", arguments.report.without_people, "Leave out people's curves, which human models get");
+
+  CLI::App* const paper = app.add_subcommand("reproduce-paper", "The paper's three walks and its statements beside ours");
+  AddSpecFlags(*paper, arguments.paper.spec);
+  paper->remove_option(paper->get_option("--slope"));
+  paper->add_option("-o,--output", arguments.paper.output, "The page, one file that needs no network");
+  paper->footer("Slopes +10, 0 and -10 degrees; model human29, speed 1.3 and least squared torque if no flag says otherwise.\n"
+                "Example: rollgait reproduce-paper -o paper.html");
 
   app.add_subcommand("server-info", "Version, load and store of the server");
   app.add_subcommand("help", "Print this, or the help of a command")->add_option("COMMAND", arguments.help_command);
@@ -153,6 +162,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "simulate") return RunSimulate(arguments.simulate, global, terminal);
   if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);
   if (command == "report") return RunReport(arguments.report, global, terminal);
+  if (command == "reproduce-paper") return RunReproducePaper(arguments.paper, global, terminal);
   if (command == "server-info") return RunServerInfo(global, terminal);
   const CLI::App* const topic = arguments.help_command.empty() ? &app : app.get_subcommand(arguments.help_command);
   terminal.out << topic->help() << std::flush;

@@ -4,6 +4,7 @@
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
+#include "client/normative_table.h"
 #include "client/terminal.h"
 #include "client/text.h"
 
@@ -108,6 +109,7 @@ std::string Summarize(const v1::Solve& solve, bool color) {
                                                                   : "Accuracy (NOT within what was requested)",
                     AccuracyRows(solve, color), "lr", color);
   }
+  text += Section("Beside people on level ground", NormativeRows(result.normative()), "lrrr", color);
   return text + EffortLine(solve);
 }
 

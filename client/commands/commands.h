@@ -58,8 +58,18 @@ struct ReportOptions {
   std::vector<std::string> solves;  // names on the server, or .json files
   std::string output;
   std::string title;
+  bool without_people = false;  // no curves of people beside those of a human model
 };
 ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct ReproducePaperOptions {
+  SpecFlags spec;  // the slope is the command's own
+  std::string output;
+  double reconnect_s = 60;
+};
+// Solves +10°, 0° and −10° one after the other and lays them beside the paper: a page, or with --json the data on
+// terminal.out. The exit code of the first solve that has no answer; Ctrl-C cancels the one that runs and ends.
+ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct SimulateOptions {
   SceneInput scene;

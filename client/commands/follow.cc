@@ -65,8 +65,8 @@ Progress::Style ProgressStyle(const GlobalOptions& global, const Terminal& termi
   return terminal.err_live ? Progress::Style::kLine : Progress::Style::kPlain;
 }
 
-ExitCode FollowToEnd(Connection& connection, const std::string& name, const FollowOptions& options,
-                     const std::string& output, CtrlC& ctrl_c, Progress& progress, const Terminal& terminal) {
+v1::Solve Follow(Connection& connection, const std::string& name, const FollowOptions& options, CtrlC& ctrl_c,
+                 Progress& progress) {
   SolveFollower follower(connection, name, options);
   ctrl_c.Attach(&follower);
   v1::Solve solve;
@@ -80,6 +80,12 @@ ExitCode FollowToEnd(Connection& connection, const std::string& name, const Foll
   }
   ctrl_c.Release();
   progress.End();
+  return solve;
+}
+
+ExitCode FollowToEnd(Connection& connection, const std::string& name, const FollowOptions& options,
+                     const std::string& output, CtrlC& ctrl_c, Progress& progress, const Terminal& terminal) {
+  const v1::Solve solve = Follow(connection, name, options, ctrl_c, progress);
   if (!connection.options().json && !connection.options().quiet) {
     terminal.out << Summarize(solve, terminal.out_color) << std::flush;
   }

@@ -44,6 +44,10 @@ class CtrlC {
 // The progress style that the options and the terminal ask for.
 Progress::Style ProgressStyle(const GlobalOptions& global, const Terminal& terminal);
 
+// Follows `name` to its end with live output. Throws Failure.
+v1::Solve Follow(Connection& connection, const std::string& name, const FollowOptions& options, CtrlC& ctrl_c,
+                 Progress& progress);
+
 // Follows `name` to its end and prints its summary (unless --json, which has printed the Solve, or --quiet); writes
 // `output` if it is not empty. Returns the exit code of the solve.
 ExitCode FollowToEnd(Connection& connection, const std::string& name, const FollowOptions& options,

@@ -38,6 +38,7 @@ ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, co
       solve = connection->GetSolve(given);
     }
     RequireFinished(solve, given);
+    if (options.without_people) solve.mutable_result()->clear_normative();
     solves.push_back(std::move(solve));
   }
   WriteFile(options.output, ReportHtml(solves, options.title));

@@ -1,40 +1,10 @@
-#include <random>
-
 #include "client/commands/commands.h"
+#include "client/commands/create_solve.h"
 #include "client/commands/follow.h"
 #include "client/json.h"
 #include "client/output.h"
 
 namespace rollgait::client {
-namespace {
-
-// An id that no other request has, so that a creation whose answer was lost can be repeated.
-std::string RandomRequestId() {
-  std::random_device source;
-  std::uniform_int_distribution<int> digit(0, 15);
-  std::string id = "cli-";
-  for (int i = 0; i < 32; ++i) id += "0123456789abcdef"[digit(source)];
-  return id;
-}
-
-// Creates the solve. A connection that breaks after the request was sent is tried once more: the request id makes that
-// safe.
-v1::Solve CreateSolve(Connection& connection, const v1::CreateSolveRequest& request) {
-  const std::string action = request.validate_only() ? "validate the request" : "create the solve";
-  v1::Solve solve;
-  grpc::Status status;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    grpc::ClientContext context;
-    connection.SetDeadline(context);
-    status = connection.stub().CreateSolve(&context, request, &solve);
-    if (status.error_code() != grpc::StatusCode::UNAVAILABLE) break;
-  }
-  RequireOk(status, action, connection.server());
-  return solve;
-}
-
-}  // namespace
-
 ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   if (!options.output.empty()) RequireOutputPath(options.output);
   if (options.detach && !options.output.empty()) {

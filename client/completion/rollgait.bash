@@ -2,7 +2,7 @@
 # share/bash-completion/completions/rollgait.
 _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
-  local commands="solve watch get list cancel delete models report simulate poincare server-info help"
+  local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info help"
   local global="--server --json --quiet --timeout --version --help"
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
@@ -31,7 +31,7 @@ _rollgait() {
       get) options+=" --output" ;;
       list) options+=" --state --limit" ;;
       models) options+=" $body" ;;
-      report) options+=" --output --title" ;;
+      report) options+=" --output --title --no-normative" ;;
       simulate) options+=" --scene --duration --tolerance --output-step --output --validate-only --max-wall-time" ;;
       poincare) options+=" --scene --duration --tolerance --residual --max-iterations --max-wall-time" ;;
     esac

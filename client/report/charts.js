@@ -78,10 +78,10 @@ function ranges(values) {
 // A chart of curves over the gait cycle as a card. If spikes would flatten the curves they are cut, the card says so, and
 // a button shows them.
 //   options: title, note, unit, width (of the drawing), pool (values that set the range; default: those of the series),
-//   bands ([{start, end}] in %),
+//   bands ([{start, end}] in %), ribbons ([{label, low, high, style}], areas between two curves, behind the others),
 //   series [{label, color, dash, opacity, values, mark}] where `mark` is a percentage (toe-off) or null
 function chart(options) {
-  const range = ranges(options.pool || options.series.flatMap((s) => s.values));
+  const range = ranges(options.pool || [...options.series.flatMap((s) => s.values), ...(options.ribbons || []).flatMap((r) => [...r.low, ...r.high])]);
   const card = el("figure", { class: "card", style: "margin:0" });
   const draw = (whole) => {
     const extent = whole || !range.spiky ? range.full : range.middle;
@@ -124,6 +124,10 @@ function drawChart(options, [low, high]) {
   root.append(svg("text", { transform: `translate(9 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, options.unit));
   const clip = `plot${++charts}`;
   root.append(svg("clipPath", { id: clip }, svg("rect", { x: left, y: top - 1, width: width - left - right, height: height - top - bottom + 2 })));
+  const polygon = (values) => values.map((v, i) => `${x((100 * i) / (values.length - 1)).toFixed(1)},${y(v).toFixed(1)}`);
+  for (const ribbon of options.ribbons || []) {
+    root.append(svg("polygon", { "clip-path": `url(#${clip})`, points: [...polygon(ribbon.low), ...polygon(ribbon.high).reverse()].join(" "), style: ribbon.style }));
+  }
   for (const s of options.series) {
     const points = s.values.map((v, i) => [x((100 * i) / (s.values.length - 1)), v]).filter(([, v]) => v !== null).map(([px, v]) => `${px.toFixed(1)},${y(v).toFixed(1)}`);
     root.append(svg("polyline", { class: "curve", "clip-path": `url(#${clip})`, points: points.join(" "), style: `stroke:${s.color};stroke-width:${s.width || 2};opacity:${s.opacity || 1}`, "stroke-dasharray": s.dash || "none" }));
@@ -137,7 +141,8 @@ function drawChart(options, [low, high]) {
   const readouts = options.series.map(() => el("b"));
   const where = el("span", { class: "soft" });
   const legend = el("div", { class: "legend" }, options.series.map((s, i) =>
-    el("span", {}, el("span", { class: "swatch", style: `border-color:${s.color};border-top-style:${s.dash ? (s.dash === DASHES[2] ? "dotted" : "dashed") : "solid"};opacity:${s.opacity || 1}` }), s.label + " ", readouts[i])));
+    el("span", {}, el("span", { class: "swatch", style: `border-color:${s.color};border-top-style:${s.dash ? (s.dash === DASHES[2] ? "dotted" : "dashed") : "solid"};opacity:${s.opacity || 1}` }), s.label + " ", readouts[i])),
+    (options.ribbons || []).map((r) => el("span", {}, el("span", { class: "swatch area", style: r.swatch }), r.label)));
   const show = (percent) => {
     cursor.setAttribute("x1", x(percent));
     cursor.setAttribute("x2", x(percent));

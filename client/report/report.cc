@@ -35,15 +35,25 @@ std::string EscapeScript(const std::string& json) {
   return escaped;
 }
 
-}  // namespace
-
-std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title) {
-  const nlohmann::json data = ReportData(solves, title);
+// The page of `data` with the script that puts it together.
+std::string Page(const nlohmann::json& data, const char* script) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return Fill(kReportHtml, {{"title", EscapeHtml(data.at("title"))},
                             {"style", kReportCss},
-                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportPageJs},
+                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportSectionsJs + kReportPeopleJs + script},
                             {"data", EscapeScript(text)}});
+}
+
+}  // namespace
+
+std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title) {
+  return Page(ReportData(solves, title), kReportPageJs);
+}
+
+std::string PageHtml(const std::vector<v1::Solve>& solves, const std::string& title, const nlohmann::json& paper) {
+  nlohmann::json data = ReportData(solves, title);
+  data["paper"] = paper;
+  return Page(data, kReportPaperJs);
 }
 
 }  // namespace rollgait::client

@@ -152,6 +152,7 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"accuracy", result.has_accuracy() ? AccuracyRows(solve) : json::array()},
           {"meshes", MeshRows(result)},
           {"unmet", UnmetRows(result)},
+          {"people", result.has_normative() ? json::parse(ToJsonLine(result.normative())) : json()},
           {"model", ModelData(result.model())},
           {"stride", json()}};
 }

@@ -1,0 +1,69 @@
+#include "client/normative_table.h"
+
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+std::string Range(double min, double max, const std::string& unit) {
+  return FormatNumber(min, 3) + " … " + FormatNumber(max, 3) + " " + unit;
+}
+
+std::string RestingJoints(const v1::NormativeComparison& people) {
+  std::string text;
+  for (const v1::RestingJoint& resting : people.resting_joints()) {
+    if (resting.stance_fraction() < 0.5) continue;
+    text += (text.empty() ? "" : ", ") + resting.joint() + (resting.at_max() ? " (upper, " : " (lower, ") +
+            FormatNumber(100 * resting.stance_fraction(), 3) + " %)";
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string HumpsText(const v1::ForceHumps& humps) {
+  const auto text = [](bool has, double value) { return has ? FormatNumber(value, 3) : std::string("-"); };
+  return text(humps.has_first_percent_bw(), humps.first_percent_bw()) + " / " +
+         text(humps.has_trough_percent_bw(), humps.trough_percent_bw()) + " / " +
+         text(humps.has_second_percent_bw(), humps.second_percent_bw()) + " %";
+}
+
+std::string QuantityUnit(v1::NormativeCurve::Quantity quantity) {
+  switch (quantity) {
+    case v1::NormativeCurve::QUANTITY_ANGLE:
+      return "°";
+    case v1::NormativeCurve::QUANTITY_MOMENT:
+      return "N m/kg";
+    default:
+      return "% of weight";
+  }
+}
+
+std::vector<std::vector<std::string>> NormativeRows(const v1::NormativeComparison& people) {
+  std::vector<std::vector<std::string>> rows;
+  if (people.datasets_size() == 0) return rows;
+  const auto percent = [](double fraction) { return FormatNumber(100 * fraction, 3) + " %"; };
+  rows.push_back({"  stance", percent(people.stance_fraction())});
+  rows.push_back({"  double support", percent(people.double_support_fraction())});
+  rows.push_back({"  cadence", FormatNumber(people.cadence_per_min(), 3) + " /min"});
+  rows.push_back({"  vertical force, hump / trough / hump", HumpsText(people.vertical_force())});
+  rows.push_back({"  at the end of its range for half of stance", RestingJoints(people)});
+  for (const v1::NormativeDatasetComparison& set : people.datasets()) {
+    rows.push_back({"  " + set.name() + ": stance " + percent(set.stance_fraction()) + ", force " +
+                    HumpsText(set.vertical_force())});
+    for (const v1::NormativeCurve& curve : set.curves()) {
+      const bool angle = curve.quantity() == v1::NormativeCurve::QUANTITY_ANGLE;
+      if (!angle && curve.quantity() != v1::NormativeCurve::QUANTITY_MOMENT) continue;
+      const std::string unit = QuantityUnit(curve.quantity());
+      rows.push_back({"    " + curve.joint() + (angle ? " angle" : " moment"),
+                      "correlation " + FormatNumber(curve.correlation(), 2),
+                      "rms " + FormatNumber(curve.rms(), 3) + " " + unit,
+                      FormatNumber(curve.rms_deviations(), 3) + " SD",
+                      "range " + Range(curve.min(), curve.max(), unit) + ", people " +
+                          Range(curve.normative_min(), curve.normative_max(), unit)});
+    }
+  }
+  return rows;
+}
+
+}  // namespace rollgait::client
