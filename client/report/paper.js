@@ -38,7 +38,7 @@ function efforts() {
   const head = ["", ...PAPER.map((s) => labelOf(s.solve))];
   const columns = PAPER.map((_, i) => i + 1);
   section("Effort", "∫ τ² dt over a stride, divided by its length: N² m s. The torque is what moves each joint; symmetric gaits have the same effort on both sides.",
-    table(head, [[el("b", {}, "all joints"), ...PAPER.map((s) => cell(s, null))], ...names.map((name) => [name.replace("_", " "), ...PAPER.map((s) => cell(s, name))])], columns),
+    table(head, [[el("b", {}, "all joints"), ...PAPER.map((s) => cell(s, null))], ...names.map((name) => [name.replace(/_/g, " "), ...PAPER.map((s) => cell(s, name))])], columns),
     table(head, [["∫ |τ| dt per metre, N s", (s) => s.total.absolute_torque_nms], ["Positive work per metre, J", (s) => s.total.positive_work_j], ["Negative work per metre, J", (s) => s.total.negative_work_j]]
       .map(([name, value]) => [name, ...PAPER.map((s) => fmt(value(s) / s.stride_length_m, 4))]).concat([["Largest torque of hip, knee, ankle, N m", ...PAPER.map((s) => fmt(s.total.peak_torque_nm, 4))]]), columns));
 }
