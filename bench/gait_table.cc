@@ -2,7 +2,7 @@
 //   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step 0.65]
 //              [--double 8]
 //              [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10]
-//              [--costs torque:1,work:1] [--standard | --fine] [--verbose] [--normative]
+//              [--costs torque:1,work:1 | --preset human] [--starts 3] [--standard | --fine] [--verbose] [--normative]
 // --normative prints how far each gait is from people's (core/validation/normative.h).
 
 #include <cstdio>
@@ -69,6 +69,11 @@ std::vector<GaitRequest::CostTerm> CostsOf(const std::string& text) {
     if (colon != std::string::npos) costs.back().weight = std::stod(part.substr(colon + 1));
   }
   return costs;
+}
+
+Preset PresetOf(const std::string& name) {
+  if (name == "torque") return Preset::kTorque;
+  return name == "transport" ? Preset::kTransport : Preset::kHuman;
 }
 
 void PrintIteration(const IterationInfo& i) {
@@ -150,6 +155,8 @@ int Main(int argc, char** argv) {
     if (flag == "--step") request.motion.step_length = std::stod(argv[++i]);
     if (flag == "--double") request.discretization.double_support_intervals = std::stoi(argv[++i]);
     if (flag == "--costs") request.costs = CostsOf(argv[++i]);
+    if (flag == "--preset") request.preset = PresetOf(argv[++i]);
+    if (flag == "--starts") request.starts = std::stoi(argv[++i]);
     if (flag == "--intervals") intervals = Split(argv[++i]);
     if (flag == "--slopes") slopes = Split(argv[++i]);
     if (flag == "--schemes") schemes = Split(argv[++i]);

@@ -109,6 +109,7 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   }
   problem->mirrored = spec.cycle == Cycle::kHalf;
   problem->forward_joint = ForwardJoint(problem->model);
+  problem->lateral_joint = problem->model.Find("base_y");
   problem->denominator = Denominator(spec.normalization);
   problem->friction_coefficient = spec.friction_coefficient;
   problem->min_normal_force = spec.min_normal_force_bw * problem->force_size();

@@ -34,7 +34,8 @@ struct OptimalControlProblem {
   std::vector<PhaseDescription> phases;
   // The end is the left/right mirror image of the start (half cycle), or the start itself (full cycle), moved along x.
   bool mirrored = true;
-  int forward_joint = 0;  // prismatic joint along x that carries the displacement
+  int forward_joint = 0;   // prismatic joint along x that carries the displacement
+  int lateral_joint = -1;  // prismatic joint along y, if there is one: where it starts is no part of a full cycle
 
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;

@@ -81,6 +81,10 @@ void CollocationNlp::SetStateBounds() {
   }
   // The first node is where the walk begins; without this the problem could slide along x.
   lower_(layout_.node(0) + problem_.forward_joint) = upper_(layout_.node(0) + problem_.forward_joint) = 0;
+  // Likewise along y, unless the mirror image at the end says where the middle is.
+  if (!problem_.mirrored && problem_.lateral_joint >= 0) {
+    lower_(layout_.node(0) + problem_.lateral_joint) = upper_(layout_.node(0) + problem_.lateral_joint) = 0;
+  }
   for (int p = 0; p < layout_.phases(); ++p) {
     lower_(layout_.duration(p)) = problem_.phases[p].duration.min;
     upper_(layout_.duration(p)) = problem_.phases[p].duration.max;

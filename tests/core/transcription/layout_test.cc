@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gait/build_problem.h"
+#include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 namespace {
@@ -84,6 +85,21 @@ TEST(Mesh, UniformFractionsSumToOne) {
   double sum = 0;
   for (double fraction : mesh.fractions[1]) sum += fraction;
   EXPECT_NEAR(sum, 1, 1e-15);
+}
+
+// Without the mirror nothing else says where a walk in space is to its side.
+TEST(Bounds, AFullCycleStartsInTheMiddle) {
+  for (const Cycle cycle : {Cycle::kHalf, Cycle::kFull}) {
+    GaitRequest request;
+    request.body.model = "human29";
+    request.cycle = cycle;
+    const GaitSpec spec = CheckRequest(request).value();
+    const auto problem = BuildProblem(spec);
+    const CollocationNlp nlp(*problem, Scheme::kRadau2,
+                             Mesh::Uniform(std::vector<int>(problem->phases.size(), 1)));
+    const int y = nlp.layout().node(0) + problem->model.Find("base_y");
+    EXPECT_EQ(nlp.lower_bounds()(y) == 0 && nlp.upper_bounds()(y) == 0, cycle == Cycle::kFull);
+  }
 }
 
 }  // namespace
