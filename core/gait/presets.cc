@@ -56,7 +56,7 @@ void AddHumanCosts(const Scene& scene, Costs* costs) {
   costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 / (size * size));
   GaitRequest::SquaredAcceleration acceleration;
   acceleration.joint_weights =
-      OfBody({{"hip", 0.6}, {"knee", 0.4}, {"ankle", 2.7}, {"base_pitch", 1.6}, {"base_z", 0.7}}, scene);
+      OfBody({{"hip", 0.6}, {"knee", 0.3}, {"ankle", 2.7}, {"base_pitch", 1.6}, {"base_z", 0.7}}, scene);
   costs->Add(std::move(acceleration), 2.7e-6);
   GaitRequest::Tracking posture = Posture(scene);
   if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5);
@@ -68,7 +68,7 @@ void FillFromPreset(GaitRequest* request) {
   if (request->preset != Preset::kHuman) return;
   if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
-  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.004;
+  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.003;
   if (!request->starts) request->starts = 3;
 }
 
