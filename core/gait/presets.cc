@@ -81,7 +81,10 @@ std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene
       return costs.Take();
     case Preset::kTransport:
       costs.Add(GaitRequest::MuscleWork{}, 1 / (scene.selection.mass * kGravity));
+      // Work alone leaves efforts undetermined, and on coarse meshes pays for energy that is none.
       costs.Add(GaitRequest::SquaredTorqueRate{}, 3e-8 / (size * size));
+      costs.Add(GaitRequest::SquaredAcceleration{}, 3e-6);
+      costs.Add(GaitRequest::MuscleEffort{}, 0.05);
       return costs.Take();
     case Preset::kHuman:
       AddHumanCosts(scene, &costs);

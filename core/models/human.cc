@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/models/joint_limits.h"
+#include "core/models/passive_torque.h"
 
 namespace rollgait {
 namespace {
@@ -177,7 +178,7 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options) {
 
 std::vector<std::string> HumanSources() {
   std::vector<std::string> sources = SegmentTable::Sources();
-  for (const std::vector<std::string>& more : {FootSources(), JointLimitSources()}) {
+  for (const std::vector<std::string>& more : {FootSources(), JointLimitSources(), PassiveTorqueSources()}) {
     sources.insert(sources.end(), more.begin(), more.end());
   }
   sources.push_back(

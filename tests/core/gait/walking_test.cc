@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "core/gait/optimizing_gait_solver.h"
+#include "core/gait/walking_search.h"
+#include "core/validation/normative.h"
 
 namespace rollgait {
 namespace {
@@ -60,6 +62,38 @@ TEST(Starts, KeepTheCheapestAndSayWhichItWas) {
   EXPECT_EQ(two.objective, again.objective);
 }
 
+TEST(Starts, StopWhenTheyAreToldTo) {
+  GaitRequest request = Draft(0);
+  request.starts = 3;
+  StopFlag stop;
+  SolveControl control;
+  control.stop = &stop;
+  control.observer = [&](const IterationInfo& info) {
+    if (info.mesh == 1 && info.index == 2) stop.Request();
+  };
+  const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(request).value(), control);
+  EXPECT_EQ(solution.termination, Termination::kCancelled);
+  EXPECT_EQ(solution.meshes.size(), 2u);
+}
+
+// Continuation and the cold start are two ways to one optimum.
+TEST(Continuation, ReachesWhatTheColdStartFinds) {
+  GaitRequest request = Draft(12);  // 5, 10, 12
+  request.preset = Preset::kHuman;
+  request.starts = 1;
+  const GaitSpec spec = CheckRequest(request).value();
+  const SolveControl control;
+  SolveBudget budget(spec, control);
+  const std::optional<GaitSolution> continued = SolveByContinuation(spec, &budget);
+  ASSERT_TRUE(continued);
+  EXPECT_EQ(continued->meshes.size(), 4u);
+  EXPECT_NE(continued->message.find("continuation"), std::string::npos);
+  const GaitSolution cold = Solve(request);
+  ASSERT_EQ(cold.termination, Termination::kOptimal);
+  // Both to a KKT error of 1e-6; as local minima they may differ, the better one then being that of the walk.
+  EXPECT_LT(continued->objective, cold.objective * (1 + 1e-5));
+}
+
 TEST(Preset, HumanWalksOnAllSlopes) {
   for (const double slope : {-10.0, 0.0, 10.0}) {
     GaitRequest request = Draft(slope);
@@ -70,6 +104,38 @@ TEST(Preset, HumanWalksOnAllSlopes) {
     EXPECT_EQ(solution.costs.size(), 6u);
     for (const CostValue& cost : solution.costs) EXPECT_GT(cost.contribution, 0) << cost.name;
   }
+}
+
+// The aims of the project for level walking, at standard accuracy, judged by code that knows nothing of presets.
+TEST(Preset, HumanResemblesPeople) {
+  GaitRequest request = Draft(0);
+  request.preset = Preset::kHuman;
+  request.starts = 1;
+  request.discretization.single_support_intervals = 16;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
+  const GaitSpec spec = CheckRequest(request).value();
+  const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
+  ASSERT_TRUE(solution.within_requested_accuracy) << solution.message;
+  const auto people = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
+  ASSERT_TRUE(people);
+  EXPECT_GT(people->stance, 0.58);
+  EXPECT_LT(people->stance, 0.64);
+  EXPECT_TRUE(people->humps.two);
+  EXPECT_TRUE(people->resting.empty() || people->resting[0].share < 0.1);
+  int angles = 0, moments = 0;
+  for (const DatasetComparison& set : people->datasets) {
+    for (const CurveComparison& curve : set.curves) {
+      if (curve.quantity == NormativeQuantity::kAngle) {
+        ++angles;
+        EXPECT_GT(curve.distance.correlation, 0.9) << set.dataset << " " << curve.joint;
+      } else if (curve.quantity == NormativeQuantity::kMoment && curve.joint == "ankle") {
+        ++moments;
+        EXPECT_GT(curve.distance.correlation, 0.8);
+      }
+    }
+  }
+  EXPECT_EQ(angles, 6);
+  EXPECT_EQ(moments, 1);
 }
 
 }  // namespace
