@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <ctime>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>

@@ -5,6 +5,9 @@ _rollgait() {
   local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info help"
   local global="--server --json --quiet --timeout --version --help"
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock"
+  local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance --duty-factor
+    --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
+    --max-iterations --time-limit --output"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     if [[ " $commands " == *" $word "* ]]; then command=$word; break; fi
   done
@@ -24,9 +27,8 @@ _rollgait() {
   if [[ $current == -* ]]; then
     local options=$global
     case $command in
-      solve) options+=" $body --spec --model --slope --speed --step-length --step-duration --free-speed --cycle --friction
-        --clearance --duty-factor --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy
-        --tolerance --max-refinements --max-iterations --time-limit --output --request-id --validate-only --detach --reconnect" ;;
+      solve) options+=" $body $request --slope --request-id --validate-only --detach --reconnect" ;;
+      reproduce-paper) options+=" $body $request" ;;
       watch) options+=" --after-sequence --output --reconnect" ;;
       get) options+=" --output" ;;
       list) options+=" --state --limit" ;;

@@ -20,7 +20,8 @@ TEST(CompletionTest, KnowsEveryFlag) {
   const std::regex flag("--[a-z][a-z-]+");
   const std::string script = text.str();
   for (std::sregex_iterator at(script.begin(), script.end(), flag), end; at != end; ++at) completed.insert(at->str());
-  for (const std::string command : {"", "solve", "watch", "get", "list", "models", "report", "simulate", "poincare"}) {
+  for (const std::string command :
+       {"", "solve", "watch", "get", "list", "models", "report", "reproduce-paper", "simulate", "poincare"}) {
     ClientProcess client(command.empty() ? std::vector<std::string>{"--help"}
                                          : std::vector<std::string>{command, "--help"});
     ASSERT_EQ(client.Wait(), 0);

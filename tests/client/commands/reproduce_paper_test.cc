@@ -1,6 +1,7 @@
 // `rollgait reproduce-paper` as a user sees it: the program as a process, a fake server behind a port.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/models/planar_human.h"
 #include "tests/support/prescribed_walk.h"
