@@ -43,7 +43,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
   context_.z = z_.data();
   z_rate_ = z_curve_ = VectorX::Zero(3 * layout_.n);
   hessian_ = MatrixX::Zero(layout_.size(), layout_.size());
-  for (MatrixX* block : {&qq_, &qv_, &vq_, &qa_, &aq_, &vv_}) *block = MatrixX::Zero(layout_.n, layout_.n);
+  for (MatrixX* block : {&qq_, &qv_, &vq_, &qa_, &aq_, &vv_, &aa_}) *block = MatrixX::Zero(layout_.n, layout_.n);
   gradient_ = cost_gradient_ = VectorX::Zero(layout_.size());
   local_ = MatrixX::Zero(local_size_ + 1, local_size_ + 1);
   block_ = MatrixX::Zero(layout_.n, controls_);

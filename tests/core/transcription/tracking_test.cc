@@ -50,7 +50,8 @@ TEST(Tracking, ALargeWeightMakesTheWalkFollow) {
   GaitRequest::Tracking tracking;
   tracking.channels.push_back({"base_pitch", {}, std::nullopt});
   for (int i = 0; i < kKnots; ++i) tracking.channels[0].positions.push_back(Lean(i / (kKnots - 1.0)));
-  tracking_walk.costs.push_back({tracking, 1e6});
+  tracking_walk.costs.emplace_back().term = tracking;
+  tracking_walk.costs.back().weight = 1e6;
   const int pitch = CheckRequest(free_walk).value().scene.model.Find("base_pitch");
   ASSERT_GE(pitch, 0);
 
