@@ -1,6 +1,6 @@
-// Drift of energy, gap and slip over 1e4 revolutions of a ball with spin, a triaxial ellipsoid and an oblate one on a level
-// plane, without and with drift control: worst so far, ten points a decade, as CSV: plot,series,x,y (docs/plot_limits.py).
-// Steps and times go to stderr.
+// Drift of energy, gap and slip over 1e4 revolutions of a ball with spin, a triaxial ellipsoid and an oblate one on a
+// level plane, without and with drift control: worst so far, ten points a decade, as CSV: plot,series,x,y
+// (docs/plot_limits.py). Steps and times go to stderr.
 //   long_rolling [REVOLUTIONS] > long.csv
 #include <algorithm>
 #include <chrono>

@@ -24,8 +24,8 @@ struct ConstrainedSolution {
   double residual = 0;
 };
 
-// The inverse of that system's matrix: derivatives of a and λ by f and by r. If rows are redundant, r acts through the rows
-// that were chosen as independent, and λ is the one of least norm.
+// The inverse of that system's matrix: derivatives of a and λ by f and by r. If rows are redundant, r acts through the
+// rows that were chosen as independent, and λ is the one of least norm.
 struct ConstrainedResponse {
   MatrixX acceleration_force;  // n × n
   MatrixX acceleration_right;  // n × rows
@@ -64,11 +64,11 @@ struct Baumgarte {
   double slip_rate = 0;  // κ, 1/s
 };
 
-// Forward dynamics of a tree on rolling contacts that are held at acceleration level, ẇ = 0: gap and slip of the initial
-// state are carried on (the gap's acceleration is zero, too), not corrected, unless Baumgarte terms are given.
+// Forward dynamics of a tree on rolling contacts that are held at acceleration level, ẇ = 0: gap and slip of the
+// initial state are carried on (the gap's acceleration is zero, too), not corrected, unless Baumgarte terms are given.
 // Bilateral: forces may pull, and friction has no limit. Not thread-safe: one object a thread.
-// Simulation has the general ContactDynamics. This one stays beside it because trajectories are judged with it: it takes
-// contacts with the ground from RollingKinematics and shares with ContactDynamics only the solver above.
+// Simulation has the general ContactDynamics. This one stays beside it because trajectories are judged with it: it
+// takes contacts with the ground from RollingKinematics and shares with ContactDynamics only the solver above.
 class ConstrainedDynamics {
  public:
   // `surfaces` are the active contacts. Copies what it needs of them and of the dynamics' model.

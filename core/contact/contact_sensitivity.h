@@ -10,7 +10,8 @@
 
 namespace rollgait {
 
-// Derivatives of ContactDynamics::Accelerate. Columns: tangent directions of q (nv, see configuration.h), v (nv), tau (nv).
+// Derivatives of ContactDynamics::Accelerate. Columns: tangent directions of q (nv, see configuration.h), v (nv), tau
+// (nv).
 struct ContactSensitivity {
   MatrixX acceleration_q, acceleration_v, acceleration_tau;  // nv × nv
   MatrixX forces_q, forces_v, forces_tau;                    // rows of the active contacts × nv, N or N m
@@ -23,16 +24,16 @@ struct ContactSensitivity {
 
 // The equation that the solution satisfies (contact-math 7), linearised exactly, nothing by differences:
 //   [M −Jᵀ; J 0] [da; dλ] = −d( [ID(q, v, a) − τ − Jᵀλ ; J a − r] )  at fixed a, λ.
-// ID from MotionDerivatives; a contact's rows and forces from the derivatives of its pair by poses, twists and accelerations
-// of the two bodies (RowDerivatives), chained with the motion of the links. No allocation after the first call with as many
-// rows. One object a thread.
+// ID from MotionDerivatives; a contact's rows and forces from the derivatives of its pair by poses, twists and
+// accelerations of the two bodies (RowDerivatives), chained with the motion of the links. No allocation after the first
+// call with as many rows. One object a thread.
 class ContactSensitivitySolver {
  public:
   // `dynamics`, of the same model, must outlive the solver.
   ContactSensitivitySolver(const Model& model, ContactDynamics* dynamics);
 
-  // At the state that ContactDynamics::SetState was given last; the arguments are those of Accelerate, which this calls.
-  // Valid until the next call.
+  // At the state that ContactDynamics::SetState was given last; the arguments are those of Accelerate, which this
+  // calls. Valid until the next call.
   const ContactSensitivity& Solve(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                   const Baumgarte& baumgarte);
 

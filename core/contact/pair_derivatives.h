@@ -38,8 +38,8 @@ PairDerivatives ComputeSurfacePairDerivatives(const PlacedSurface& surface_1, co
 PairDerivatives ComputePlaneDerivatives(const PlacedSurface& surface, const FrameMotion& body, const PlacedPlane& plane,
                                         const FrameMotion& plane_frame, int order);
 
-// Derivatives with respect to ζ of the rates of PairKinematics while the twists ξ of the two frames (world axes, at their
-// origins) keep their values, as the linearisation of a drift needs them: ∂(p_1 ξ)/∂ζ_k = p_1_second[ξ, e_k] +
+// Derivatives with respect to ζ of the rates of PairKinematics while the twists ξ of the two frames (world axes, at
+// their origins) keep their values, as the linearisation of a drift needs them: ∂(p_1 ξ)/∂ζ_k = p_1_second[ξ, e_k] +
 // ½ p_1 [ω × θ_k], the second term because a twist in world axes does not turn with the body. By ξ they are `first`.
 struct PairRateDerivatives {
   PairDerivatives first;                    // of order 1 only

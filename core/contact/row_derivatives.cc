@@ -95,7 +95,8 @@ class RowLinearisation {
     const double kappa = baumgarte_.slip_rate, damping = 2 * baumgarte_.damping * baumgarte_.frequency;
     const double stiffness = baumgarte_.frequency * baumgarte_.frequency;
     const RowVector12 gap_rate = n.transpose() * c.slip + w.transpose() * c.normal;
-    const RowVector12 carried = w.transpose() * c.normal_dot + pair_.normal_dot.transpose() * c.slip + stiffness * c.gap;
+    const RowVector12 carried =
+        w.transpose() * c.normal_dot + pair_.normal_dot.transpose() * c.slip + stiffness * c.gap;
     RowDerivatives::Rows rows(RowCount(contact_), 12);
     int row = 0;
     if (contact_.grip == Grip::kRolling) {

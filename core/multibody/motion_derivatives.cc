@@ -103,7 +103,8 @@ void MotionDerivatives::InverseDynamics(MatrixX* dq, MatrixX* dv) {
         (*dv)(k, m) = u.dot(moving.psi + moving.s_dot) + b.dot(moving.s);
       }
       // Column k in the rows before, which stand still.
-      const Vector6 by_q = CrossForce(column.s, body.force) + body.inertia * column.psi2 + body.motion.Apply(column.psi);
+      const Vector6 by_q =
+          CrossForce(column.s, body.force) + body.inertia * column.psi2 + body.motion.Apply(column.psi);
       const Vector6 by_v = body.inertia * (column.psi + column.s_dot) + body.motion.Apply(column.s);
       for (size_t j = 0; j < before; ++j) {
         const Vector6& s = columns_[static_cast<size_t>(path[j])].s;

@@ -9,9 +9,10 @@
 
 namespace rollgait {
 
-// Exact first derivatives of  ID(q, v, a)  and of the motion of every link along the tangent directions of q and along v, for
-// any tree: free joints count six columns S_c that are fixed in the link's axes. Along column c of joint k, with parent p,
-// in the frame that moves along with everything beyond k (docs/derivatives.md; six-vectors at the world's origin):
+// Exact first derivatives of  ID(q, v, a)  and of the motion of every link along the tangent directions of q and along
+// v, for any tree: free joints count six columns S_c that are fixed in the link's axes. Along column c of joint k, with
+// parent p, in the frame that moves along with everything beyond k (docs/derivatives.md; six-vectors at the world's
+// origin):
 //   by q:  δV_i = ψ̇_c,  δA_i = ψ̈_c − V_i × ψ̇_c      ψ̇_c = V_p × S_c,  ψ̈_c = A_p × S_c + V_p × ψ̇_c
 //   by v:  δV_i = S_c,  δA_i = ψ̇_c + Ṡ_c − V_i × S_c    Ṡ_c = V_k × S_c (equal to ψ̇_c with one degree of freedom)
 // TreeDynamics holds the same for trees without free joints, with second derivatives. One object a thread.
@@ -19,8 +20,8 @@ class MotionDerivatives {
  public:
   explicit MotionDerivatives(const Model& model);
 
-  // Evaluates at the state (BodyDynamics::ComputeState at q, v), v (nv), a (nv), gravity (m/s², world). Everything below
-  // refers to it.
+  // Evaluates at the state (BodyDynamics::ComputeState at q, v), v (nv), a (nv), gravity (m/s², world). Everything
+  // below refers to it.
   void Update(const BodyDynamics::State& state, const VectorX& v, const VectorX& a, const Vector3& gravity);
 
   // ∂ID/∂q and ∂ID/∂v, nv × nv; resized.
@@ -32,8 +33,8 @@ class MotionDerivatives {
   };
   // Of the link's origin, complete accelerations.
   PointMotion Origin(int link) const;
-  // Changes along column c of v's indices, which belongs to `link` or an ancestor. By q the origin itself moves along `shift`
-  // and the link turns by `turn`.
+  // Changes along column c of v's indices, which belongs to `link` or an ancestor. By q the origin itself moves along
+  // `shift` and the link turns by `turn`.
   struct Change {
     Vector3 shift, turn;  // zero by v
     PointMotion motion;
@@ -42,8 +43,8 @@ class MotionDerivatives {
   Change AlongVelocity(int link, int c) const;
   // S_c.
   const Vector6& column(int c) const { return columns_[static_cast<size_t>(c)].s; }
-  // Columns on the path from the world to a link, ascending; and whether column m moves column k: it belongs to the same
-  // joint or one before it.
+  // Columns on the path from the world to a link, ascending; and whether column m moves column k: it belongs to the
+  // same joint or one before it.
   const std::vector<int>& path(int link) const { return paths_[static_cast<size_t>(link)]; }
   bool Moves(int m, int k) const {
     return model_.IsAncestor(joint_of_[static_cast<size_t>(m)], joint_of_[static_cast<size_t>(k)]);

@@ -11,9 +11,9 @@
 
 namespace rollgait::testing {
 
-// A free body that carries a chain of three joints, and a second free body, with every kind of contact: 0 of the first body
-// with the ground frame 1 (moving), 1 of the chain's end with the ground frame 0, 2 of the first body with a plane on the
-// chain's end, 3 of the second body with the first, surface on surface, close by and apart.
+// A free body that carries a chain of three joints, and a second free body, with every kind of contact: 0 of the first
+// body with the ground frame 1 (moving), 1 of the chain's end with the ground frame 0, 2 of the first body with a plane
+// on the chain's end, 3 of the second body with the first, surface on surface, close by and apart.
 struct ContactTree {
   explicit ContactTree(unsigned seed) : random(seed), model(MakeModel()) {
     q = Retract(model, NeutralConfiguration(model), RandomVector(random, model.nv()));

@@ -1,5 +1,5 @@
-// Sensitivities of contact dynamics against differences of order 8 of the equations they are derived from, which use values
-// only: inverse dynamics of the judge, Jacobian and right side of the rows.
+// Sensitivities of contact dynamics against differences of order 8 of the equations they are derived from, which use
+// values only: inverse dynamics of the judge, Jacobian and right side of the rows.
 #include "core/contact/contact_sensitivity.h"
 
 #include <gtest/gtest.h>
@@ -92,8 +92,8 @@ class DifferencedSystem {
 
 class ContactSensitivityTest : public ::testing::TestWithParam<unsigned> {
  protected:
-  void Compare(ContactTree* tree, const std::vector<int>& active, const Baumgarte& terms,
-               double step = 2e-3) {
+  void CheckSensitivity(ContactTree* tree, const std::vector<int>& active, const Baumgarte& terms,
+                        double step = 2e-3) {
     ContactDynamics dynamics(BodyDynamics(tree->model), tree->contacts);
     const VectorX tau = RandomVector(tree->random, tree->model.nv());
     dynamics.SetState(tree->q, tree->v, tree->ground);
@@ -108,20 +108,20 @@ class ContactSensitivityTest : public ::testing::TestWithParam<unsigned> {
 
 TEST_P(ContactSensitivityTest, EveryKindOfContactAtOnce) {
   ContactTree tree(GetParam());
-  Compare(&tree, {0, 1, 2, 3}, AllTerms());
+  CheckSensitivity(&tree, {0, 1, 2, 3}, AllTerms());
 }
 
 TEST_P(ContactSensitivityTest, OneKindAtATime) {
   for (int k = 0; k < 4; ++k) {
     SCOPED_TRACE(k);
     ContactTree tree(GetParam());
-    Compare(&tree, {k}, {});
+    CheckSensitivity(&tree, {k}, {});
   }
 }
 
 TEST_P(ContactSensitivityTest, WithoutContact) {
   ContactTree tree(GetParam());
-  Compare(&tree, {}, {});
+  CheckSensitivity(&tree, {}, {});
 }
 
 TEST_P(ContactSensitivityTest, SuperellipsoidsRollingAndSpinningOnEachOther) {
@@ -130,9 +130,9 @@ TEST_P(ContactSensitivityTest, SuperellipsoidsRollingAndSpinningOnEachOther) {
   std::get<PlacedSurface>(tree.contacts[3].other).surface = Superellipsoid({0.9, 0.7, 0.8}, 0.9, 0.7);
   tree.contacts[3].no_spin = true;
   // Their curvature changes within a fifth of the length that that of ellipsoids does.
-  Compare(&tree, {3}, AllTerms(), 4e-4);
+  CheckSensitivity(&tree, {3}, AllTerms(), 4e-4);
   tree.contacts[3].grip = Grip::kRollingAlong;
-  Compare(&tree, {3}, AllTerms(), 4e-4);
+  CheckSensitivity(&tree, {3}, AllTerms(), 4e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ContactSensitivityTest, ::testing::Range(1u, 6u));
@@ -167,8 +167,8 @@ TEST(ContactSensitivity, IsTheDerivativeOfTheSolution) {
   }
 }
 
-// A box on four points: twelve rows of rank six. Accelerations answer to efforts as those of a box on three points do, and the
-// forces of least norm change so that they balance the effort.
+// A box on four points: twelve rows of rank six. Accelerations answer to efforts as those of a box on three points do,
+// and the forces of least norm change so that they balance the effort.
 TEST(ContactSensitivity, OfRedundantContacts) {
   Joint joint;
   joint.name = "box", joint.type = JointType::kFree, joint.mass = 2;
@@ -239,7 +239,8 @@ TEST_P(FeetTest, AgreeWithTheJudge) {
   const int n = scene.model.size();
   const std::vector<FrameMotion> ground(1);
   for (int i = 0; i < 5; ++i) {
-    const VectorX q = RandomVector(random, n, 0.5), v = RandomVector(random, n, 2), tau = RandomVector(random, n, 50);
+    const VectorX q = RandomVector(random, n, 0.5), v = RandomVector(random, n, 2);
+    const VectorX tau = RandomVector(random, n, 50);
     dynamics.SetState(q, v, ground);
     const ContactSensitivity& sensitivity = solver.Solve(active, tau, kGravity, {});
     const ConstrainedSolution& expected = judge.Evaluate(q, v, tau, kGravity);

@@ -100,8 +100,8 @@ TEST_P(MotionDerivativesTest, LinksMeetDifferences) {
       const VectorX unit = VectorX::Unit(nv, j);
       const VectorX by_q = HighOrderDifference([&](double h) { return stacked(Retract(model, q, h * unit), v); }, 1e-2);
       const VectorX by_v = HighOrderDifference([&](double h) { return stacked(q, v + h * unit); }, 1e-2);
-      EXPECT_TRUE(MatrixNear(stack(motion.AlongPosition(link, j)), by_q, 1e-10 * (1 + by_q.norm()))) << link << " " << j;
-      EXPECT_TRUE(MatrixNear(stack(motion.AlongVelocity(link, j)), by_v, 1e-10 * (1 + by_v.norm()))) << link << " " << j;
+      EXPECT_TRUE(MatrixNear(stack(motion.AlongPosition(link, j)), by_q, 1e-10 * (1 + by_q.norm()))) << link;
+      EXPECT_TRUE(MatrixNear(stack(motion.AlongVelocity(link, j)), by_v, 1e-10 * (1 + by_v.norm()))) << link;
     }
   }
 }
