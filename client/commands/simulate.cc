@@ -83,6 +83,8 @@ std::string EventText(const v1::SimulationEvent& event) {
       return text + "needs more friction than there is";
     case v1::SimulationEvent::KIND_FRICTION_REGAINED:
       return text + "has enough friction again";
+    case v1::SimulationEvent::KIND_STUCK:
+      return text + "slides no longer";
     default:
       return text + "has an event that this client does not know";
   }
@@ -113,6 +115,8 @@ std::string EndText(v1::SimulationReport::End end) {
       return "ended early: the accelerations are not finite; is a flat surface in contact?";
     case v1::SimulationReport::END_TOO_MANY_STEPS:
       return "ended early: too many steps; raise max_steps or loosen the tolerance";
+    case v1::SimulationReport::END_FRICTION_UNDETERMINED:
+      return "ended early: friction leaves the motion undetermined; lower a coefficient or use fewer contacts";
     case v1::SimulationReport::END_TOO_MANY_EVENTS:
       return "ended early: too many events; raise max_events";
     default:

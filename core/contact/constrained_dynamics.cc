@@ -1,15 +1,20 @@
 #include "core/contact/constrained_dynamics.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/math/dense_solve.h"
 
 namespace rollgait {
 namespace {
 
 // Columns of A are scaled to unit norm, so a remainder this small is what rounding leaves of a dependent column.
 constexpr double kRankTolerance = 1e-10;
+// Forces of dependent rows that cancel up to this share of their size move the tree alike: bodies that slide side by side turn
+// a little in trial steps. Forces that really differ are of order 1.
+constexpr double kSameMotion = 1e-3;
 
 }  // namespace
 
@@ -60,6 +65,7 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   free_ = force;
   cholesky_.matrixL().solveInPlace(free_);
   solution->rank = 0;
+  solution->determined = true;
   solution->redundant = false;
   solution->residual = 0;
   solution->forces.resize(m);
@@ -113,6 +119,42 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
     const double residual = std::abs(jacobian.row(i).dot(solution->acceleration) - right_side[i]);
     if (!(residual <= solution->residual)) solution->residual = residual;
   }
+}
+
+void ConstrainedSolver::SolveSliding(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian,
+                                     const MatrixX& force_jacobian, const VectorX& right_side,
+                                     ConstrainedSolution* solution) {
+  const int m = static_cast<int>(jacobian.rows());
+  ROLLGAIT_CHECK(m > 0 && force_jacobian.rows() == m && right_side.size() == m);
+  cholesky_.compute(mass);
+  free_ = force;
+  cholesky_.matrixL().solveInPlace(free_);
+  a_ = jacobian.transpose();
+  cholesky_.matrixL().solveInPlace(a_);
+  q_ = force_jacobian.transpose();
+  cholesky_.matrixL().solveInPlace(q_);
+  scale_.resize(m);
+  // (D AᵀB D) μ = D (r − Aᵀ L⁻¹ f),  λ = D μ,  with B = L⁻¹ Fᵀ and D = 1 / |columns of A|.
+  right_ = right_side;
+  right_.noalias() -= a_.transpose() * free_;
+  for (int j = 0; j < m; ++j) {
+    const double scale = 1 / a_.col(j).norm();
+    a_.col(j) *= scale;
+    q_.col(j) *= scale;
+    right_[j] *= scale;
+    scale_[j] = scale;
+  }
+  gram_.noalias() = a_.transpose() * q_;
+  solution->determined = (gram_.diagonal().array() > kRankTolerance).all();
+  const LeastNormSolution forces = SolveLeastNorm(gram_, right_, kRankTolerance);
+  solution->rank = forces.rank;
+  solution->redundant = forces.rank < m;
+  if (solution->redundant && !((q_ * forces.null_space).norm() <= kSameMotion)) solution->determined = false;
+  solution->forces = scale_.cwiseProduct(forces.x);
+  solution->acceleration = free_ + q_ * forces.x;
+  cholesky_.matrixU().solveInPlace(solution->acceleration);
+  solution->residual = (jacobian * solution->acceleration - right_side).cwiseAbs().maxCoeff();
+  if (!solution->determined) solution->acceleration.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void ConstrainedSolver::Response(ConstrainedResponse* response) {

@@ -22,6 +22,8 @@ struct ConstrainedSolution {
   bool redundant = false;
   // max |J a − r|, m/s². Rounding level, unless redundant rows contradict each other.
   double residual = 0;
+  // False if friction and rigid bodies leave the accelerations undetermined (SolveSliding): then they are NaN.
+  bool determined = true;
 };
 
 // The inverse of that system's matrix: derivatives of a and λ by f and by r. If rows are redundant, r acts through the
@@ -39,6 +41,11 @@ class ConstrainedSolver {
   // Contract: `mass` is symmetric positive definite, J has as many columns. J may have no rows.
   void Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const VectorX& right_side,
              ConstrainedSolution* solution);
+  // The same with forces that act along other directions than the rows they hold:  M a − Fᵀ λ = f,  J a = r,  as friction
+  // that is proportional to a normal force does. Undetermined if a row cannot be held by its own force (Painlevé: pressing
+  // harder accelerates the contact into the ground), or if dependent rows have forces that move the tree differently.
+  void SolveSliding(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const MatrixX& force_jacobian,
+                    const VectorX& right_side, ConstrainedSolution* solution);
   // Of the last Solve.
   void Response(ConstrainedResponse* response);
 

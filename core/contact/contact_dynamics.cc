@@ -26,6 +26,7 @@ FrameMotion Motion(const BodyDynamics::Link& link) {
 ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeContact> contacts)
     : dynamics_(dynamics),
       contacts_(std::move(contacts)),
+      sliding_(contacts_.size()),
       pairs_(contacts_.size()),
       kinematics_(contacts_.size()),
       forces_(contacts_.size(), Vector3::Zero()),
@@ -36,6 +37,49 @@ ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeC
     ROLLGAIT_CHECK(contact.other_link < dynamics_.size() && contact.other_link != contact.link);
     const auto* other = std::get_if<PlacedSurface>(&contact.other);
     if (other != nullptr) pairs_[k].emplace(contact.surface, *other);
+  }
+}
+
+void ContactDynamics::SetSliding(int k, const std::optional<Sliding>& sliding) {
+  ROLLGAIT_CHECK(!sliding || (contacts_[k].grip != Grip::kFrictionless && !contacts_[k].no_spin));
+  sliding_[k] = sliding;
+}
+
+Vector3 ContactDynamics::SlidingDirection(int k) {
+  const Vector3& reference = sliding_[k]->reference;
+  if (contacts_[k].grip == Grip::kRollingAlong) {
+    const Vector3 t = Tangent(k);
+    return t.dot(reference) < 0 ? Vector3(-t) : t;
+  }
+  const PairKinematics& pair = Kinematics(k);
+  const Vector3& n = pair.normal;
+  const Vector3 slip = pair.slip - n * n.dot(pair.slip);
+  const Vector3 ahead = reference - n * n.dot(reference);
+  return ((ahead.dot(slip) < 0 ? -1.0 : 1.0) * slip + kSlidingBlend * ahead).normalized();
+}
+
+double ContactDynamics::SlipAlongReference(int k) {
+  const Vector3& slip = Kinematics(k).slip;
+  if (contacts_[k].grip == Grip::kRolling) return sliding_[k]->reference.dot(slip);
+  return SlidingDirection(k).dot(slip);
+}
+
+bool ContactDynamics::AnySlides(const std::vector<int>& active) const {
+  for (int k : active) {
+    if (sliding_[k]) return true;
+  }
+  return false;
+}
+
+void ContactDynamics::ForceRows(const std::vector<int>& active, const MatrixX& jacobian, MatrixX* force_jacobian) {
+  *force_jacobian = jacobian;
+  int row = 0;
+  for (int k : active) {
+    if (sliding_[k]) {
+      SlipJacobian(k, &linear_, &angular_);
+      force_jacobian->row(row) -= sliding_[k]->friction * (SlidingDirection(k).transpose() * linear_);
+    }
+    row += Rows(k);
   }
 }
 
@@ -90,11 +134,11 @@ Vector3 ContactDynamics::Tangent(int k) {
 int ContactDynamics::WriteRows(int k, int row, MatrixX* jacobian) {
   SlipJacobian(k, &linear_, &angular_);
   const Vector3& n = Kinematics(k).normal;
-  if (contacts_[k].grip == Grip::kRolling) {
+  if (GripNow(k) == Grip::kRolling) {
     jacobian->middleRows(row, 3) = linear_;
     row += 3;
   } else {
-    if (contacts_[k].grip == Grip::kRollingAlong) jacobian->row(row++) = Tangent(k).transpose() * linear_;
+    if (GripNow(k) == Grip::kRollingAlong) jacobian->row(row++) = Tangent(k).transpose() * linear_;
     jacobian->row(row++) = n.transpose() * linear_;
   }
   if (contacts_[k].no_spin) jacobian->row(row++) = n.transpose() * angular_;
@@ -104,7 +148,7 @@ int ContactDynamics::WriteRows(int k, int row, MatrixX* jacobian) {
 void ContactDynamics::AccelerationRows(const std::vector<int>& active, const Baumgarte& baumgarte, MatrixX* jacobian,
                                        VectorX* right) {
   int rows = 0;
-  for (int k : active) rows += RowCount(contacts_[k]);
+  for (int k : active) rows += Rows(k);
   jacobian->resize(rows, dynamics_.nv());
   right->resize(rows);
   int row = 0;
@@ -115,11 +159,11 @@ void ContactDynamics::AccelerationRows(const std::vector<int>& active, const Bau
                                 baumgarte.frequency * baumgarte.frequency * pair.gap;
     const Vector3 wanted = -pair.drift - baumgarte.slip_rate * pair.slip;
     int next = row;
-    if (contacts_[k].grip == Grip::kRolling) {
+    if (GripNow(k) == Grip::kRolling) {
       right->segment<3>(next) = wanted + n * (along_normal - n.dot(wanted));
       next += 3;
     } else {
-      if (contacts_[k].grip == Grip::kRollingAlong) {
+      if (GripNow(k) == Grip::kRollingAlong) {
         // The tangent turns with body 2: d(t·w)/dt = t·ẇ + ṫ·w, and ṫ·w = (ω₂ × t)·w to the order in which w is held at 0.
         const Vector3 t = Tangent(k);
         (*right)[next++] = t.dot(wanted) - Body2(k).w_WB.cross(t).dot(pair.slip);
@@ -137,18 +181,18 @@ void ContactDynamics::AccelerationRows(const std::vector<int>& active, const Bau
 
 void ContactDynamics::VelocityRows(const std::vector<int>& active, MatrixX* jacobian, VectorX* rate) {
   int rows = 0;
-  for (int k : active) rows += RowCount(contacts_[k]);
+  for (int k : active) rows += Rows(k);
   jacobian->resize(rows, dynamics_.nv());
   rate->resize(rows);
   int row = 0;
   for (int k : active) {
     const PairKinematics& pair = Kinematics(k);
     int next = row;
-    if (contacts_[k].grip == Grip::kRolling) {
+    if (GripNow(k) == Grip::kRolling) {
       rate->segment<3>(next) = pair.slip;
       next += 3;
     } else {
-      if (contacts_[k].grip == Grip::kRollingAlong) (*rate)[next++] = Tangent(k).dot(pair.slip);
+      if (GripNow(k) == Grip::kRollingAlong) (*rate)[next++] = Tangent(k).dot(pair.slip);
       (*rate)[next++] = pair.gap_rate;
     }
     if (contacts_[k].no_spin) (*rate)[next++] = Spin(k);
@@ -161,7 +205,12 @@ const ConstrainedSolution& ContactDynamics::Accelerate(const std::vector<int>& a
   AccelerationRows(active, baumgarte, &jacobian_, &right_);
   dynamics_.BiasForce(state_, gravity, &workspace_, &bias_);
   force_ = tau - bias_;
-  solver_.Solve(MassMatrix(), force_, jacobian_, right_, &solution_);
+  if (AnySlides(active)) {
+    ForceRows(active, jacobian_, &force_jacobian_);
+    solver_.SolveSliding(MassMatrix(), force_, jacobian_, force_jacobian_, right_, &solution_);
+  } else {
+    solver_.Solve(MassMatrix(), force_, jacobian_, right_, &solution_);
+  }
   Distribute(active, solution_.forces, &forces_, &spin_torques_);
   return solution_;
 }
@@ -173,12 +222,14 @@ void ContactDynamics::Distribute(const std::vector<int>& active, const VectorX& 
   int row = 0;
   for (int k : active) {
     Vector3& force = (*forces)[k];
-    if (contacts_[k].grip == Grip::kRolling) {
+    if (GripNow(k) == Grip::kRolling) {
       force = rows.segment<3>(row);
       row += 3;
     } else {
-      if (contacts_[k].grip == Grip::kRollingAlong) force += rows[row++] * Tangent(k);
-      force += rows[row++] * Kinematics(k).normal;
+      if (GripNow(k) == Grip::kRollingAlong) force += rows[row++] * Tangent(k);
+      const Vector3& n = Kinematics(k).normal;
+      const double normal = rows[row++];
+      force += normal * (sliding_[k] ? Vector3(n - sliding_[k]->friction * SlidingDirection(k)) : n);
     }
     if (contacts_[k].no_spin) (*spin_torques)[k] = rows[row++];
   }

@@ -17,7 +17,8 @@ namespace rollgait {
 // another link of the tree. An active contact holds its gap (φ̈ = 0), in its tangent directions the slip (t·ẇ = 0), with
 // no_spin the relative spin about the normal, each with the Baumgarte terms that are given. Forces may have any sign and
 // size: who uses them checks the normal force and friction. Source: contact-math 4, 5, 7; eqs (3.5) to (3.10).
-// Rows of a contact: kRolling: world x, y, z; kRollingAlong: tangent, normal; kFrictionless: normal; then spin.
+// A contact that slides (SetSliding) holds its gap only; its friction follows its normal force.
+// Rows of a contact: kRolling: world x, y, z; kRollingAlong: tangent, normal; kFrictionless: normal; then spin. Sliding: normal.
 // Not thread-safe: one object a thread.
 class ContactDynamics {
  public:
@@ -27,6 +28,13 @@ class ContactDynamics {
   const BodyDynamics& dynamics() const { return dynamics_; }
   int contact_count() const { return static_cast<int>(contacts_.size()); }
   const TreeContact& contact(int k) const { return contacts_[k]; }
+
+  // Contact k slides from now on, or (nullopt) holds its slip again. Contract of sliding: a grip, no `no_spin`.
+  void SetSliding(int k, const std::optional<Sliding>& sliding);
+  const std::optional<Sliding>& sliding(int k) const { return sliding_[static_cast<size_t>(k)]; }
+  // Unit direction of slip that friction acts against (world), and the slip along the reference, m/s. Contract: k slides.
+  Vector3 SlidingDirection(int k);
+  double SlipAlongReference(int k);
 
   // The state that everything below refers to. `ground` holds full accelerations.
   void SetState(const VectorX& q, const VectorX& v, const std::vector<FrameMotion>& ground);
@@ -39,6 +47,8 @@ class ContactDynamics {
   const FrameMotion& ground(int i) const { return ground_[i]; }
   // Angular velocity of body 1 relative to body 2 about the normal, rad/s.
   double Spin(int k);
+  // The tangent direction of kRollingAlong: `along` in world axes, made tangent and of unit length.
+  Vector3 Tangent(int k);
   // ∂w/∂v (3 × nv), world axes, and ∂(relative angular velocity)/∂v.
   void SlipJacobian(int k, MatrixX* linear, MatrixX* angular);
   // M at the state.
@@ -49,7 +59,7 @@ class ContactDynamics {
   const ConstrainedSolution& Accelerate(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                         const Baumgarte& baumgarte);
   const ConstrainedSolution& solution() const { return solution_; }
-  // The derivatives of that solution by what it was solved for.
+  // The derivatives of that solution by what it was solved for. Contract: no active contact slides.
   void Response(ConstrainedResponse* response) { solver_.Response(response); }
   // Of the last Accelerate: force on body 1 (N, world), torque about the normal on body 1 (N m); zero if not active.
   Vector3 Force(int k) const { return forces_[k]; }
@@ -59,16 +69,22 @@ class ContactDynamics {
   void AccelerationRows(const std::vector<int>& active, const Baumgarte& baumgarte, MatrixX* jacobian, VectorX* right);
   // The same rows with the velocities they hold: J v − (what the ground prescribes) is `rate`, zero when nothing slips.
   void VelocityRows(const std::vector<int>& active, MatrixX* jacobian, VectorX* rate);
+  // J with the rows of sliding contacts turned into the direction of their force, n − μ ŝ: generalised forces are its
+  // transpose times the row forces.
+  void ForceRows(const std::vector<int>& active, const MatrixX& jacobian, MatrixX* force_jacobian);
+  bool AnySlides(const std::vector<int>& active) const;
   // Turns row values (forces or impulses of the rows of `active`) into a force and a spin torque per contact.
   void Distribute(const std::vector<int>& active, const VectorX& rows, std::vector<Vector3>* forces,
                   std::vector<double>* spin_torques);
 
+  // Rows of contact k now.
+  int Rows(int k) const { return sliding(k) ? 1 : RowCount(contacts_[static_cast<size_t>(k)]); }
+
  private:
+  Grip GripNow(int k) const { return sliding(k) ? Grip::kFrictionless : contacts_[static_cast<size_t>(k)].grip; }
   const FrameMotion& Body(int link, int ground) const { return link < 0 ? ground_[ground] : links_[link]; }
   const FrameMotion& Body1(int k) const { return links_[contacts_[k].link]; }
   const FrameMotion& Body2(int k) const { return Body(contacts_[k].other_link, contacts_[k].ground); }
-  // The tangent direction of kRollingAlong: `along` in world axes, made tangent and of unit length.
-  Vector3 Tangent(int k);
   // Writes the Jacobian rows of contact k from `row`; returns the next free row.
   int WriteRows(int k, int row, MatrixX* jacobian);
 
@@ -78,10 +94,11 @@ class ContactDynamics {
   VectorX velocity_;
   BodyDynamics::State state_;
   BodyDynamics::Workspace workspace_;
+  std::vector<std::optional<Sliding>> sliding_;
   std::vector<std::optional<SurfacePair>> pairs_;  // of contacts with another surface: each follows its normal in time
   std::vector<std::optional<PairKinematics>> kinematics_;
   bool mass_known_ = false;
-  MatrixX mass_, jacobian_, twist_;
+  MatrixX mass_, jacobian_, force_jacobian_, twist_;
   MatrixX linear_, angular_;
   VectorX bias_, force_, right_;
   ConstrainedSolver solver_;

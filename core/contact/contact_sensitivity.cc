@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 
 ContactSensitivitySolver::ContactSensitivitySolver(const Model& model, ContactDynamics* dynamics)
@@ -18,6 +20,7 @@ FrameMotion ContactSensitivitySolver::Frame(int link, int ground) const {
 
 const ContactSensitivity& ContactSensitivitySolver::Solve(const std::vector<int>& active, const VectorX& tau,
                                                           const Vector3& gravity, const Baumgarte& baumgarte) {
+  ROLLGAIT_CHECK(!dynamics_.AnySlides(active));
   const ConstrainedSolution& solution = dynamics_.Accelerate(active, tau, gravity, baumgarte);
   dynamics_.Response(&response_);
   const int nv = static_cast<int>(tau.size()), rows = static_cast<int>(solution.forces.size());

@@ -25,7 +25,12 @@ class ImpactSolver {
     dynamics_.VelocityRows(held, &jacobian_, &rate_);
     const MatrixX& mass = dynamics_.MassMatrix();
     const VectorX& before = dynamics_.velocity();
-    solver_.Solve(mass, VectorX::Zero(before.size()), jacobian_, -rate_, &solution_);
+    if (dynamics_.AnySlides(held)) {
+      dynamics_.ForceRows(held, jacobian_, &force_jacobian_);
+      solver_.SolveSliding(mass, VectorX::Zero(before.size()), jacobian_, force_jacobian_, -rate_, &solution_);
+    } else {
+      solver_.Solve(mass, VectorX::Zero(before.size()), jacobian_, -rate_, &solution_);
+    }
     const VectorX& change = solution_.acceleration;
     impact.velocity = before + change;
     impact.redundant = solution_.redundant;
@@ -54,7 +59,7 @@ class ImpactSolver {
   ContactDynamics& dynamics_;
   ConstrainedSolver solver_;
   ConstrainedSolution solution_;
-  MatrixX jacobian_, linear_, angular_;
+  MatrixX jacobian_, force_jacobian_, linear_, angular_;
   VectorX rate_;
 };
 

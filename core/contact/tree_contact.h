@@ -29,7 +29,18 @@ struct TreeContact {
   bool no_spin = false;              // also forbid relative spin about the normal
 };
 
-// Rows that an active contact adds to the equations; their order is in ContactDynamics.
+// An active contact that slides: it holds its gap, and friction is `friction` times the normal force against the slip.
+struct Sliding {
+  double friction = 0;
+  // Unit tangent, world: the direction of slip a moment ago. Friction acts against  ± w + kSlidingBlend · reference  (w the
+  // slip, with the sign that turns it towards the reference), so that it has a limit where slip begins or ends, and goes on
+  // smoothly through zero, where an event is to be found. Along a straight line that is Coulomb's law exactly; elsewhere the
+  // direction is off by kSlidingBlend / |w| times the turn since the reference.
+  Vector3 reference = Vector3::UnitX();
+};
+inline constexpr double kSlidingBlend = 1e-6;  // m/s
+
+// Rows that an active contact without slip adds to the equations; their order is in ContactDynamics.
 inline int RowCount(const TreeContact& contact) {
   const int directions = contact.grip == Grip::kRolling ? 3 : contact.grip == Grip::kRollingAlong ? 2 : 1;
   return directions + (contact.no_spin ? 1 : 0);

@@ -113,6 +113,7 @@ class SceneChecker {
       const std::string path = Indexed("contacts", k);
       const SceneContact& contact = scene_.contacts[k];
       if (!(contact.friction > 0)) Refuse(path + "friction", contact.friction, "must be larger than 0");
+      if (contact.friction_loss == FrictionLoss::kSlide) CheckSliding(path, contact);
       if (contact.bilateral && !contact.active) {
         Refuse(path + "bilateral", "true", "must be false for a contact that is not active at the start");
       }
@@ -125,6 +126,14 @@ class SceneChecker {
         }
       }
     }
+  }
+
+  void CheckSliding(const std::string& path, const SceneContact& contact) {
+    const auto refuse = [&](const char* rule) { Refuse(path + "friction_loss", "FRICTION_LOSS_SLIDE", rule); };
+    if (contact.friction == kInfinity) refuse("needs a finite coefficient `friction`");
+    if (contact.contact.grip == Grip::kFrictionless) refuse("needs a grip; GRIP_FRICTIONLESS slides without friction");
+    if (contact.contact.no_spin) refuse("cannot be combined with no_spin: a contact that slides holds no spin");
+    if (contact.bilateral) refuse("cannot be combined with bilateral: friction follows a force that pushes");
   }
 
   void CheckOptions() {

@@ -28,7 +28,9 @@ void EventLocator::ChooseWatched() {
       continue;
     }
     if (!contact.bilateral) watched_.push_back({SimulationEventKind::kLiftOff, k});
-    if (contact.friction != kInfinity) {
+    if (dynamics_.IsSliding(k)) {
+      watched_.push_back({SimulationEventKind::kStick, k});
+    } else if (contact.friction != kInfinity) {
       watched_.push_back({beyond_friction_[i] != 0 ? SimulationEventKind::kFrictionRegained
                                                    : SimulationEventKind::kFrictionLoss, k});
     }
@@ -40,6 +42,7 @@ double EventLocator::Value(const Watched& watched) {
   ContactDynamics& contacts = dynamics_.contacts();
   const PairKinematics& pair = contacts.Kinematics(watched.contact);
   if (watched.kind == SimulationEventKind::kTouchDown) return pair.gap;
+  if (watched.kind == SimulationEventKind::kStick) return contacts.SlipAlongReference(watched.contact);
   const Vector3 force = contacts.Force(watched.contact);
   const double normal = pair.normal.dot(force);
   if (watched.kind == SimulationEventKind::kLiftOff) return normal;
@@ -194,7 +197,7 @@ std::vector<int> EventLocator::MarkFriction(double t, const VectorX& x) {
   std::vector<int> lost;
   for (size_t k = 0; k < scene_.contacts.size(); ++k) {
     const int contact = static_cast<int>(k);
-    const bool watched = dynamics_.IsActive(contact) && scene_.contacts[k].friction != kInfinity;
+    const bool watched = dynamics_.IsActive(contact) && !dynamics_.IsSliding(contact) && scene_.contacts[k].friction != kInfinity;
     const bool beyond = watched && Value({SimulationEventKind::kFrictionLoss, contact}) < 0;
     if (beyond && beyond_friction_[k] == 0) lost.push_back(contact);
     beyond_friction_[k] = beyond ? 1 : 0;

@@ -20,7 +20,8 @@ struct Crossing {
 
 // Watches, over each step of the integrator: gaps of inactive contacts that can touch down (falling through zero with open
 // gates), normal forces of active unilateral contacts (falling through zero), friction margins  μ n·F − |tangential force|
-// of active contacts with a coefficient (both ways). Quantities are sampled at quarters of the step on the continuous
+// of active contacts with a coefficient (both ways), the slip of sliding contacts along its direction at the start of the
+// step (falling through zero: there it ends). Quantities are sampled at quarters of the step on the continuous
 // extension (gaps also at their minimum between samples); a change of sign is located there, then with single steps of the
 // integrator from the start of the step until the time no longer changes: to rounding of the quantity over its slope.
 class EventLocator {

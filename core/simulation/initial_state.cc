@@ -4,8 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <Eigen/SVD>
-
+#include "core/math/dense_solve.h"
 #include "core/multibody/configuration.h"
 
 namespace rollgait {
@@ -27,10 +26,6 @@ std::vector<int> AdjustedColumns(const SimulationScene& scene) {
     }
   }
   return columns;
-}
-
-VectorX LeastNorm(const MatrixX& matrix, const VectorX& right) {
-  return Eigen::JacobiSVD<MatrixX>(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV).solve(right);
 }
 
 MatrixX Select(const MatrixX& matrix, const std::vector<int>& columns) {
@@ -69,7 +64,7 @@ Result<VectorX> InitialState(const SimulationScene& scene, SceneDynamics* dynami
     const double worst = gaps.cwiseAbs().maxCoeff();
     if (worst == 0 || (iteration > 3 && worst >= last)) break;
     last = worst;
-    const VectorX step = LeastNorm(Select(jacobian, columns), -gaps);
+    const VectorX step = SolveLeastNorm(Select(jacobian, columns), -gaps).x;
     VectorX delta = VectorX::Zero(nv);
     for (size_t c = 0; c < columns.size(); ++c) delta[columns[c]] = step[static_cast<int>(c)];
     q = Retract(scene.model, q, delta);
@@ -79,7 +74,7 @@ Result<VectorX> InitialState(const SimulationScene& scene, SceneDynamics* dynami
     dynamics->SetState(0, dynamics->MakeState(q, v, 0));
     VectorX rate;
     contacts.VelocityRows(active, &jacobian, &rate);
-    const VectorX speed = LeastNorm(Select(jacobian, columns), -rate);
+    const VectorX speed = SolveLeastNorm(Select(jacobian, columns), -rate).x;
     for (size_t c = 0; c < columns.size(); ++c) v[columns[c]] = speed[static_cast<int>(c)];
   }
 
@@ -98,6 +93,11 @@ Result<VectorX> InitialState(const SimulationScene& scene, SceneDynamics* dynami
     MatrixX rows;
     contacts.VelocityRows({k}, &rows, &rate);
     const double limit = kAbsolute + kRelative * (rows.cwiseAbs() * v.cwiseAbs()).maxCoeff();
+    const Vector3 slip = dynamics->TangentialSlip(k);
+    if (dynamics->MaySlide(k) && slip.norm() > limit) {
+      dynamics->Slide(k, slip.normalized());
+      contacts.VelocityRows({k}, &rows, &rate);
+    }
     if (!(rate.cwiseAbs().maxCoeff() <= limit)) {
       violations.push_back({field, "but the contact slips at " + Value(rate.cwiseAbs().maxCoeff(), "m/s") +
                                        " at t = 0; set velocities that roll, or name joints in adjusted_joints"});

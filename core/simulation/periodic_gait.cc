@@ -5,10 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
+#include "core/math/dense_solve.h"
 #include "core/simulation/initial_state.h"
 
 namespace rollgait {
@@ -16,15 +13,6 @@ namespace {
 
 constexpr double kFinestTolerance = 1e-13;
 constexpr double kRankTolerance = 1e-9;
-
-// Orthonormal bases of the row space (transposed) and of the null space.
-void SplitSpace(const MatrixX& rows, MatrixX* normals, MatrixX* basis) {
-  Eigen::JacobiSVD<MatrixX> svd(rows, Eigen::ComputeFullV);
-  svd.setThreshold(kRankTolerance);
-  const Eigen::Index rank = svd.rank();
-  *normals = svd.matrixV().leftCols(rank);
-  *basis = svd.matrixV().rightCols(rows.cols() - rank);
-}
 
 int MirrorContact(const SimulationScene& scene, int k) {
   const int mirror = scene.contacts[static_cast<size_t>(k)].mirror;
@@ -137,16 +125,16 @@ GaitSection::GaitSection(const SimulationScene& scene, const VectorX& q)
   // The normals at the start lead onto the section; those there make the coordinates.
   for (int pass = 0; pass < 2; ++pass) {
     Gaps(pass == 0 ? q : origin_, &gaps, &rows);
-    SplitSpace(rows, &position_normals_, &position_basis_);
+    SplitRowSpace(rows, kRankTolerance, &position_normals_, &position_basis_);
     origin_ = Close(pass == 0 ? q : origin_);
   }
   if (scene.travel_joint >= 0) {
     without_travel.resize(rows.rows() + 1, rows.cols());
     without_travel << rows, VectorX::Unit(rows.cols(), scene.travel_joint).transpose();
     MatrixX unused;
-    SplitSpace(without_travel, &unused, &position_basis_);
+    SplitRowSpace(without_travel, kRankTolerance, &unused, &position_basis_);
   }
-  SplitSpace(SlipRows(origin_), &velocity_normals_, &velocity_basis_);
+  SplitRowSpace(SlipRows(origin_), kRankTolerance, &velocity_normals_, &velocity_basis_);
 }
 
 void GaitSection::Gaps(const VectorX& q, VectorX* gaps, MatrixX* jacobian) {
@@ -180,7 +168,7 @@ VectorX GaitSection::Close(VectorX q) {
     const double worst = gaps.cwiseAbs().maxCoeff();
     if (worst == 0 || (i > 3 && worst >= last)) break;
     last = worst;
-    q -= position_normals_ * (rows * position_normals_).completeOrthogonalDecomposition().solve(gaps);
+    q -= position_normals_ * SolveLeastNorm(rows * position_normals_, gaps).x;
   }
   return q;
 }
@@ -195,7 +183,7 @@ void GaitSection::State(const VectorX& y, VectorX* q, VectorX* v) {
   *q = Close(origin_ + position_basis_ * y.head(position_basis_.cols()));
   const VectorX along = velocity_basis_ * y.tail(velocity_basis_.cols());
   const MatrixX rows = SlipRows(*q);
-  *v = along - velocity_normals_ * (rows * velocity_normals_).completeOrthogonalDecomposition().solve(rows * along);
+  *v = along - velocity_normals_ * SolveLeastNorm(rows * velocity_normals_, rows * along).x;
 }
 
 Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const PeriodicGaitOptions& options,
@@ -231,7 +219,7 @@ Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const Period
     if (gait.converged || !go_on || gait.iterations >= options.max_iterations) break;
     const MatrixX system = jacobian - MatrixX::Identity(y.size(), y.size());
     // Steps out of the region where the walker still makes a step are halved.
-    VectorX newton = -system.partialPivLu().solve(image - y);
+    VectorX newton = -SolveLeastNorm(system, image - y).x;
     for (int halving = 0; halving < 20; ++halving, newton *= 0.5) {
       VectorX trial;
       if (!MapCoordinates(y + newton, &*section, &map, &trial)) continue;
@@ -248,7 +236,7 @@ Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const Period
     gait.period = gait.heel_strike.time;
     if (scene.travel_joint >= 0) gait.step_length = q_next[scene.travel_joint] - gait.q[scene.travel_joint];
   }
-  gait.eigenvalues = Eigen::EigenSolver<MatrixX>(gait.jacobian, false).eigenvalues();
+  gait.eigenvalues = Eigenvalues(gait.jacobian);
   std::sort(gait.eigenvalues.begin(), gait.eigenvalues.end(), [](const auto& a, const auto& b) {
     return std::abs(a) != std::abs(b) ? std::abs(a) > std::abs(b) : a.imag() > b.imag();
   });

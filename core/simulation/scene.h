@@ -31,6 +31,7 @@ struct Gate {
 enum class FrictionLoss {
   kReport,  // the contact goes on rolling; the event is reported
   kStop,    // the simulation ends there
+  kSlide,   // the contact slides with Coulomb friction until it sticks again; it may slip at the start, too
 };
 
 struct SceneContact {

@@ -49,6 +49,44 @@ void SceneDynamics::SetState(double t, const VectorX& x) {
   contacts_.SetState(q_, v_, ground_);
 }
 
+Vector3 SceneDynamics::TangentialSlip(int k) {
+  const PairKinematics& pair = contacts_.Kinematics(k);
+  if (contacts_.contact(k).grip == Grip::kRollingAlong) {
+    const Vector3 t = contacts_.Tangent(k);
+    return t * t.dot(pair.slip);
+  }
+  return pair.slip - pair.normal * pair.normal.dot(pair.slip);
+}
+
+Vector3 SceneDynamics::TangentialForce(int k) {
+  const Vector3 &force = contacts_.Force(k), &n = contacts_.Kinematics(k).normal;
+  return force - n * n.dot(force);
+}
+
+void SceneDynamics::Slide(int k, const Vector3& direction) {
+  contacts_.SetSliding(k, Sliding{scene_.contacts[static_cast<size_t>(k)].friction, direction});
+}
+
+bool SceneDynamics::TurnsBack(int k) {
+  if (TangentialSlip(k).norm() > kSlidingBlend) return false;
+  contacts_.SlipJacobian(k, &linear_, &angular_);
+  const Vector3 change = linear_ * solution_->acceleration, &drift = contacts_.Kinematics(k).drift;
+  const Vector3 direction = contacts_.SlidingDirection(k);
+  return direction.dot(change + drift) < -1e-9 * (change.norm() + drift.norm());
+}
+
+bool SceneDynamics::FollowSlip() {
+  bool any = false;
+  for (int k : active_) {
+    if (!IsSliding(k)) continue;
+    any = true;
+    const Vector3 slip = TangentialSlip(k);
+    // Below the blend the direction is carried on: at the very start there is none.
+    if (slip.norm() > kSlidingBlend) Slide(k, slip.normalized());
+  }
+  return any;
+}
+
 void SceneDynamics::ComputeEfforts() {
   for (int i = 0; i < scene_.model.size(); ++i) {
     const JointForce& force = scene_.forces[i];

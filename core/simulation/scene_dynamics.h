@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_SIMULATION_SCENE_DYNAMICS_H_
 #define ROLLGAIT_CORE_SIMULATION_SCENE_DYNAMICS_H_
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,21 @@ class SceneDynamics {
   void SetActive(std::vector<int> active) { active_ = std::move(active); }
   const std::vector<int>& active() const { return active_; }
   bool IsActive(int k) const;
+
+  // The slip of contact k relative to the other body in its tangent directions (of kRollingAlong: along it), world, m/s.
+  Vector3 TangentialSlip(int k);
+  // The tangential part of its last force, N.
+  Vector3 TangentialForce(int k);
+  // Contact k slides, for now along `direction` (unit, world); or holds its slip again.
+  void Slide(int k, const Vector3& direction);
+  void Stick(int k) { contacts_.SetSliding(k, std::nullopt); }
+  bool IsSliding(int k) const { return contacts_.sliding(k).has_value(); }
+  // True for contacts that may slide (FrictionLoss::kSlide).
+  bool MaySlide(int k) const { return scene_.contacts[static_cast<size_t>(k)].friction_loss == FrictionLoss::kSlide; }
+  // True if contact k, which slides but has no slip yet, would slip against its direction under the last right side.
+  bool TurnsBack(int k);
+  // Turns the reference of every sliding contact into its direction of slip at the state. True if there is one.
+  bool FollowSlip();
 
   // ẋ at (t, x). Leaves contacts() with kinematics and forces of that instant.
   void RightSide(double t, const VectorX& x, VectorX* derivative);

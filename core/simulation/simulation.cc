@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "core/contact/impact.h"
 #include "core/simulation/event_locator.h"
+#include "core/simulation/frictional_impact.h"
 #include "core/simulation/initial_state.h"
+#include "core/simulation/recording.h"
 
 namespace rollgait {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 constexpr double kForceRounding = 1e-11;
 // Contacts closer than this (relative to their distance from the origin and their size) take part in an impact.
 constexpr double kTouching = 1e-10;
+// A slip below this, m/s, ends together with another one's.
+constexpr double kStopped = 1e-9;
 
 class SimulationRun {
  public:
@@ -21,6 +25,7 @@ class SimulationRun {
       : scene_(scene), observer_(observer), stop_(stop), dynamics_(scene), locator_(scene, &dynamics_) {
     right_side_ = [this](double t, const VectorX& x, VectorX* dx) { dynamics_.RightSide(t, x, dx); };
     derivative_.resize(dynamics_.size());
+    directions_.resize(scene.contacts.size());
     integrator_.SetQuadratures(SceneDynamics::kQuadratures);
   }
 
@@ -61,8 +66,10 @@ class SimulationRun {
       if (!EmitSamples(step_start, step_from)) return;
       if (!CorrectDrift()) return;
       if (crossing && !Handle(*crossing)) return;
-      // The state was changed, if only by the norm of a quaternion.
-      if (crossing || scene_.options.drift == DriftControl::kProjection || scene_.model.HasFreeJoint()) {
+      dynamics_.SetState(t_, x_);
+      const bool sliding = dynamics_.FollowSlip();
+      // The state was changed, if only by the norm of a quaternion; or the direction of friction.
+      if (crossing || sliding || scene_.options.drift == DriftControl::kProjection || scene_.model.HasFreeJoint()) {
         integrator_.Restart(right_side_, t_, x_);
       }
     }
@@ -75,8 +82,12 @@ class SimulationRun {
       case IntegrationStatus::kStepTooSmall:
         return SimulationEnd::kStepTooSmall;
       default:
-        return SimulationEnd::kNotFinite;
+        return NotFinite();
     }
+  }
+
+  SimulationEnd NotFinite() const {
+    return dynamics_.solution().determined ? SimulationEnd::kNotFinite : SimulationEnd::kFrictionUndetermined;
   }
 
   void End(SimulationEnd end) { report_.end = end; }
@@ -90,7 +101,7 @@ class SimulationRun {
     report_.max_slip = std::max(report_.max_slip, drift.slip);
     dynamics_.RightSide(t_, x_, &derivative_);
     if (!derivative_.allFinite()) {
-      End(SimulationEnd::kNotFinite);
+      End(NotFinite());
       return false;
     }
     Record(t_, x_);
@@ -115,74 +126,16 @@ class SimulationRun {
 
   bool EmitSample(double time, const VectorX& x) {
     dynamics_.RightSide(time, x, &derivative_);
-    SimulationSample sample;
-    sample.time = time;
-    sample.q = dynamics_.Positions(x);
-    sample.v = dynamics_.Velocities(x);
-    sample.acceleration = dynamics_.solution().acceleration;
-    sample.kinetic_energy = dynamics_.KineticEnergy();
-    sample.potential_energy = dynamics_.PotentialEnergy() + dynamics_.SpringEnergy();
-    sample.work = x[dynamics_.size() - 1];
-    for (int k = 0; k < dynamics_.contacts().contact_count(); ++k) sample.contacts.push_back(SampleContact(k));
     Record(time, x);
-    if (observer_.sample && !observer_.sample(sample)) {
+    if (observer_.sample && !observer_.sample(MakeSample(time, x, &dynamics_))) {
       End(SimulationEnd::kStopped);
       return false;
     }
     return true;
   }
 
-  ContactSample SampleContact(int k) {
-    const PairKinematics& pair = dynamics_.contacts().Kinematics(k);
-    ContactSample sample;
-    sample.active = dynamics_.IsActive(k);
-    sample.gap = pair.gap;
-    sample.point = pair.p_1;
-    sample.normal = pair.normal;
-    sample.slip = pair.slip;
-    if (sample.active) {
-      sample.force = dynamics_.contacts().Force(k);
-      sample.spin_torque = dynamics_.contacts().SpinTorque(k);
-      sample.friction_ratio = FrictionRatio(k);
-    }
-    return sample;
-  }
-
-  double FrictionRatio(int k) {
-    const Vector3 force = dynamics_.contacts().Force(k);
-    const Vector3& n = dynamics_.contacts().Kinematics(k).normal;
-    const double normal = n.dot(force), tangential = (force - normal * n).norm();
-    if (tangential == 0) return 0;
-    return normal > 0 ? tangential / normal : kInfinity;
-  }
-
   // The extremes of the report, at the state of the last right side.
-  void Record(double time, const VectorX& x) {
-    const double energy = dynamics_.KineticEnergy() + dynamics_.PotentialEnergy() + dynamics_.SpringEnergy();
-    report_.energy_final = energy;
-    const double error = std::abs(energy - x[dynamics_.size() - 1] - report_.energy_initial);
-    report_.max_energy_error = std::max(report_.max_energy_error, error);
-    report_.redundant = report_.redundant || dynamics_.solution().redundant;
-    for (int k : dynamics_.active()) {
-      const PairKinematics& pair = dynamics_.contacts().Kinematics(k);
-      if (scene_.options.drift != DriftControl::kProjection) {
-        report_.max_gap = std::max(report_.max_gap, std::abs(pair.gap));
-        dynamics_.contacts().VelocityRows({k}, &rows_, &rates_);
-        report_.max_slip = std::max(report_.max_slip, rates_.cwiseAbs().maxCoeff());
-      }
-      const double normal = pair.normal.dot(dynamics_.contacts().Force(k)), ratio = FrictionRatio(k);
-      if (normal < report_.min_normal_force) {
-        report_.min_normal_force = normal;
-        report_.min_normal_force_time = time;
-        report_.min_normal_force_contact = k;
-      }
-      if (ratio > report_.max_friction_ratio) {
-        report_.max_friction_ratio = ratio;
-        report_.max_friction_ratio_time = time;
-        report_.max_friction_ratio_contact = k;
-      }
-    }
-  }
+  void Record(double time, const VectorX& x) { RecordExtremes(scene_, time, x, &dynamics_, &report_); }
 
   SimulationEvent MakeEvent(SimulationEventKind kind, int contact) const {
     SimulationEvent event;
@@ -214,6 +167,8 @@ class SimulationRun {
         return Release(crossing.contact) && Settle();
       case SimulationEventKind::kFrictionLoss:
         return LoseFriction(crossing.contact);
+      case SimulationEventKind::kStick:
+        return EndSlip(crossing.contact);
       case SimulationEventKind::kFrictionRegained:
         break;
     }
@@ -221,10 +176,43 @@ class SimulationRun {
   }
 
   bool LoseFriction(int contact) {
+    if (dynamics_.MaySlide(contact)) return BeginSlip({contact}) && Settle();
     if (!EmitEvent(MakeEvent(SimulationEventKind::kFrictionLoss, contact))) return false;
     if (scene_.contacts[static_cast<size_t>(contact)].friction_loss != FrictionLoss::kStop) return true;
     End(SimulationEnd::kFrictionLoss);
     return false;
+  }
+
+  // Contacts at rest that cannot be held: each slides against the friction that holding it would take.
+  bool BeginSlip(const std::vector<int>& contacts) {
+    dynamics_.RightSide(t_, x_, &derivative_);
+    for (int k : contacts) directions_[static_cast<size_t>(k)] = -dynamics_.TangentialForce(k).normalized();
+    for (int k : contacts) {
+      if (!EmitEvent(MakeEvent(SimulationEventKind::kFrictionLoss, k))) return false;
+      dynamics_.Slide(k, directions_[static_cast<size_t>(k)]);
+    }
+    dynamics_.RightSide(t_, x_, &derivative_);
+    if (derivative_.allFinite()) return true;
+    End(NotFinite());
+    return false;
+  }
+
+  // The slip of a contact passed through zero: it is held, unless that takes more friction than there is; and with it those
+  // whose slip ends at the same instant.
+  bool EndSlip(int contact) {
+    std::vector<int> ended = {contact};
+    for (size_t i = 0; i < ended.size(); ++i) {
+      dynamics_.Stick(ended[i]);
+      const SceneDynamics::Drift drift = dynamics_.Project(t_, true, &x_);
+      report_.max_quaternion_error = std::max(report_.max_quaternion_error, drift.quaternion);
+      if (!EmitEvent(MakeEvent(SimulationEventKind::kStick, ended[i]))) return false;
+      dynamics_.SetState(t_, x_);
+      for (int k : dynamics_.active()) {
+        const bool listed = std::find(ended.begin(), ended.end(), k) != ended.end();
+        if (!listed && dynamics_.IsSliding(k) && dynamics_.TangentialSlip(k).norm() <= kStopped) ended.push_back(k);
+      }
+    }
+    return Settle();
   }
 
   bool Release(int contact) {
@@ -232,6 +220,7 @@ class SimulationRun {
     std::vector<int> active = dynamics_.active();
     active.erase(std::remove(active.begin(), active.end(), contact), active.end());
     dynamics_.SetActive(std::move(active));
+    dynamics_.Stick(contact);
     return true;
   }
 
@@ -240,7 +229,7 @@ class SimulationRun {
     while (true) {
       dynamics_.RightSide(t_, x_, &derivative_);
       if (!derivative_.allFinite()) {
-        End(SimulationEnd::kNotFinite);
+        End(NotFinite());
         return false;
       }
       int worst = -1;
@@ -256,10 +245,24 @@ class SimulationRun {
       if (worst < 0) break;
       if (!Release(worst)) return false;
     }
-    for (int k : locator_.MarkFriction(t_, x_)) {
-      if (!LoseFriction(k)) return false;
+    // Contacts that may slide and need more friction than there is, begin to; this can make others need more, or less.
+    for (int i = 0; i <= 2 * dynamics_.contacts().contact_count(); ++i) {
+      std::vector<int> lost = locator_.MarkFriction(t_, x_), slide;
+      for (int k : lost) {
+        if (dynamics_.MaySlide(k)) {
+          slide.push_back(k);
+        } else if (!LoseFriction(k)) {
+          return false;
+        }
+      }
+      if (slide.empty()) return true;
+      if (!BeginSlip(slide)) return false;
+      for (int k : dynamics_.active()) {
+        if (dynamics_.IsSliding(k) && dynamics_.TurnsBack(k)) dynamics_.Stick(k);
+      }
     }
-    return true;
+    End(SimulationEnd::kFrictionUndetermined);
+    return false;
   }
 
   bool HandleImpact(int contact) {
@@ -275,7 +278,12 @@ class SimulationRun {
       touching.push_back(k);
       if (k == contact || scene_contact.bilateral) must_hold.push_back(k);
     }
-    const Impact impact = ResolveImpact(touching, must_hold, &dynamics_.contacts());
+    const std::optional<Impact> resolved = ResolveFrictionalImpact(scene_, touching, must_hold, t_, x_, &dynamics_);
+    if (!resolved) {
+      End(SimulationEnd::kFrictionUndetermined);
+      return false;
+    }
+    const Impact& impact = *resolved;
     SimulationEvent event = MakeEvent(SimulationEventKind::kTouchDown, contact);
     event.velocity_after = impact.velocity;
     event.impulses = impact.impulses;
@@ -316,8 +324,8 @@ class SimulationRun {
   Dop853 integrator_, single_;
   Dop853::RightSide right_side_;
   SimulationReport report_;
-  VectorX x_, derivative_, rates_;
-  MatrixX rows_;
+  VectorX x_, derivative_;
+  std::vector<Vector3> directions_;
   double t_ = 0;
   long next_sample_ = 0;
   int attempts_ = 0, events_ = 0;

@@ -13,7 +13,7 @@ namespace rollgait {
 
 // One contact at an instant. World axes.
 struct ContactSample {
-  bool active = false;
+  bool active = false, sliding = false;
   double gap = 0;                            // m
   Vector3 point = Vector3::Zero();           // m, on body 1
   Vector3 normal = Vector3::Zero();
@@ -35,8 +35,9 @@ struct SimulationSample {
 enum class SimulationEventKind {
   kTouchDown,     // a gap closed: plastic impact
   kLiftOff,       // a normal force fell to zero: the contact became inactive
-  kFrictionLoss,  // the friction that rolling needs passed the coefficient
+  kFrictionLoss,  // the friction that rolling needs passed the coefficient; with FrictionLoss::kSlide the contact slides now
   kFrictionRegained,
+  kStick,         // a sliding contact came to rest in its tangent directions and rolls again
 };
 
 struct SimulationEvent {
@@ -62,6 +63,8 @@ enum class SimulationEnd {
   kNotFinite,        // the accelerations are not finite; a flat surface in contact is one reason
   kTooManySteps,
   kTooManyEvents,
+  kFrictionUndetermined,  // Coulomb friction on rigid bodies leaves the motion undetermined: jamming, or several contacts
+                          // whose friction forces are not unique (ConstrainedSolver::SolveSliding)
 };
 
 // How well the simulation kept what it should, over all steps and samples.

@@ -160,6 +160,9 @@ SceneContact ContactDecoder::Decode(const v1::SceneContact& encoded, int k) {
     case v1::SceneContact::FRICTION_LOSS_STOP:
       decoded.friction_loss = FrictionLoss::kStop;
       break;
+    case v1::SceneContact::FRICTION_LOSS_SLIDE:
+      decoded.friction_loss = FrictionLoss::kSlide;
+      break;
     default:
       decoding_.Refuse(path + "friction_loss", "enum value " + std::to_string(encoded.friction_loss()) +
                                          " is not known; use a named one");

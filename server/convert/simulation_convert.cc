@@ -32,6 +32,8 @@ v1::SimulationEvent::Kind EncodeKind(SimulationEventKind kind) {
       return v1::SimulationEvent::KIND_FRICTION_LOST;
     case SimulationEventKind::kFrictionRegained:
       return v1::SimulationEvent::KIND_FRICTION_REGAINED;
+    case SimulationEventKind::kStick:
+      return v1::SimulationEvent::KIND_STUCK;
   }
   ROLLGAIT_CHECK(false);
 }
@@ -54,6 +56,8 @@ v1::SimulationReport::End EncodeEnd(SimulationEnd end) {
       return v1::SimulationReport::END_TOO_MANY_STEPS;
     case SimulationEnd::kTooManyEvents:
       return v1::SimulationReport::END_TOO_MANY_EVENTS;
+    case SimulationEnd::kFrictionUndetermined:
+      return v1::SimulationReport::END_FRICTION_UNDETERMINED;
   }
   ROLLGAIT_CHECK(false);
 }
@@ -69,6 +73,7 @@ v1::SimulationSample EncodeSample(const SimulationSample& sample) {
   for (const ContactSample& contact : sample.contacts) {
     v1::ContactSample* c = encoded.add_contacts();
     c->set_active(contact.active);
+    c->set_sliding(contact.sliding);
     c->set_gap_m(contact.gap);
     EncodeVector(contact.point, c->mutable_point_m());
     EncodeVector(contact.normal, c->mutable_normal());
