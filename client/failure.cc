@@ -34,7 +34,20 @@ std::string Details(const grpc::Status& status) {
   return text;
 }
 
-std::string Advice(grpc::StatusCode code, const std::string& server) {
+std::string SceneAdvice(grpc::StatusCode code) {
+  if (code == grpc::StatusCode::INVALID_ARGUMENT) {
+    return "Correct the fields of the scene named above; rollgait.v1.SimulationScene (proto/rollgait/v1/simulation.proto) "
+           "gives every unit and range. --validate-only checks a scene without simulating it.";
+  }
+  return "The run takes longer than it may: raise --max-wall-time (at most 600 s), or ask for less: a shorter --duration, "
+         "a looser --tolerance. What came before is valid.";
+}
+
+std::string Advice(grpc::StatusCode code, const std::string& server, CallKind kind) {
+  if (kind == CallKind::kScene &&
+      (code == grpc::StatusCode::INVALID_ARGUMENT || code == grpc::StatusCode::DEADLINE_EXCEEDED)) {
+    return SceneAdvice(code);
+  }
   switch (code) {
     case grpc::StatusCode::UNAVAILABLE:
       return "Is a server running at " + server + "? Start one with `rollgaitd --data-dir DIR --listen " + server +
@@ -108,17 +121,17 @@ ExitCode ExitCodeOf(const v1::Solve& solve) {
   }
 }
 
-std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server) {
+std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {
   std::string text = "cannot " + action + ": " + StatusCodeName(status.error_code());
   if (!status.error_message().empty()) text += ": " + status.error_message();
   text += Details(status);
-  const std::string advice = Advice(status.error_code(), server);
+  const std::string advice = Advice(status.error_code(), server, kind);
   if (!advice.empty()) text += "\n" + advice;
   return text;
 }
 
-void RequireOk(const grpc::Status& status, const std::string& action, const std::string& server) {
-  if (!status.ok()) throw Failure(ExitCodeOf(status), Describe(status, action, server));
+void RequireOk(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {
+  if (!status.ok()) throw Failure(ExitCodeOf(status), Describe(status, action, server, kind));
 }
 
 }  // namespace rollgait::client

@@ -39,14 +39,19 @@ ExitCode ExitCodeOf(const grpc::Status& status);
 // The exit code of a finished solve. kInternal for one that is not finished.
 ExitCode ExitCodeOf(const v1::Solve& solve);
 
+// Whose ranges and time limits a refusal speaks of.
+enum class CallKind { kSolve, kScene };
+
 // What went wrong and what to do next; several lines: one for each google.rpc.BadRequest violation ("field: message")
 // found in the status's details.
 //   action  what was tried, for example "create the solve"
 //   server  HOST:PORT as given by the user
-std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server);
+std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server,
+                     CallKind kind = CallKind::kSolve);
 
 // Throws the Failure of a status that is not OK.
-void RequireOk(const grpc::Status& status, const std::string& action, const std::string& server);
+void RequireOk(const grpc::Status& status, const std::string& action, const std::string& server,
+               CallKind kind = CallKind::kSolve);
 
 }  // namespace rollgait::client
 

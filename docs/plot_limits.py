@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/numerical_limits.md from the CSV of bench/numerical_limits.
+"""Draws the pictures of docs/numerical_limits.md from the CSV of bench/numerical_limits, dynamics_limits and long_rolling.
 
     numerical_limits > limits.csv && python3 docs/plot_limits.py limits.csv docs/images
+
+Several files may be given; what they hold is drawn.
 """
 import csv
 import math
@@ -16,7 +18,16 @@ PLOTS = {
     "speed": ("Velocity over the surface: relative error against spin", "spin about the normal / other turning", True),
     "exponent": ("Superellipsoid: relative error against exponent", "exponent", False),
 }
-COLOURS = ["#1b6ca8", "#c1440e", "#2e8b57", "#7a4f9a"]
+PLOTS.update({
+    "body_ratio": ("Rolling ellipsoid: error of force and acceleration against shape", "largest / smallest semi-axis", True),
+    "body_speed": ("Rolling ellipsoid: the same against angular speed", "angular speed (rad/s)", True),
+    "mass_ratio": ("Two links: error against mass of the second over the first", "mass ratio", True),
+    "feet_in_line": ("Three feet, one off the line of the others", "distance from the line (m)", True),
+    "long_energy": ("Long runs, tolerance 1e-12: energy drift (relative)", "revolutions", True),
+    "long_gap": ("Long runs, tolerance 1e-12: gap (m)", "revolutions", True),
+})
+DRAWN = {"long_energy": "1e-12", "long_gap": "1e-12"}  # only series whose name holds this
+COLOURS = ["#1b6ca8", "#c1440e", "#2e8b57", "#7a4f9a", "#b8860b", "#555555"]
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 360, 70, 20, 36, 50
 
 
@@ -36,7 +47,8 @@ def draw(title, label, logarithmic, series):
         y = to_y(10.0 ** power)
         out.append(f'<path d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}" stroke="#ddd"/>'
                    f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">1e{power}</text>')
-    ticks = sorted(set(xs))
+    decades = range(math.ceil(x_low - 1e-9), math.floor(x_high + 1e-9) + 1)
+    ticks = [10.0 ** k for k in decades] if logarithmic else sorted(set(xs))
     ticks = ticks[::max(1, len(ticks) // 7)]
     for x in ticks:
         text = f"1e{round(math.log10(x))}" if logarithmic else f"{x:g}"
@@ -54,12 +66,17 @@ def draw(title, label, logarithmic, series):
 
 def main():
     data = {}
-    with open(sys.argv[1], newline="") as file:
-        for row in csv.DictReader(file):
-            data.setdefault(row["plot"], {}).setdefault(row["series"], []).append((float(row["x"]), float(row["y"])))
+    for path in sys.argv[1:-1]:
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                series = data.setdefault(row["plot"], {}).setdefault(row["series"], [])
+                series.append((float(row["x"]), max(float(row["y"]), 1e-18)))
     for name, (title, label, logarithmic) in PLOTS.items():
-        with open(f"{sys.argv[2]}/limits_{name}.svg", "w") as file:
-            file.write(draw(title, label, logarithmic, data[name]))
+        shown = {key: points for key, points in data.get(name, {}).items() if DRAWN.get(name, "") in key}
+        if not shown:
+            continue
+        with open(f"{sys.argv[-1]}/limits_{name}.svg", "w") as file:
+            file.write(draw(title, label, logarithmic, shown))
 
 
 main()

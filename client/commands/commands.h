@@ -73,11 +73,11 @@ ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOpt
 
 struct SimulateOptions {
   SceneInput scene;
-  std::string output;  // empty: standard output
+  std::string output;  // a .json file for the whole run as rollgait.v1.Simulation; empty: none
   bool validate_only = false;
   std::optional<double> max_wall_time_s;
 };
-// Samples as comma separated values, or messages as JSON lines; events and the report on terminal.err. kNoSolution if the
+// On terminal.out samples as comma separated values, or messages as JSON lines; events and the report on terminal.err. kNoSolution if the
 // simulation ended early. Ctrl-C ends it.
 ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global, const Terminal& terminal);
 

@@ -61,7 +61,7 @@ ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global
     }
     if (message.has_gait()) gait = message.gait();
   }
-  RequireOk(stream->Finish(), "find a periodic gait", connection.server());
+  RequireOk(stream->Finish(), "find a periodic gait", connection.server(), CallKind::kScene);
   if (!global.json && !global.quiet) terminal.out << GaitText(gait, request.scene()) << std::flush;
   return gait.converged() ? ExitCode::kSuccess : ExitCode::kNoSolution;
 }

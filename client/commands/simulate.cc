@@ -1,6 +1,5 @@
 #include <grpcpp/client_context.h>
 
-#include <fstream>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -8,6 +7,8 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/scene_input.h"
+#include "client/commands/simulation_document.h"
+#include "client/failure.h"
 #include "client/interrupt.h"
 #include "client/json.h"
 #include "client/text.h"
@@ -157,12 +158,8 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   if (options.max_wall_time_s) request.set_max_wall_time_s(*options.max_wall_time_s);
   request.set_validate_only(options.validate_only);
 
-  std::ofstream file;
-  if (!options.output.empty()) {
-    file.open(options.output, std::ios::trunc);
-    if (!file) throw Failure(ExitCode::kUsage, "--output " + options.output + ": cannot be written");
-  }
-  std::ostream& out = file.is_open() ? file : terminal.out;
+  std::optional<SimulationDocument> document;
+  if (!options.output.empty() && !options.validate_only) document.emplace(options.output, request.scene());
   grpc::ClientContext context;
   const Interrupt interrupt([&](int) { context.TryCancel(); });
   Connection connection(global);
@@ -171,7 +168,7 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
     v1::SimulationMessage unused;
     while (stream->Read(&unused)) {
     }
-    RequireOk(stream->Finish(), "simulate the scene", connection.server());
+    RequireOk(stream->Finish(), "simulate the scene", connection.server(), CallKind::kScene);
     if (!global.quiet) terminal.out << "the scene is valid" << std::endl;
     return ExitCode::kSuccess;
   }
@@ -180,8 +177,9 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   v1::SimulationReport report;
   const bool live = terminal.err_live && !global.quiet;
   while (stream->Read(&message)) {
-    if (!writer) writer.emplace(request.scene(), global.json, out);
+    if (!writer) writer.emplace(request.scene(), global.json, terminal.out);
     writer->Write(message);
+    if (document) document->Add(message);
     if (live && message.has_samples()) {
       const double time = message.samples().samples(message.samples().samples_size() - 1).time_s();
       terminal.err << "\r" << FormatNumber(time, 6) << " of " << FormatNumber(request.scene().duration_s(), 6)
@@ -191,9 +189,9 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
     if (message.has_report()) report = message.report();
   }
   if (live) terminal.err << "\r\x1b[K";
-  RequireOk(stream->Finish(), "simulate the scene", connection.server());
-  out.flush();
-  if (!out) throw Failure(ExitCode::kInternal, options.output + ": cannot be written");
+  RequireOk(stream->Finish(), "simulate the scene", connection.server(), CallKind::kScene);
+  terminal.out.flush();
+  if (document) document->Finish(report);
   if (!global.quiet) terminal.err << ReportText(report);
   return Completed(report.end()) ? ExitCode::kSuccess : ExitCode::kNoSolution;
 }

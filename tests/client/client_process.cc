@@ -111,4 +111,10 @@ int ClientProcess::Wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 
+Ended RunToEnd(const std::vector<std::string>& arguments) {
+  ClientProcess client(arguments);
+  const int code = client.Wait();
+  return {code, client.out(), client.err()};
+}
+
 }  // namespace rollgait::client

@@ -41,6 +41,14 @@ class ClientProcess {
   std::string out_, err_;
 };
 
+struct Ended {
+  int code;
+  std::string out, err;
+};
+
+// Runs the program to its end.
+Ended RunToEnd(const std::vector<std::string>& arguments);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_TESTS_CLIENT_CLIENT_PROCESS_H_

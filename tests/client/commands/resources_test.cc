@@ -17,15 +17,9 @@ using testing::Not;
 
 class ResourceCommandTest : public testing::Test {
  protected:
-  struct Ended {
-    int code;
-    std::string out, err;
-  };
   Ended Run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"--server", server_.address()});
-    ClientProcess client(arguments);
-    const int code = client.Wait();
-    return {code, client.out(), client.err()};
+    return RunToEnd(arguments);
   }
   void MakeSolves() const {
     ASSERT_EQ(Run({"-q", "solve", "--model", "planar", "--slope", "10"}).code, 0);

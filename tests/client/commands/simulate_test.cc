@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <sstream>
@@ -22,7 +23,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Answers by the scene's name: "early" ends early, "refused" is INVALID_ARGUMENT, "endless" waits for the client to go,
+// Answers by the scene's name: "early" ends early, "refused" is INVALID_ARGUMENT, "late" DEADLINE_EXCEEDED, "endless" waits for the client to go,
 // "adrift" finds no gait; anything else is well.
 class FakeSimulator : public FakeGaitService {
  public:
@@ -34,6 +35,7 @@ class FakeSimulator : public FakeGaitService {
       last_ = *request;
     }
     if (name == "refused") return {grpc::StatusCode::INVALID_ARGUMENT, "the scene cannot be simulated"};
+    if (name == "late") return {grpc::StatusCode::DEADLINE_EXCEEDED, "the run took longer than max_wall_time_s"};
     if (request->validate_only()) return grpc::Status::OK;
     v1::SimulationMessage message;
     for (int i = 0; i < 3; ++i) {
@@ -89,15 +91,9 @@ class SimulateCommandTest : public testing::Test {
                         << "\"contacts\": [{\"name\": \"foot\"}], \"duration_s\": 0.2}";
     return path;
   }
-  struct Ended {
-    int code;
-    std::string out, err;
-  };
   Ended Run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"--server", server_.address()});
-    ClientProcess client(arguments);
-    const int code = client.Wait();
-    return {code, client.out(), client.err()};
+    return RunToEnd(arguments);
   }
 
   FakeSimulator service_;
@@ -140,16 +136,43 @@ TEST_F(SimulateCommandTest, JsonIsAMessageALine) {
   EXPECT_TRUE(messages[2].has_report());
 }
 
-TEST_F(SimulateCommandTest, OutputGoesToAFile) {
-  const std::string path = testing::TempDir() + "rollgait_simulate_test.csv";
+TEST_F(SimulateCommandTest, OutputIsADocumentBesideTheData) {
+  const std::string path = testing::TempDir() + "rollgait_simulate_test.json";
+  std::filesystem::remove(path);
   const Ended ended = Run({"simulate", "--scene", Scene("good"), "--output", path});
-  EXPECT_EQ(ended.code, 0);
-  EXPECT_EQ(ended.out, "");
-  std::ifstream file(path);
-  std::string header;
-  std::getline(file, header);
-  EXPECT_THAT(header, StartsWith("time_s,"));
-  EXPECT_EQ(Run({"simulate", "--scene", Scene("good"), "--output", "/nowhere/x.csv"}).code, 2);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, StartsWith("time_s,"));
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  v1::Simulation whole;
+  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &whole);
+  ASSERT_TRUE(status.ok()) << status.ToString();
+  EXPECT_EQ(whole.scene().name(), "good");
+  ASSERT_EQ(whole.samples_size(), 3);
+  EXPECT_EQ(whole.samples(2).positions(4), 0.1 / 3);
+  ASSERT_EQ(whole.events_size(), 1);
+  EXPECT_EQ(whole.events(0).contact(), "foot");
+  EXPECT_EQ(whole.report().end_time_s(), 0.2);
+}
+
+TEST_F(SimulateCommandTest, NoDocumentWithoutAWholeRun) {
+  const std::string path = testing::TempDir() + "rollgait_simulate_none.json";
+  std::filesystem::remove(path);
+  EXPECT_EQ(Run({"simulate", "--scene", Scene("refused"), "--output", path}).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_EQ(Run({"simulate", "--scene", Scene("good"), "--output", "/nowhere/x.json"}).code, 2);
+  const Ended table = Run({"simulate", "--scene", Scene("good"), "--output", "x.csv"});
+  EXPECT_EQ(table.code, 2);
+  EXPECT_THAT(table.err, HasSubstr("must end in .json"));
+}
+
+TEST_F(SimulateCommandTest, AdviceIsThatOfScenes) {
+  const Ended refused = Run({"simulate", "--scene", Scene("refused")});
+  EXPECT_THAT(refused.err, HasSubstr("SimulationScene"));
+  EXPECT_THAT(refused.err, testing::Not(HasSubstr("rollgait solve")));
+  const Ended late = Run({"simulate", "--scene", Scene("late")});
+  EXPECT_EQ(late.code, 3);
+  EXPECT_THAT(late.err, HasSubstr("--max-wall-time"));
 }
 
 TEST_F(SimulateCommandTest, ExitCodesTellWhatHappened) {

@@ -1,27 +1,18 @@
 #include "server/convert/scene_convert.h"
 
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <sstream>
+#include <string>
+#include <utility>
+
+#include "tests/server/shipped_scene.h"
 
 namespace rollgait::server {
 namespace {
-
-v1::SimulationScene ReadShipped(const std::string& name) {
-  std::ifstream file(std::string(ROLLGAIT_SCENES "/") + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  v1::SimulationScene scene;
-  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &scene);
-  EXPECT_TRUE(status.ok()) << name << ": " << status.ToString();
-  return scene;
-}
 
 TEST(ShippedScenes, AreValidAndRun) {
   int count = 0;
@@ -40,7 +31,7 @@ TEST(ShippedScenes, AreValidAndRun) {
     EXPECT_LT(report.value().max_energy_error, 1e-7) << name;
     EXPECT_FALSE(report.value().redundant) << name;
   }
-  EXPECT_GE(count, 10);
+  EXPECT_GE(count, 11);
 }
 
 TEST(ShippedScenes, WalkersHavePeriodicGaits) {
@@ -105,6 +96,14 @@ TEST(SceneConvert, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(FirstField([](auto& s) { s.add_ground()->set_name("g"), s.mutable_ground(0)->set_frequency_hz(-1); }),
             "ground[0].frequency_hz");
   EXPECT_EQ(FirstField([](auto& s) { s.set_duration_s(1e12); }), "duration_s");
+  for (const double friction : {-0.2, 0.0, nan}) {
+    EXPECT_EQ(FirstField([&](auto& s) { s.mutable_contacts(0)->set_friction(friction); }), "contacts[0].friction");
+  }
+  EXPECT_EQ(FirstField([](auto& s) {
+              s.mutable_contacts(0)->clear_friction();
+              s.mutable_contacts(0)->set_friction_loss(v1::SceneContact::FRICTION_LOSS_SLIDE);
+            }),
+            "contacts[0].friction_loss");
   EXPECT_EQ(FirstField([](auto& s) { s.clear_duration_s(); }), "duration_s");
   EXPECT_EQ(FirstField([](auto& s) { s.set_output_step_s(1e-9); }), "output_step_s");
   EXPECT_EQ(FirstField([](auto& s) { s.set_max_steps(-5); }), "max_steps");

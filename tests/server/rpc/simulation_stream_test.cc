@@ -1,26 +1,16 @@
 // Simulate and FindPeriodicGait over a server in this process and the real rollgait-simulate.
 
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <thread>
 
 #include "tests/server/rpc/rpc_bench.h"
+#include "tests/server/shipped_scene.h"
 
 namespace rollgait::server {
 namespace {
-
-v1::SimulationScene ReadShipped(const std::string& name) {
-  std::ifstream file(std::string(ROLLGAIT_SCENES "/") + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  v1::SimulationScene scene;
-  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(text.str(), &scene).ok()) << name;
-  return scene;
-}
 
 RpcOptions WithSimulator(int slots = 2, const std::string& program = ROLLGAIT_SIMULATE) {
   RpcOptions options;

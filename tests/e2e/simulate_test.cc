@@ -1,0 +1,72 @@
+// The whole way of a simulation: rollgaitd, rollgait-simulate, a shipped scene with a known answer.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/e2e/daemon.h"
+#include "tests/server/shipped_scene.h"
+#include "tests/server/store/temporary_directory.h"
+
+namespace rollgait::server {
+namespace {
+
+TEST(SimulateTest, ABowledBallBeginsToRollWhenItShould) {
+  const TemporaryDirectory directory;
+  Daemon::Options options;
+  options.data_dir = directory.path() + "/data";
+  const Daemon daemon(options);
+  ASSERT_NE(daemon.address(), "");
+  const auto stub = daemon.NewStub();
+  grpc::ClientContext context;
+  v1::SimulateRequest request;
+  *request.mutable_scene() = ReadShipped("ball_bowled.json");
+  const auto stream = stub->Simulate(&context, request);
+  std::vector<v1::SimulationEvent> events;
+  std::vector<v1::SimulationSample> samples;
+  v1::SimulationReport report;
+  v1::SimulationMessage message;
+  while (stream->Read(&message)) {
+    for (const v1::SimulationSample& sample : message.samples().samples()) samples.push_back(sample);
+    if (message.has_event()) events.push_back(message.event());
+    if (message.has_report()) report = message.report();
+  }
+  const grpc::Status status = stream->Finish();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(report.end(), v1::SimulationReport::END_DURATION);
+  EXPECT_LT(report.max_energy_error_j(), 1e-9);
+  ASSERT_EQ(samples.size(), 101u);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind(), v1::SimulationEvent::KIND_STUCK);
+  EXPECT_EQ(events[0].contact(), "contact");
+  // 2 v / (7 μ g), then 5/7 of the speed.
+  const double begin = 2 * 3.5 / (7 * 0.2 * 9.81);
+  EXPECT_NEAR(events[0].time_s(), begin, 1e-9);
+  EXPECT_TRUE(samples[50].contacts(0).sliding());
+  EXPECT_FALSE(samples[51].contacts(0).sliding());
+  const double x = 0.5 * (3.5 + 2.5) * begin + 2.5 * (1 - begin);
+  EXPECT_NEAR(samples.back().positions(4), x, 1e-9);
+}
+
+TEST(SimulateTest, ARefusalNamesTheField) {
+  const TemporaryDirectory directory;
+  Daemon::Options options;
+  options.data_dir = directory.path() + "/data";
+  const Daemon daemon(options);
+  ASSERT_NE(daemon.address(), "");
+  const auto stub = daemon.NewStub();
+  grpc::ClientContext context;
+  v1::SimulateRequest request;
+  *request.mutable_scene() = ReadShipped("ball_bowled.json");
+  request.mutable_scene()->mutable_contacts(0)->set_friction(-0.2);
+  const auto stream = stub->Simulate(&context, request);
+  v1::SimulationMessage message;
+  EXPECT_FALSE(stream->Read(&message));
+  const grpc::Status status = stream->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_NE(status.error_details().find("contacts[0].friction"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rollgait::server
