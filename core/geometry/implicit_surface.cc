@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "core/base/check.h"
+#include "core/geometry/jet_values.h"
 
 namespace rollgait {
 namespace {
@@ -213,17 +214,10 @@ ImplicitSurface::Contact ImplicitSurface::Solve(const Vector3& nu) const {
 
 Vector3 ImplicitSurface::SupportPoint(const Vector3& nu) const { return Solve(nu / nu.norm()).x; }
 
-Matrix3 ImplicitSurface::SupportHessian(const Vector3& nu) const {
-  SupportJet jet;
-  Evaluate(nu, 2, &jet);
-  return jet.S;
-}
+Matrix3 ImplicitSurface::SupportHessian(const Vector3& nu) const { return HessianByJet(*this, nu); }
 
 Vector3 ImplicitSurface::RollingVelocity(const Vector3& nu, const Vector3& omega) const {
-  SupportJet jet;
-  Evaluate(nu, 2, &jet);
-  if (jet.order < 2) return Vector3::Constant(kInfinity);
-  return jet.S * nu.cross(omega);
+  return RollingVelocityByJet(*this, nu, omega);
 }
 
 void ImplicitSurface::Evaluate(const Vector3& nu, int order, SupportJet* jet) const {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/check.h"
+#include "core/geometry/jet_values.h"
 #include "core/geometry/nested_chain.h"
 
 namespace rollgait {
@@ -143,17 +144,10 @@ Vector3 Superellipsoid::SupportPoint(const Vector3& nu) const {
   return jet.x;
 }
 
-Matrix3 Superellipsoid::SupportHessian(const Vector3& nu) const {
-  SupportJet jet;
-  Evaluate(nu, 2, &jet);
-  return jet.S;
-}
+Matrix3 Superellipsoid::SupportHessian(const Vector3& nu) const { return HessianByJet(*this, nu); }
 
 Vector3 Superellipsoid::RollingVelocity(const Vector3& nu, const Vector3& omega) const {
-  SupportJet jet;
-  Evaluate(nu, 2, &jet);
-  if (jet.order < 2) return Vector3::Constant(kInfinity);
-  return jet.S * nu.cross(omega);
+  return RollingVelocityByJet(*this, nu, omega);
 }
 
 int Superellipsoid::Smoothness(const Vector3& nu) const {

@@ -16,6 +16,7 @@ TEST(SimulateTest, ABowledBallBeginsToRollWhenItShould) {
   const TemporaryDirectory directory;
   Daemon::Options options;
   options.data_dir = directory.path() + "/data";
+  options.solver = SLOW_SOLVER;  // the server wants one at its start; no solve is asked for
   const Daemon daemon(options);
   ASSERT_NE(daemon.address(), "");
   const auto stub = daemon.NewStub();
@@ -53,6 +54,7 @@ TEST(SimulateTest, ARefusalNamesTheField) {
   const TemporaryDirectory directory;
   Daemon::Options options;
   options.data_dir = directory.path() + "/data";
+  options.solver = SLOW_SOLVER;  // the server wants one at its start; no solve is asked for
   const Daemon daemon(options);
   ASSERT_NE(daemon.address(), "");
   const auto stub = daemon.NewStub();
