@@ -1,5 +1,6 @@
-// Where double precision ends in contact dynamics: errors of forces and accelerations and the condition number that explains
-// them, as CSV: plot,series,x,y (docs/plot_limits.py). References: the same equations in long double, or closed forms.
+// Where double precision ends in contact dynamics: errors of forces and accelerations and the condition number that
+// explains them, as CSV: plot,series,x,y (docs/plot_limits.py). References: the same equations in long double, or
+// closed forms.
 //   dynamics_limits > dynamics.csv
 
 #include <algorithm>
@@ -97,7 +98,9 @@ void Bodies(SeededRandom* random) {
   for (int e = -3; e <= 6; ++e) PrintErrors("body_mass", std::pow(10, e), worst(std::pow(10, e), 2, 5, 9.81));
   for (int e = -1; e <= 6; ++e) PrintErrors("body_speed", std::pow(10, e), worst(1, 2, std::pow(10, e), 9.81));
   for (int e = -1; e <= 6; ++e) PrintErrors("body_weightless", std::pow(10, e), worst(1, 2, std::pow(10, e), 0));
-  for (double e = 0; e <= 3.01; e += 0.5) PrintErrors("body_ratio", std::pow(10, e), worst(1, std::pow(10, e), 5, 9.81));
+  for (double e = 0; e <= 3.01; e += 0.5) {
+    PrintErrors("body_ratio", std::pow(10, e), worst(1, std::pow(10, e), 5, 9.81));
+  }
 }
 
 // Two links that slide along one line, the second on the first:  a_1 = (τ_1 − τ_2)/m_1,  a_2 = τ_2/m_2 − a_1.
@@ -118,7 +121,8 @@ void MassRatio() {
     const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(dynamics.MassMatrix());
     Print("mass_ratio", "acceleration of the first link", m_2, std::abs(found[0] - a_1) / std::abs(a_1));
     Print("mass_ratio", "acceleration of the second link", m_2, std::abs(found[1] - a_2) / std::abs(a_2));
-    Print("mass_ratio", "condition number times epsilon", m_2, eigen.eigenvalues()[1] / eigen.eigenvalues()[0] * 2.2e-16L);
+    const double condition = eigen.eigenvalues()[1] / eigen.eigenvalues()[0];
+    Print("mass_ratio", "condition number times epsilon", m_2, condition * 2.2e-16L);
   }
 }
 

@@ -36,11 +36,11 @@ std::string Details(const grpc::Status& status) {
 
 std::string SceneAdvice(grpc::StatusCode code) {
   if (code == grpc::StatusCode::INVALID_ARGUMENT) {
-    return "Correct the fields of the scene named above; rollgait.v1.SimulationScene (proto/rollgait/v1/simulation.proto) "
-           "gives every unit and range. --validate-only checks a scene without simulating it.";
+    return "Correct the fields of the scene named above; rollgait.v1.SimulationScene "
+           "(proto/rollgait/v1/simulation.proto) gives every unit and range. --validate-only checks a scene without simulating it.";
   }
-  return "The run takes longer than it may: raise --max-wall-time (at most 600 s), or ask for less: a shorter --duration, "
-         "a looser --tolerance. What came before is valid.";
+  return "The run takes longer than it may: raise --max-wall-time (at most 600 s), or ask for less: a shorter "
+         "--duration, a looser --tolerance. What came before is valid.";
 }
 
 std::string Advice(grpc::StatusCode code, const std::string& server, CallKind kind) {

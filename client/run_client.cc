@@ -137,7 +137,8 @@ void AddSceneCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const simulate = app.add_subcommand("simulate", "Forward contact dynamics of a scene: samples, events, report");
   AddSceneFlags(*simulate, arguments.simulate.scene, arguments.simulate.max_wall_time_s);
   simulate->add_option("--output-step", arguments.simulate.scene.output_step_s, "Overrides the time between samples, s");
-  simulate->add_option("-o,--output", arguments.simulate.output, "Also write the whole run to FILE.json: scene, samples, events, report");
+  simulate->add_option("-o,--output", arguments.simulate.output,
+                       "Also write the whole run to FILE.json: scene, samples, events, report");
   simulate->add_flag("--validate-only", arguments.simulate.validate_only, "Let the server check the scene; simulate nothing");
   simulate->footer("Samples are comma separated values (with --json: one message a line); events and the report go to\n"
                    "standard error. Example: rollgait simulate --scene scenes/rattleback.json > rattleback.csv");

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/numerical_limits.md from the CSV of bench/numerical_limits, dynamics_limits and long_rolling.
+"""Draws the pictures of docs/numerical_limits.md from what bench/numerical_limits, dynamics_limits and
+long_rolling print.
 
     numerical_limits > limits.csv && python3 docs/plot_limits.py limits.csv docs/images
 
@@ -19,8 +20,8 @@ PLOTS = {
     "exponent": ("Superellipsoid: relative error against exponent", "exponent", False),
 }
 PLOTS.update({
-    "body_ratio": ("Rolling ellipsoid: error of force and acceleration against shape", "largest / smallest semi-axis", True),
-    "body_speed": ("Rolling ellipsoid: the same against angular speed", "angular speed (rad/s)", True),
+    "body_ratio": ("Rolling ellipsoid: error against shape", "largest / smallest semi-axis", True),
+    "body_speed": ("Rolling ellipsoid: error against angular speed", "angular speed (rad/s)", True),
     "mass_ratio": ("Two links: error against mass of the second over the first", "mass ratio", True),
     "feet_in_line": ("Three feet, one off the line of the others", "distance from the line (m)", True),
     "long_energy": ("Long runs, tolerance 1e-12: energy drift (relative)", "revolutions", True),

@@ -77,8 +77,8 @@ struct SimulateOptions {
   bool validate_only = false;
   std::optional<double> max_wall_time_s;
 };
-// On terminal.out samples as comma separated values, or messages as JSON lines; events and the report on terminal.err. kNoSolution if the
-// simulation ended early. Ctrl-C ends it.
+// On terminal.out samples as comma separated values, or messages as JSON lines; events and the report on terminal.err.
+// kNoSolution if the simulation ended early. Ctrl-C ends it.
 ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct PoincareOptions {

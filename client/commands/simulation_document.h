@@ -8,8 +8,8 @@
 
 namespace rollgait::client {
 
-// A rollgait.v1.Simulation as proto3 JSON, written sample by sample, so that a run of any length fits. The file appears under
-// its name when it is whole; a run that is broken off leaves none.
+// A rollgait.v1.Simulation as proto3 JSON, written sample by sample, so that a run of any length fits. The file appears
+// under its name when it is whole; a run that is broken off leaves none.
 class SimulationDocument {
  public:
   // Begins the document. Throws Failure(kUsage) if the name does not end in .json or the place cannot be written.

@@ -12,8 +12,8 @@ namespace {
 
 // Columns of A are scaled to unit norm, so a remainder this small is what rounding leaves of a dependent column.
 constexpr double kRankTolerance = 1e-10;
-// Forces of dependent rows that cancel up to this share of their size move the tree alike: bodies that slide side by side turn
-// a little in trial steps. Forces that really differ are of order 1.
+// Forces of dependent rows that cancel up to this share of their size move the tree alike: bodies that slide side by
+// side turn a little in trial steps. Forces that really differ are of order 1.
 constexpr double kSameMotion = 1e-3;
 
 }  // namespace

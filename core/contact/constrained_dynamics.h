@@ -41,9 +41,10 @@ class ConstrainedSolver {
   // Contract: `mass` is symmetric positive definite, J has as many columns. J may have no rows.
   void Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const VectorX& right_side,
              ConstrainedSolution* solution);
-  // The same with forces that act along other directions than the rows they hold:  M a − Fᵀ λ = f,  J a = r,  as friction
-  // that is proportional to a normal force does. Undetermined if a row cannot be held by its own force (Painlevé: pressing
-  // harder accelerates the contact into the ground), or if dependent rows have forces that move the tree differently.
+  // The same with forces that act along other directions than the rows they hold:  M a − Fᵀ λ = f,  J a = r,  as
+  // friction that is proportional to a normal force does. Undetermined if a row cannot be held by its own force
+  // (Painlevé: pressing harder accelerates the contact into the ground), or if dependent rows have forces that move the
+  // tree differently.
   void SolveSliding(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const MatrixX& force_jacobian,
                     const VectorX& right_side, ConstrainedSolution* solution);
   // Of the last Solve.

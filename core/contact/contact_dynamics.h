@@ -13,13 +13,13 @@
 
 namespace rollgait {
 
-// Dynamics of any tree with any set of active contacts, each with the ground (fixed, or with a prescribed motion) or with
-// another link of the tree. An active contact holds its gap (φ̈ = 0), in its tangent directions the slip (t·ẇ = 0), with
-// no_spin the relative spin about the normal, each with the Baumgarte terms that are given. Forces may have any sign and
-// size: who uses them checks the normal force and friction. Source: contact-math 4, 5, 7; eqs (3.5) to (3.10).
-// A contact that slides (SetSliding) holds its gap only; its friction follows its normal force.
-// Rows of a contact: kRolling: world x, y, z; kRollingAlong: tangent, normal; kFrictionless: normal; then spin. Sliding: normal.
-// Not thread-safe: one object a thread.
+// Dynamics of any tree with any set of active contacts, each with the ground (fixed, or with a prescribed motion) or
+// with another link of the tree. An active contact holds its gap (φ̈ = 0), in its tangent directions the slip (t·ẇ =
+// 0), with no_spin the relative spin about the normal, each with the Baumgarte terms that are given. Forces may have
+// any sign and size: who uses them checks the normal force and friction. Source: contact-math 4, 5, 7; eqs (3.5) to
+// (3.10). A contact that slides (SetSliding) holds its gap only; its friction follows its normal force.
+// Rows of a contact: kRolling: world x, y, z; kRollingAlong: tangent, normal; kFrictionless: normal; then spin.
+// Sliding: normal. Not thread-safe: one object a thread.
 class ContactDynamics {
  public:
   // Contract: links exist; ground indices are below the number of frames passed to SetState.
@@ -32,7 +32,8 @@ class ContactDynamics {
   // Contact k slides from now on, or (nullopt) holds its slip again. Contract of sliding: a grip, no `no_spin`.
   void SetSliding(int k, const std::optional<Sliding>& sliding);
   const std::optional<Sliding>& sliding(int k) const { return sliding_[static_cast<size_t>(k)]; }
-  // Unit direction of slip that friction acts against (world), and the slip along the reference, m/s. Contract: k slides.
+  // Unit direction of slip that friction acts against (world), and the slip along the reference, m/s. Contract: k
+  // slides.
   Vector3 SlidingDirection(int k);
   double SlipAlongReference(int k);
 
@@ -54,8 +55,8 @@ class ContactDynamics {
   // M at the state.
   const MatrixX& MassMatrix();
 
-  // Accelerations and forces with these contacts active (ascending), generalized forces tau (nv) and gravity (m/s², world).
-  // Not finite where the surface of an active contact is flat. Valid until the next call.
+  // Accelerations and forces with these contacts active (ascending), generalized forces tau (nv) and gravity (m/s²,
+  // world). Not finite where the surface of an active contact is flat. Valid until the next call.
   const ConstrainedSolution& Accelerate(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                         const Baumgarte& baumgarte);
   const ConstrainedSolution& solution() const { return solution_; }

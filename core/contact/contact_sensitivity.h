@@ -32,8 +32,8 @@ class ContactSensitivitySolver {
   // `dynamics`, of the same model, must outlive the solver.
   ContactSensitivitySolver(const Model& model, ContactDynamics* dynamics);
 
-  // At the state that ContactDynamics::SetState was given last, with no contact that slides; the arguments are those of Accelerate, which this
-  // calls. Valid until the next call.
+  // At the state that ContactDynamics::SetState was given last, with no contact that slides; the arguments are those of
+  // Accelerate, which this calls. Valid until the next call.
   const ContactSensitivity& Solve(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                   const Baumgarte& baumgarte);
 

@@ -18,16 +18,16 @@ struct Impact {
   std::vector<double> gap_rates;       // m/s, n·w⁺ of every contact (only of `held` and `released`)
   double energy_loss = 0;              // J, kinetic energy before − after (in the world's axes)
   bool redundant = false;              // rows of the held contacts depend on each other: impulses are not unique
-  // False if no set of held contacts is free of pulling impulses and of released contacts that move into each other. Then
-  // `held` is what had to be held (the newly touching and the bilateral ones).
+  // False if no set of held contacts is free of pulling impulses and of released contacts that move into each other.
+  // Then `held` is what had to be held (the newly touching and the bilateral ones).
   bool consistent = true;
 };
 
 // Plastic impact without slip,  M (v⁺ − v⁻) = Jᵀ Λ,  J v⁺ = 0 relative to the ground, at the state of `dynamics`
-// (contact-math 7). `touching` lists the contacts with no gap (ascending, at most 16), `must_hold` those of them that close
-// now or cannot open. Of the others the fewest are held such that every held contact pushes, n·Λ ≥ 0, and every released one
-// separates, n·w⁺ ≥ 0. A contact that slides (ContactDynamics::SetSliding) keeps its slip but for a friction impulse of μ times
-// the normal one against it; velocities are not finite where that is undetermined.
+// (contact-math 7). `touching` lists the contacts with no gap (ascending, at most 16), `must_hold` those of them that
+// close now or cannot open. Of the others the fewest are held such that every held contact pushes, n·Λ ≥ 0, and every
+// released one separates, n·w⁺ ≥ 0. A contact that slides (ContactDynamics::SetSliding) keeps its slip but for a
+// friction impulse of μ times the normal one against it; velocities are not finite where that is undetermined.
 Impact ResolveImpact(const std::vector<int>& touching, const std::vector<int>& must_hold, ContactDynamics* dynamics);
 
 }  // namespace rollgait

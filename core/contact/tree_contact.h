@@ -15,8 +15,8 @@ enum class Grip {
   kFrictionless,  // none
 };
 
-// A possible contact of a tree: a surface on one of its links (body 1) with a plane or surface of body 2, which is another
-// link or the ground.
+// A possible contact of a tree: a surface on one of its links (body 1) with a plane or surface of body 2, which is
+// another link or the ground.
 struct TreeContact {
   std::string name;
   int link = 0;             // of body 1
@@ -32,10 +32,10 @@ struct TreeContact {
 // An active contact that slides: it holds its gap, and friction is `friction` times the normal force against the slip.
 struct Sliding {
   double friction = 0;
-  // Unit tangent, world: the direction of slip a moment ago. Friction acts against  ± w + kSlidingBlend · reference  (w the
-  // slip, with the sign that turns it towards the reference), so that it has a limit where slip begins or ends, and goes on
-  // smoothly through zero, where an event is to be found. Along a straight line that is Coulomb's law exactly; elsewhere the
-  // direction is off by kSlidingBlend / |w| times the turn since the reference.
+  // Unit tangent, world: the direction of slip a moment ago. Friction acts against  ± w + kSlidingBlend · reference  (w
+  // the slip, with the sign that turns it towards the reference), so that it has a limit where slip begins or ends, and
+  // goes on smoothly through zero, where an event is to be found. Along a straight line that is Coulomb's law exactly;
+  // elsewhere the direction is off by kSlidingBlend / |w| times the turn since the reference.
   Vector3 reference = Vector3::UnitX();
 };
 inline constexpr double kSlidingBlend = 1e-6;  // m/s

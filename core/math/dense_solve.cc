@@ -14,9 +14,11 @@ Decomposition Decompose(const MatrixX& a, double threshold) {
   return decomposition;
 }
 
-// A P = Q [T 0; 0 0] Z: the columns of P Zᵀ are the row space, then the null space. With full column rank there is no Z.
+// A P = Q [T 0; 0 0] Z: the columns of P Zᵀ are the row space, then the null space. With full column rank there is no
+// Z.
 MatrixX Bases(const Decomposition& decomposition) {
-  if (decomposition.rank() == decomposition.cols()) return MatrixX::Identity(decomposition.cols(), decomposition.cols());
+  const Eigen::Index n = decomposition.cols();
+  if (decomposition.rank() == n) return MatrixX::Identity(n, n);
   return decomposition.colsPermutation() * decomposition.matrixZ().transpose();
 }
 

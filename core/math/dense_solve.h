@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// Dense decompositions of small matrices whose templates are slow to compile, each in one place. Not for inner loops: they
-// allocate. `threshold`, relative to the largest pivot, is where a matrix counts as rank deficient.
+// Dense decompositions of small matrices whose templates are slow to compile, each in one place. Not for inner loops:
+// they allocate. `threshold`, relative to the largest pivot, is where a matrix counts as rank deficient.
 
 struct LeastNormSolution {
   VectorX x;           // of all minimisers of |A x − b| the shortest

@@ -197,7 +197,8 @@ std::vector<int> EventLocator::MarkFriction(double t, const VectorX& x) {
   std::vector<int> lost;
   for (size_t k = 0; k < scene_.contacts.size(); ++k) {
     const int contact = static_cast<int>(k);
-    const bool watched = dynamics_.IsActive(contact) && !dynamics_.IsSliding(contact) && scene_.contacts[k].friction != kInfinity;
+    const bool watched =
+        dynamics_.IsActive(contact) && !dynamics_.IsSliding(contact) && scene_.contacts[k].friction != kInfinity;
     const bool beyond = watched && Value({SimulationEventKind::kFrictionLoss, contact}) < 0;
     if (beyond && beyond_friction_[k] == 0) lost.push_back(contact);
     beyond_friction_[k] = beyond ? 1 : 0;

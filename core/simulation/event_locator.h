@@ -18,17 +18,19 @@ struct Crossing {
   VectorX state;
 };
 
-// Watches, over each step of the integrator: gaps of inactive contacts that can touch down (falling through zero with open
-// gates), normal forces of active unilateral contacts (falling through zero), friction margins  μ n·F − |tangential force|
-// of active contacts with a coefficient (both ways), the slip of sliding contacts along its direction at the start of the
-// step (falling through zero: there it ends). Quantities are sampled at quarters of the step on the continuous
-// extension (gaps also at their minimum between samples); a change of sign is located there, then with single steps of the
-// integrator from the start of the step until the time no longer changes: to rounding of the quantity over its slope.
+// Watches, over each step of the integrator: gaps of inactive contacts that can touch down (falling through zero with
+// open gates), normal forces of active unilateral contacts (falling through zero), friction margins  μ n·F −
+// |tangential force| of active contacts with a coefficient (both ways), the slip of sliding contacts along its
+// direction at the start of the step (falling through zero: there it ends). Quantities are sampled at quarters of the
+// step on the continuous extension (gaps also at their minimum between samples); a change of sign is located there,
+// then with single steps of the integrator from the start of the step until the time no longer changes: to rounding of
+// the quantity over its slope.
 class EventLocator {
  public:
   EventLocator(const SimulationScene& scene, SceneDynamics* dynamics);
 
-  // The earliest event within the step from (t, x) that `integrator` has just made; after it nothing is watched further.
+  // The earliest event within the step from (t, x) that `integrator` has just made; after it nothing is watched
+  // further.
   std::optional<Crossing> FirstInStep(const Dop853::RightSide& right_side, const VectorX& x, Dop853* integrator);
 
   // Marks contacts whose friction margin is negative at (t, x) now. Returns those not marked before.

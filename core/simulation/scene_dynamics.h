@@ -10,9 +10,9 @@
 
 namespace rollgait {
 
-// The equations of motion of a scene as ẋ = f(t, x) for a set of active contacts. x = [q (nq); v (nv); W]: W is the work done
-// on the mechanism by everything that is not gravity or a spring, J (dampers, constant efforts, contacts with moving
-// ground), so that energy − W is constant between impacts. Not thread-safe.
+// The equations of motion of a scene as ẋ = f(t, x) for a set of active contacts. x = [q (nq); v (nv); W]: W is the
+// work done on the mechanism by everything that is not gravity or a spring, J (dampers, constant efforts, contacts with
+// moving ground), so that energy − W is constant between impacts. Not thread-safe.
 class SceneDynamics {
  public:
   // The last entries of x on which ẋ does not depend: W.
@@ -29,7 +29,8 @@ class SceneDynamics {
   const std::vector<int>& active() const { return active_; }
   bool IsActive(int k) const;
 
-  // The slip of contact k relative to the other body in its tangent directions (of kRollingAlong: along it), world, m/s.
+  // The slip of contact k relative to the other body in its tangent directions (of kRollingAlong: along it), world,
+  // m/s.
   Vector3 TangentialSlip(int k);
   // The tangential part of its last force, N.
   Vector3 TangentialForce(int k);
@@ -58,8 +59,8 @@ class SceneDynamics {
   double SpringEnergy() const;
   int evaluations() const { return evaluations_; }
 
-  // Moves q and v onto the constraints of the active contacts by the change of least kinetic energy; quaternions to unit
-  // norm. Returns the largest gap, slip found before.
+  // Moves q and v onto the constraints of the active contacts by the change of least kinetic energy; quaternions to
+  // unit norm. Returns the largest gap, slip found before.
   struct Drift {
     double gap = 0, slip = 0, quaternion = 0;
   };

@@ -197,8 +197,8 @@ class SimulationRun {
     return false;
   }
 
-  // The slip of a contact passed through zero: it is held, unless that takes more friction than there is; and with it those
-  // whose slip ends at the same instant.
+  // The slip of a contact passed through zero: it is held, unless that takes more friction than there is; and with it
+  // those whose slip ends at the same instant.
   bool EndSlip(int contact) {
     std::vector<int> ended = {contact};
     for (size_t i = 0; i < ended.size(); ++i) {

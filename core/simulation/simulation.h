@@ -35,7 +35,7 @@ struct SimulationSample {
 enum class SimulationEventKind {
   kTouchDown,     // a gap closed: plastic impact
   kLiftOff,       // a normal force fell to zero: the contact became inactive
-  kFrictionLoss,  // the friction that rolling needs passed the coefficient; with FrictionLoss::kSlide the contact slides now
+  kFrictionLoss,  // the friction that rolling needs passed the coefficient; FrictionLoss::kSlide: the contact slides now
   kFrictionRegained,
   kStick,         // a sliding contact came to rest in its tangent directions and rolls again
 };

@@ -23,8 +23,8 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Answers by the scene's name: "early" ends early, "refused" is INVALID_ARGUMENT, "late" DEADLINE_EXCEEDED, "endless" waits for the client to go,
-// "adrift" finds no gait; anything else is well.
+// Answers by the scene's name: "early" ends early, "refused" is INVALID_ARGUMENT, "late" DEADLINE_EXCEEDED, "endless"
+// waits for the client to go, "adrift" finds no gait; anything else is well.
 class FakeSimulator : public FakeGaitService {
  public:
   grpc::Status Simulate(grpc::ServerContext* context, const v1::SimulateRequest* request,

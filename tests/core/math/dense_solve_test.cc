@@ -22,7 +22,8 @@ MatrixX RandomMatrix(SeededRandom* random, int rows, int columns) {
 // Shapes and ranks: the defining properties, no second factorisation.
 TEST(DenseSolve, LeastNormSolutionsAreMinimisersWithoutNullPart) {
   SeededRandom random(3);
-  for (const auto& [rows, columns, rank] : {std::array{5, 5, 5}, {4, 7, 4}, {7, 4, 4}, {6, 6, 3}, {8, 5, 2}, {3, 6, 2}}) {
+  const std::array<int, 3> cases[] = {{5, 5, 5}, {4, 7, 4}, {7, 4, 4}, {6, 6, 3}, {8, 5, 2}, {3, 6, 2}};
+  for (const auto& [rows, columns, rank] : cases) {
     const MatrixX a = RandomMatrix(&random, rows, rank) * RandomMatrix(&random, rank, columns);
     const VectorX b = random.VectorOf(rows, -1, 1);
     const LeastNormSolution solution = SolveLeastNorm(a, b, 1e-10);

@@ -1,4 +1,5 @@
-// Coulomb sliding, its end and its beginning, against closed forms and against an integration of the particle equations.
+// Coulomb sliding, its end and its beginning, against closed forms and against an integration of the particle
+// equations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -162,8 +163,9 @@ TEST(Sliding, BoxOnFourFeetStops) {
   EXPECT_TRUE(outcome.report.redundant);
 }
 
-// A block on a plane that is shaken along: it sticks where the plane's acceleration is below μ g and slides where not. Along
-// one line the motion is a sequence of parabolas relative to the world; here it is stepped through in closed form.
+// A block on a plane that is shaken along: it sticks where the plane's acceleration is below μ g and slides where not.
+// Along one line the motion is a sequence of parabolas relative to the world; here it is stepped through in closed
+// form.
 TEST(Sliding, BlockOnAShakenPlaneSticksAndSlips) {
   std::vector<Joint> joints(2);
   joints[0].name = "x", joints[0].type = JointType::kPrismatic, joints[0].axis = Vector3::UnitX();
@@ -201,7 +203,8 @@ TEST(Sliding, BlockOnAShakenPlaneSticksAndSlips) {
   }
 }
 
-// A rod that leans forward, pushed along: with enough friction pressing harder accelerates its tip into the ground (Painlevé).
+// A rod that leans forward, pushed along: with enough friction pressing harder accelerates its tip into the ground
+// (Painlevé).
 TEST(Sliding, JammingIsRefused) {
   Joint joint;
   joint.name = "rod", joint.type = JointType::kFree, joint.mass = 1;
