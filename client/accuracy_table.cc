@@ -35,6 +35,17 @@ std::string Where(const std::string& joint, double time_s) {
   return joint.empty() ? "" : joint + " at " + FormatNumber(time_s, 3) + " s";
 }
 
+// How well the two ends fit: those of a cycle to each other, those of a manoeuvre to what was asked for.
+AccuracyLine EndLine(const v1::Solve& solve) {
+  const v1::AccuracyReport& report = solve.result().accuracy();
+  if (solve.spec().has_manoeuvre()) {
+    return {"end error", report.end_error(), "m, rad or rad/s", "",
+            "Difference between the states that the manoeuvre prescribes at its ends and those of the motion.", {}};
+  }
+  return {"periodicity error", report.periodicity_error(), "rad, m, rad/s or m/s", "",
+          "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle).", {}};
+}
+
 }  // namespace
 
 std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
@@ -78,12 +89,7 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        "Height of the swing foot over the ground. It is zero at lift-off and touch-down; negative: the foot is in the "
        "ground.",
        {}},
-      {"periodicity error",
-       report.periodicity_error(),
-       "rad, m, rad/s or m/s",
-       "",
-       "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle).",
-       {}},
+      EndLine(solve),
       {"energy balance error",
        report.energy_balance_error_j(),
        "J",

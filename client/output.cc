@@ -129,8 +129,9 @@ std::string ToSto(const v1::Solve& solve) {
 
   std::string text = (solve.name().empty() ? "rollgait" : solve.name()) +
                      "\nversion=1\nnRows=" + std::to_string(stride.samples.size()) +
-                     "\nnColumns=" + std::to_string(columns) + "\ninDegrees=no\n" +
-                     "Rollgait: one gait cycle from heel strike of the right foot. SI units: rad, m, rad/s (_u), N m "
+                     "\nnColumns=" + std::to_string(columns) + "\ninDegrees=no\nRollgait: " +
+                     (solve.spec().has_manoeuvre() ? "a manoeuvre" : "one gait cycle from heel strike of the right foot") +
+                     ". SI units: rad, m, rad/s (_u), N m "
                      "(_effort), N. Axes fixed to the ground: x along it in the direction of walking, y left, z its "
                      "normal; slope " +
                      FormatNumber(solve.spec().slope_rad() * 180 / kPi) + " deg.\nendheader\n" + labels + "\n";

@@ -1,7 +1,9 @@
 #include "client/spec_flags.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <map>
+#include <sstream>
 
 #include "client/failure.h"
 #include "client/json.h"
@@ -91,10 +93,59 @@ std::pair<std::string, double> ParseAssignment(const std::string& flag, const st
   throw Failure(ExitCode::kUsage, flag + " " + text + ": must be NAME=NUMBER");
 }
 
+// "1,-2.5": numbers separated by commas, as many as one of `counts`.
+std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,
+                                 const std::vector<size_t>& counts) {
+  std::vector<double> numbers;
+  bool good = true;
+  std::istringstream parts(text);
+  for (std::string part; good && std::getline(parts, part, ',');) {
+    try {
+      size_t used = 0;
+      numbers.push_back(std::stod(part, &used));
+      good = used == part.size();
+    } catch (const std::logic_error&) {
+      good = false;
+    }
+  }
+  for (const size_t count : counts) {
+    if (good && numbers.size() == count && text.back() != ',') return numbers;
+  }
+  throw Failure(ExitCode::kUsage, flag + " " + text + ": must be " + form);
+}
+
+void SetVector(const std::vector<double>& numbers, size_t first, v1::Vector3& vector) {
+  vector.set_x(numbers[first]);
+  vector.set_y(numbers[first + 1]);
+  vector.set_z(numbers[first + 2]);
+}
+
+// "X,Y" or "X,Y,A,B,C": the place, and the rotation vector (A, B, C) in degrees.
+void ApplyState(const std::string& flag, const std::string& text, v1::Manoeuvre::State& state) {
+  const std::vector<double> numbers = ParseNumbers(
+      flag, text, "X,Y in m, or X,Y,A,B,C with the orientation as a rotation vector in degrees", {2, 5});
+  state.set_x_m(numbers[0]);
+  state.set_y_m(numbers[1]);
+  if (numbers.size() == 2) return;
+  const double degrees = std::hypot(numbers[2], numbers[3], numbers[4]), half = degrees * kPi / 360;
+  const double scale = degrees > 0 ? std::sin(half) / degrees : 0;
+  v1::Quaternion& q = *state.mutable_orientation();
+  q.set_w(std::cos(half));
+  q.set_x(scale * numbers[2]);
+  q.set_y(scale * numbers[3]);
+  q.set_z(scale * numbers[4]);
+}
+
+void ApplyManoeuvre(const SpecFlags& flags, v1::SolveSpec& spec) {
+  if (flags.from) ApplyState("--from", *flags.from, *spec.mutable_manoeuvre()->mutable_start());
+  if (flags.to) ApplyState("--to", *flags.to, *spec.mutable_manoeuvre()->mutable_end());
+  if (flags.duration_s) spec.mutable_manoeuvre()->set_duration_s(*flags.duration_s);
+}
+
 bool HasBodyFlags(const SpecFlags& flags) {
   return flags.model || flags.sex || flags.stature_m || flags.mass_kg || flags.feet || flags.ranges || flags.toes ||
          flags.sagittal ||
-         flags.drop_arms || flags.rigid_trunk || !flags.locks.empty() || !flags.segments.empty();
+         flags.drop_arms || flags.rigid_trunk || flags.semi_axes || !flags.locks.empty() || !flags.segments.empty();
 }
 
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
@@ -144,7 +195,8 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
 void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
   command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
-  command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]")->group("Body");
+  command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
+  command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")->group("Body");
   command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
       ->group("Body")
       ->take_all();
@@ -175,6 +227,9 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
   add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
   add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");
+  add("--from", flags.from, "Manoeuvre", "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
+  add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
+  add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
   add("--cost", flags.costs, "Cost", "torque, torque-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
@@ -196,7 +251,12 @@ void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
         "--sex", *flags.sex, {{"female", v1::ModelSelection::SEX_FEMALE}, {"male", v1::ModelSelection::SEX_MALE}}));
   }
   if (flags.stature_m) selection.set_stature_m(*flags.stature_m);
-  if (flags.mass_kg) selection.set_body_mass_kg(*flags.mass_kg);
+  if (flags.mass_kg && selection.name() == "ball") selection.mutable_rolling_body()->set_mass_kg(*flags.mass_kg);
+  if (flags.mass_kg && selection.name() != "ball") selection.set_body_mass_kg(*flags.mass_kg);
+  if (flags.semi_axes) {
+    SetVector(ParseNumbers("--semi-axes", *flags.semi_axes, "A,B,C in m", {3}), 0,
+              *selection.mutable_rolling_body()->mutable_semi_axes_m());
+  }
   for (const std::string& text : flags.segments) {
     const auto [segment, length] = ParseAssignment("--segment", text);
     (*selection.mutable_segment_lengths_m())[segment] = length;
@@ -227,6 +287,7 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   if (HasBodyFlags(flags)) ApplyBodyFlags(flags, *spec.mutable_model());
   if (flags.slope_deg) spec.set_slope_rad(*flags.slope_deg * kPi / 180.0);
   ApplyMotion(flags, spec);
+  ApplyManoeuvre(flags, spec);
   if (flags.cycle) {
     spec.set_cycle(Lookup<v1::Cycle>("--cycle", *flags.cycle, {{"half", v1::CYCLE_HALF}, {"full", v1::CYCLE_FULL}}));
   }

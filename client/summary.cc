@@ -1,10 +1,13 @@
 #include "client/summary.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "client/normative_table.h"
+#include "client/report/rolling_path.h"
 #include "client/terminal.h"
 #include "client/text.h"
 
@@ -29,6 +32,30 @@ Rows GaitRows(const v1::Solve& solve) {
                     "s (" + FormatNumber(share, 3) + " % of the " +
                         (trajectory.cycle() == v1::CYCLE_FULL ? "cycle" : "half cycle") + ")"});
   }
+  return rows;
+}
+
+Rows ManoeuvreRows(const v1::Solve& solve) {
+  const v1::Trajectory& trajectory = solve.result().trajectory();
+  const v1::Manoeuvre::State &start = solve.spec().manoeuvre().start(), &end = solve.spec().manoeuvre().end();
+  const auto place = [](const v1::Manoeuvre::State& state, bool free) {
+    const auto number = [&](bool given, double value) { return free && !given ? "free" : FormatNumber(value); };
+    return "(" + number(state.has_x_m(), state.x_m()) + ", " + number(state.has_y_m(), state.y_m()) + ")";
+  };
+  Rows rows = {{"  slope", FormatNumber(solve.spec().slope_rad() * 180 / kPi), "°"},
+               {"  from", place(start, false), "m"},
+               {"  to", place(end, true), std::string("m, orientation ") + (end.has_orientation() ? "given" : "free")},
+               {"  duration", FormatNumber(trajectory.duration_s()), "s"}};
+  double length = 0, couple = 0;
+  const RollingPath path = BuildRollingPath(trajectory, solve.result().model());
+  for (size_t k = 0; k < path.samples.size(); ++k) {
+    const RollingPath::Sample& at = path.samples[k];
+    couple = std::max(couple, at.couple_n_m);
+    if (k == 0) continue;
+    length += std::hypot(at.contact_x_m - path.samples[k - 1].contact_x_m, at.contact_y_m - path.samples[k - 1].contact_y_m);
+  }
+  rows.push_back({"  path of the contact point", FormatNumber(length), "m"});
+  rows.push_back({"  largest couple", FormatNumber(couple), "N m"});
   return rows;
 }
 
@@ -101,7 +128,8 @@ std::string Summarize(const v1::Solve& solve, bool color) {
   const v1::SolveResult& result = solve.result();
   text += Section("Constraints that are not met", UnmetRows(result), "l", color);
   if (result.has_trajectory()) {
-    text += Section("Gait", GaitRows(solve), "lr", color);
+    text += solve.spec().has_manoeuvre() ? Section("Manoeuvre", ManoeuvreRows(solve), "lr", color)
+                                         : Section("Gait", GaitRows(solve), "lr", color);
     text += Section("Cost", CostRows(result), "lr", color);
   }
   if (result.has_accuracy()) {

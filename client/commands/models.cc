@@ -20,6 +20,7 @@ std::string PositionRange(const v1::Joint& joint) {
 
 std::string EffortRange(const v1::Joint& joint) {
   if (!joint.actuated()) return "-";
+  if (joint.effort_max() > 1e12) return "free";
   return FormatNumber(joint.effort_min()) + " … " + FormatNumber(joint.effort_max()) +
          (joint.type() == v1::Joint::TYPE_PRISMATIC ? " N" : " N m");
 }

@@ -4,8 +4,10 @@ _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
   local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info help"
   local global="--server --json --quiet --timeout --version --help"
-  local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock"
-  local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance --duty-factor
+  local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
+    --semi-axes"
+  local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
+    --from --to --duration --duty-factor
     --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
     --max-iterations --time-limit --output"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
@@ -18,6 +20,7 @@ _rollgait() {
     --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
     --cost) COMPREPLY=($(compgen -W "torque torque-rate work time effort muscle-work passive-load acceleration" -- "$current")); return ;;
     --feet) COMPREPLY=($(compgen -W "one two" -- "$current")); return ;;
+    --model) COMPREPLY=($(compgen -W "$(rollgait --timeout 1 models 2> /dev/null | awk 'NR > 1 { print $1 }')" -- "$current")); return ;;
     --ranges) COMPREPLY=($(compgen -W "anatomical walking" -- "$current")); return ;;
     --preset) COMPREPLY=($(compgen -W "torque transport human" -- "$current")); return ;;
     --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;

@@ -77,7 +77,7 @@ function ranges(values) {
 
 // A chart of curves over the gait cycle as a card. If spikes would flatten the curves they are cut, the card says so, and
 // a button shows them.
-//   options: title, note, unit, width (of the drawing), pool (values that set the range; default: those of the series),
+//   options: title, note, unit, axis (what the percentage is of), width (of the drawing), pool (values that set the range; default: those of the series),
 //   bands ([{start, end}] in %), ribbons ([{label, low, high, style}], areas between two curves, behind the others),
 //   series [{label, color, dash, opacity, values, mark}] where `mark` is a percentage (toe-off) or null
 function chart(options) {
@@ -120,7 +120,7 @@ function drawChart(options, [low, high]) {
     root.append(svg("line", { class: "axis", x1: x(percent), x2: x(percent), y1: height - bottom, y2: height - bottom + 4 }));
     root.append(svg("text", { x: x(percent), y: height - bottom + 16, "text-anchor": "middle" }, String(percent)));
   }
-  root.append(svg("text", { x: (left + width - right) / 2, y: height - 5, "text-anchor": "middle" }, "% of gait cycle"));
+  root.append(svg("text", { x: (left + width - right) / 2, y: height - 5, "text-anchor": "middle" }, options.axis || "% of gait cycle"));
   root.append(svg("text", { transform: `translate(9 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, options.unit));
   const clip = `plot${++charts}`;
   root.append(svg("clipPath", { id: clip }, svg("rect", { x: left, y: top - 1, width: width - left - right, height: height - top - bottom + 2 })));

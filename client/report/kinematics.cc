@@ -18,6 +18,24 @@ Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
   return quaternion.normalized().toRotationMatrix();
 }
 
+// The ellipsoid { c + R diag(axes) u : |u| ≤ 1 }, with the shape matrix R diag(axes²) Rᵀ; a projection has that of the kept
+// rows.
+struct PlacedEllipsoid {
+  Eigen::Vector3d center;
+  Eigen::Matrix3d shape;
+};
+
+PlacedEllipsoid Place(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
+  if (contact.joint() < 0 || contact.joint() >= static_cast<int>(poses.size()) || !contact.surface().has_ellipsoid()) {
+    throw Failure(ExitCode::kUsage, "contact " + contact.name() + ": no such joint, or not an ellipsoid");
+  }
+  const Pose& link = poses[contact.joint()];
+  const Eigen::Vector3d center = link.position + link.rotation * ToVector(contact.center_m());
+  const Eigen::Matrix3d rotation = link.rotation * ToRotation(contact.orientation());
+  const Eigen::Vector3d axes = ToVector(contact.surface().ellipsoid().semi_axes_m());
+  return {center, rotation * axes.array().square().matrix().asDiagonal() * rotation.transpose()};
+}
+
 }  // namespace
 
 std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions) {
@@ -49,16 +67,13 @@ std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& p
   return poses;
 }
 
+Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
+  const PlacedEllipsoid placed = Place(contact, poses);
+  return placed.center - placed.shape.col(2) / std::sqrt(placed.shape(2, 2));
+}
+
 Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
-  if (contact.joint() < 0 || contact.joint() >= static_cast<int>(poses.size()) || !contact.surface().has_ellipsoid()) {
-    throw Failure(ExitCode::kUsage, "contact " + contact.name() + ": no such joint, or not an ellipsoid");
-  }
-  const Pose& link = poses[contact.joint()];
-  const Eigen::Vector3d center = link.position + link.rotation * ToVector(contact.center_m());
-  const Eigen::Matrix3d rotation = link.rotation * ToRotation(contact.orientation());
-  const Eigen::Vector3d axes = ToVector(contact.surface().ellipsoid().semi_axes_m());
-  // The ellipsoid is { c + R diag(axes) u : |u| ≤ 1 }; its projection has the shape matrix of the kept rows.
-  const Eigen::Matrix3d shape = rotation * axes.array().square().matrix().asDiagonal() * rotation.transpose();
+  const auto [center, shape] = Place(contact, poses);
   Eigen::Matrix2d projected;
   projected << shape(0, 0), shape(0, 2), shape(2, 0), shape(2, 2);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(projected);

@@ -27,6 +27,8 @@ struct Outline {
   double lowest_x, lowest_z;  // m; the contact point if the surface touches the ground
 };
 
+// Both throw Failure(kUsage) for a contact that is on no joint of the poses, or not an ellipsoid.
+Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
 Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
 
 // In which direction a positive position moves what hangs on the joint, at the zero posture: "forward", "backward",

@@ -6,6 +6,10 @@ if (MOVING.length) {
   curves();
   people();
 }
+if (ROLLING.length) {
+  section("The way over the ground", "Seen from above, x to the right, y up: the point at which the body touches the ground from start (○) to end (●), and its centre (dashed; on the same line for a ball).", el("div", { class: "grid" }, ROLLING.map(groundPicture)));
+  section("Couple on the body", "Its magnitude against the share of the duration.", el("div", { class: "grid" }, ROLLING.map((s) => chart({ title: s.label, unit: "N m", axis: "% of the duration", series: [{ label: "couple", color: solveColor(s.index), values: s.path.couple, mark: null }] }))));
+}
 accuracy();
 numerics();
 model();

@@ -8,6 +8,7 @@
 #include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "client/json.h"
+#include "client/report/rolling_path.h"
 #include "client/report/walker_data.h"
 #include "client/summary.h"
 #include "client/text.h"
@@ -60,7 +61,14 @@ json RequestRows(const v1::SolveSpec& spec) {
   if (motion.free_speed()) rows.emplace_back("speed", "free");
   if (motion.has_step_length_m()) rows.emplace_back("step length", FormatNumber(motion.step_length_m()) + " m");
   if (motion.has_step_duration_s()) rows.emplace_back("step duration", FormatNumber(motion.step_duration_s()) + " s");
-  rows.emplace_back("cycle", spec.cycle() == v1::CYCLE_FULL ? "full" : "half, mirrored");
+  if (spec.has_manoeuvre()) {
+    const v1::Manoeuvre::State& end = spec.manoeuvre().end();
+    rows.emplace_back("manoeuvre", "to (" + (end.has_x_m() ? FormatNumber(end.x_m()) : "free") + ", " +
+                                       (end.has_y_m() ? FormatNumber(end.y_m()) : "free") + ") m, orientation " +
+                                       (end.has_orientation() ? "given" : "free"));
+  } else {
+    rows.emplace_back("cycle", spec.cycle() == v1::CYCLE_FULL ? "full" : "half, mirrored");
+  }
   if (spec.ground_contact().has_friction_coefficient()) {
     rows.emplace_back("friction", FormatNumber(spec.ground_contact().friction_coefficient()));
   }
@@ -125,6 +133,16 @@ json UnmetRows(const v1::SolveResult& result) {
   return rows;
 }
 
+json PathData(const RollingPath& path) {
+  json contact = json::array(), center = json::array(), couple = json::array();
+  for (const RollingPath::Sample& at : path.samples) {
+    contact.push_back({at.contact_x_m, at.contact_y_m});
+    center.push_back({at.center_x_m, at.center_y_m});
+    couple.push_back(at.couple_n_m);
+  }
+  return {{"duration", path.duration_s}, {"contact", contact}, {"center", center}, {"couple", couple}};
+}
+
 // The members of a solve that do not need its motion.
 json SolveData(const v1::Solve& solve, const std::string& label) {
   const v1::SolveResult& result = solve.result();
@@ -154,7 +172,8 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"unmet", UnmetRows(result)},
           {"people", result.has_normative() ? json::parse(ToJsonLine(result.normative())) : json()},
           {"model", ModelData(result.model())},
-          {"stride", json()}};
+          {"stride", json()},
+          {"path", json()}};
 }
 
 }  // namespace
@@ -166,11 +185,17 @@ json ReportData(const std::vector<v1::Solve>& solves, const std::string& title) 
     json solve = SolveData(solves[i], labels[i]);
     const v1::SolveResult& result = solves[i].result();
     if (result.has_trajectory() && result.trajectory().phases_size() > 0 && result.has_model()) {
+      if (solves[i].spec().has_manoeuvre()) {
+        solve["path"] = PathData(BuildRollingPath(result.trajectory(), result.model()));
+        list.push_back(std::move(solve));
+        continue;
+      }
       solve["stride"] = StrideData(BuildStride(result.trajectory(), result.model(), kStrideIntervals), result.model());
     }
     list.push_back(std::move(solve));
   }
-  const std::string standard = solves.size() == 1 ? "Optimal gait" : "Optimal gaits";
+  const bool gaits = std::none_of(solves.begin(), solves.end(), [](const v1::Solve& s) { return s.spec().has_manoeuvre(); });
+  const std::string standard = !gaits ? "Optimal motions" : solves.size() == 1 ? "Optimal gait" : "Optimal gaits";
   return {{"title", title.empty() ? standard : title}, {"program", "rollgait " ROLLGAIT_VERSION}, {"solves", list}};
 }
 

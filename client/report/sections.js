@@ -1,6 +1,7 @@
 // The sections of a page, each appended to it when called.
 const SOLVES = DATA.solves.map((solve, index) => ({ ...solve, index }));
 const MOVING = SOLVES.filter((solve) => solve.stride);
+const ROLLING = SOLVES.filter((solve) => solve.path);
 const page = document.getElementById("page");
 
 function section(title, note, ...content) {
@@ -26,7 +27,7 @@ const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 function header() {
   page.append(el("h1", {}, DATA.title));
   const models = [...new Set(SOLVES.map((s) => s.model.name))].filter(Boolean).join(", ");
-  page.append(el("p", { class: "soft" }, `${SOLVES.length} ${SOLVES.length === 1 ? "gait" : "gaits"} of the model “${models}”, feet rolling without slipping, computed as optimal control problems.`));
+  page.append(el("p", { class: "soft" }, `${SOLVES.length} ${ROLLING.length ? "motion" : "gait"}${SOLVES.length === 1 ? "" : "s"} of the model “${models}”, ${ROLLING.length ? "" : "feet "}rolling without slipping, computed as optimal control problems.`));
   const head = ["Slope", "How it ended", "Accuracy", "Speed", "Step length", "Step time", "Stance (right)", "Double support", "Objective", "Iterations", "Time"];
   const rows = SOLVES.map((solve) => {
     const stride = solve.stride;
@@ -138,6 +139,18 @@ function curves() {
   }));
   section("Contact forces", "Force of the ground on each foot, normal to the ground and along it. 100 % is the body's weight.",
     el("div", { class: "grid" }, overlays), el("div", { class: "grid" }, each));
+}
+
+// The ground seen from above: where the body touches it and where its centre is.
+function groundPicture(solve) {
+  const { contact, center, duration, couple } = solve.path, all = [...contact, ...center];
+  const low = [0, 1].map((i) => Math.min(...all.map((p) => p[i]))), high = [0, 1].map((i) => Math.max(...all.map((p) => p[i])));
+  const reach = Math.max(high[0] - low[0], high[1] - low[1], 1e-3), size = 340, pad = 30, scale = size / reach;
+  const x = (p) => pad + (p[0] - (low[0] + high[0] - reach) / 2) * scale, y = (p) => pad + size - (p[1] - (low[1] + high[1] - reach) / 2) * scale;
+  const line = (points, dash) => svg("polyline", { points: points.map((p) => `${x(p).toFixed(1)},${y(p).toFixed(1)}`).join(" "), fill: "none", stroke: solveColor(solve.index), "stroke-width": dash ? 1 : 2, "stroke-dasharray": dash });
+  const mark = (p, filled) => svg("circle", { cx: x(p), cy: y(p), r: 4, fill: filled ? solveColor(solve.index) : "none", stroke: solveColor(solve.index) });
+  const root = svg("svg", { viewBox: `0 0 ${size + 2 * pad} ${size + 2 * pad}` }, line(center, "5 3"), line(contact, ""), mark(contact[0], false), mark(contact[contact.length - 1], true));
+  return el("div", { class: "card" }, el("h3", {}, labelOf(solve), el("span", { class: "soft" }, `${fmt(duration, 3)} s, frame ${fmt(reach, 3)} m wide, largest couple ${fmt(Math.max(...couple), 3)} N m`)), root);
 }
 
 function accuracy() {

@@ -102,7 +102,7 @@ Instant Mirror(const Instant& instant, const v1::Model& model) {
 
 Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, int intervals) {
   const Motion motion(trajectory, model);
-  const bool half = trajectory.cycle() != v1::CYCLE_FULL;
+  const bool half = trajectory.cycle() != v1::CYCLE_FULL && trajectory.cycle() != v1::CYCLE_ONCE;
   const double span = motion.duration_s();
   const auto cycle = CyclePhases(motion, model, half);
   const Start start = FindStart(cycle, model);

@@ -1,8 +1,10 @@
 #include "core/gait/build_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/models/passive_torque.h"
+#include "core/ocp/costs/body_torque.h"
 #include "core/ocp/costs/muscle_costs.h"
 #include "core/ocp/costs/point_costs.h"
 
@@ -48,6 +50,9 @@ struct TermDescription {
 
   using Term = decltype(CostDescription::term);
   Term operator()(const GaitRequest::SquaredTorque& term) const {
+    if (scene.selection.rolling_body) {
+      return std::make_unique<BodyTorqueCost>(problem.model.actuated()[1], layout, std::pow(problem.effort_size(), 2));
+    }
     return std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, term.joint_weights), layout,
                                                problem.effort_size());
   }
@@ -98,7 +103,42 @@ int ForwardJoint(const Model& model) {
   ROLLGAIT_CHECK(false);
 }
 
+// Root mean square of the couple that turns the body in the time that the request gives (1 s where it is free), and of that
+// which holds it on the slope.
+double TypicalCouple(const GaitSpec& spec) {
+  const double duration = spec.phases.front().max_duration > 10 * spec.phases.front().min_duration
+                              ? 1
+                              : spec.phases.front().max_duration;
+  const double turning = std::sqrt(12.0) * TurningMoment(spec) / (duration * duration);
+  const double holding = spec.scene.model.total_mass() * spec.gravity.head<2>().norm() *
+                         spec.scene.selection.rolling_body->semi_axes.mean();
+  return std::hypot(turning, holding);
+}
+
+void DescribeTravel(const GaitSpec& spec, OptimalControlProblem* problem) {
+  if (spec.manoeuvre) {
+    const Manoeuvre& manoeuvre = *spec.manoeuvre;
+    if (manoeuvre.end.x) problem->displacement.min = problem->displacement.max = *manoeuvre.end.x - *manoeuvre.start.x;
+    problem->lever = TypicalCouple(spec) / problem->force_size();
+    return;
+  }
+  const double steps = problem->mirrored ? 1 : 2;
+  problem->displacement = Scaled(steps, spec.step_length_range);
+  problem->duration = Scaled(steps, spec.step_duration_range);
+  problem->speed = Scaled(1, spec.speed_range);
+  if (spec.duty_factor) problem->duty_factor = Scaled(1, *spec.duty_factor);
+}
+
 }  // namespace
+
+double TurningMoment(const GaitSpec& spec) {
+  const RollingEllipsoid& body = *spec.scene.selection.rolling_body;
+  const Manoeuvre& manoeuvre = *spec.manoeuvre;
+  const double radius = body.semi_axes.mean();
+  const double x = *manoeuvre.start.x, y = *manoeuvre.start.y;
+  const double distance = std::hypot(manoeuvre.end.x.value_or(x) - x, manoeuvre.end.y.value_or(y) - y);
+  return (body.moments.mean() + body.mass * radius * radius) * std::max(1.0, distance / radius);
+}
 
 std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   auto problem = std::make_unique<OptimalControlProblem>(spec.scene.model);
@@ -116,11 +156,7 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   problem->swing_clearance = spec.swing_clearance;
   if (spec.touch_down_point) problem->touch_down_point = Scaled(1, *spec.touch_down_point);
   if (spec.lift_off_point) problem->lift_off_point = Scaled(1, *spec.lift_off_point);
-  const double steps = problem->mirrored ? 1 : 2;
-  problem->displacement = Scaled(steps, spec.step_length_range);
-  problem->duration = Scaled(steps, spec.step_duration_range);
-  problem->speed = Scaled(1, spec.speed_range);
-  if (spec.duty_factor) problem->duty_factor = Scaled(1, *spec.duty_factor);
+  DescribeTravel(spec, problem.get());
   const TermDescription describe{spec.scene, *problem, problem->Layout(0)};
   for (const GaitSpec::CostTerm& term : spec.costs) {
     problem->costs.push_back({std::visit(describe, term.term), term.weight});

@@ -55,6 +55,24 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestChec
           check.Integer("accuracy.max_refinements", accuracy.max_refinements, level.max_refinements, 0, 6)};
 }
 
+// The phases and the motion of a walk.
+CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double gravity,
+                        std::vector<GaitSpec::Phase>* phases, RequestCheck& check) {
+  if (scene != nullptr && scene->selection.rolling_body) {
+    check.Add("manoeuvre", "is not set; model " + Quoted(scene->name) + " does not walk: give the state that it is to reach");
+    return {};
+  }
+  if (request.cycle == Cycle::kOnce) {
+    check.Add("cycle", "CYCLE_ONCE is the cycle of a manoeuvre, which is not set; give CYCLE_HALF or CYCLE_FULL");
+  }
+  if (scene != nullptr && !scene->symmetric && request.cycle == Cycle::kHalf) {
+    check.Add("cycle", "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
+                       "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
+  }
+  *phases = CheckPhases(request, scene, check);
+  return CheckMotion(request, scene, gravity, *phases, check);
+}
+
 }  // namespace
 
 Result<GaitSpec> CheckRequest(const GaitRequest& given) {
@@ -68,12 +86,14 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   const double slope = check.Number("slope_rad", request.slope, 0, {-kSteepest, kSteepest, "rad"});
   const double gravity = check.Number("gravity_m_s2", request.gravity, 9.81, {0.1, 100, "m/s²"});
 
-  if (known != nullptr && !known->symmetric && request.cycle == Cycle::kHalf) {
-    check.Add("cycle", "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
-                       "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
+  const bool once = request.manoeuvre.has_value();
+  CheckedManoeuvre manoeuvre;
+  CheckedMotion motion{};
+  if (once) {
+    manoeuvre = CheckManoeuvre(request, known, check);
+  } else {
+    motion = CheckGait(request, known, gravity, &manoeuvre.phases, check);
   }
-  std::vector<GaitSpec::Phase> phases = CheckPhases(request, known, check);
-  const CheckedMotion motion = CheckMotion(request, known, gravity, phases, check);
   if (request.motion.duty_factor) {
     check.Range("motion.duty_factor", *request.motion.duty_factor, {0.5, 0.95}, true);
   }
@@ -83,7 +103,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   std::vector<Joint> joints = CheckLimits(request, known, check);
   const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, check);
   const int max_iterations =
-      check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, 1000, 1, 100000);
+      check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, once ? 5000 : 1000, 1, 100000);
   const double max_wall_time =
       check.Number("solver_limits.max_wall_time_s", request.solver_limits.max_wall_time, 600, {0.01, 86400, "s"});
   const int starts = check.Integer("starts", request.starts, 1, 1, 32);
@@ -104,7 +124,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .step_duration_range = motion.step_duration_range,
                   .duty_factor = request.motion.duty_factor,
                   .cycle = request.cycle,
-                  .phases = std::move(phases),
+                  .manoeuvre = once ? std::optional(manoeuvre.manoeuvre) : std::nullopt,
+                  .phases = std::move(manoeuvre.phases),
                   .costs = std::move(costs),
                   .normalization = request.normalization,
                   .friction_coefficient = ground.friction_coefficient,

@@ -4,11 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/gait/manoeuvre_request.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
 
@@ -77,7 +77,8 @@ struct GaitRequest {
     bool free_speed = false;
     std::optional<Range> duty_factor;
   } motion;
-  Cycle cycle = Cycle::kHalf;
+  Cycle cycle = Cycle::kHalf;  // kOnce with a manoeuvre
+  std::optional<ManoeuvreRequest> manoeuvre;
   std::optional<std::vector<Phase>> phases;
   std::optional<Preset> preset;
   std::vector<CostTerm> costs;
@@ -127,6 +128,7 @@ struct GaitSpec {
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
   std::optional<GaitRequest::Range> duty_factor;
   Cycle cycle;
+  std::optional<Manoeuvre> manoeuvre;  // of a rolling body, in one phase; the prescribed motion above then means nothing
   std::vector<Phase> phases;
   std::vector<CostTerm> costs;
   GaitRequest::Normalization normalization;

@@ -50,7 +50,8 @@ struct GaitSolution {
   std::vector<CostValue> costs;
   std::vector<UnmetConstraint> unmet_constraints;
   std::vector<MeshStatistics> meshes;
-  double speed = 0, step_length = 0;  // m/s, m
+  double speed = 0, step_length = 0;  // m/s, m; of a manoeuvre along x
+  std::optional<Scene> scene;         // in whose joints the trajectory is, if not those of the request's scene
   double wall_time = 0;               // s
 };
 

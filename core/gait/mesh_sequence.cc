@@ -48,12 +48,6 @@ std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, dou
   return unmet;
 }
 
-// Feet that slip between nodes at a fair part of the walking speed: the optimiser has found a motion that exists on this mesh
-// only.
-bool IsArtefact(const GaitSolution& solution) {
-  return solution.accuracy && solution.accuracy->max_slip > 0.2 * solution.speed;
-}
-
 // What converged on every mesh is no motion of the body: say so, and where.
 void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
   solution->termination = Termination::kNumericalDifficulty;
@@ -68,6 +62,7 @@ void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
 ValidationOptions JudgeOptions(const GaitSpec& spec) {
   ValidationOptions options;
   options.gravity = spec.gravity;
+  options.manoeuvre = spec.manoeuvre;
   return options;
 }
 
@@ -97,7 +92,7 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->costs = ReportCosts(problem, nlp, x);
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
   solution->speed = nlp.displacement(x) / nlp.duration(x);
-  solution->step_length = nlp.displacement(x) / (problem.mirrored ? 1 : 2);
+  solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
   solution->within_requested_accuracy = Converged(result.termination) && solution->accuracy->max_gap <= spec.max_gap &&
                                         solution->accuracy->max_slip <= spec.max_slip;
 }
@@ -118,6 +113,19 @@ SolveControl Unscaled(const SolveControl& control, double scale) {
 
 bool Converged(Termination termination) {
   return termination == Termination::kOptimal || termination == Termination::kAcceptable;
+}
+
+bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) {
+  if (!solution.accuracy) return false;
+  double speed = solution.speed;
+  if (spec.manoeuvre) {
+    // Of the body's surface: it may turn without going anywhere.
+    const double rate = solution.trajectory->phases.front().node_velocities.bottomRows(3).colwise().norm().maxCoeff();
+    speed = rate * spec.scene.selection.rolling_body->semi_axes.minCoeff();
+  }
+  // A body at rest slips by rounding.
+  const double rounding = spec.manoeuvre ? 1e-6 : 0;
+  return solution.accuracy->max_slip > 0.2 * speed + rounding;
 }
 
 SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control)
@@ -170,7 +178,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 
     MeshStatistics statistics = Describe(nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
-    const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(solution);
+    const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(spec, solution);
     if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
@@ -187,7 +195,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
       break;
     }
     if (!Converged(result.termination) || solution.within_requested_accuracy) break;
-    if (IsArtefact(solution)) {
+    if (IsArtefact(spec, solution)) {
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
       previous = nullptr;
@@ -201,7 +209,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
-  if (bounded && Converged(solution.termination) && IsArtefact(solution)) RefuseArtefact(spec, &solution);
+  if (bounded && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
   solution.wall_time = budget->elapsed();
   return solution;
 }

@@ -31,6 +31,10 @@ class SolveBudget {
 
 bool Converged(Termination termination);
 
+// True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion that
+// exists on its mesh only.
+bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
+
 // Solves the problem of the spec from a guess on `mesh`, and on finer meshes started from its solution until gap and slip
 // between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,

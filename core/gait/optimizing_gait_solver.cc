@@ -6,17 +6,23 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/solve_manoeuvre.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
 namespace {
 
 // A gait that is periodic leaves its momentum as it was: over a cycle the ground's mean force is the weight, which on a slope
-// leans by the slope. Within the friction cone at every instant, the mean is within it too.
+// leans by the slope. Within the friction cone at every instant, the mean is within it too. So it is for a manoeuvre from
+// rest to rest.
 std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
+  if (spec.manoeuvre) {
+    const Manoeuvre& manoeuvre = *spec.manoeuvre;
+    if (!manoeuvre.start.angular_velocity.isZero(0) || !manoeuvre.end.angular_velocity.isZero(0)) return std::nullopt;
+  }
   const double needed = std::hypot(spec.gravity.x(), spec.gravity.y()) / std::abs(spec.gravity.z());
   if (needed <= spec.friction_coefficient) return std::nullopt;
-  return UnmetConstraint{"friction, mean over the cycle", 0, 0, needed - spec.friction_coefficient, "1"};
+  return UnmetConstraint{"friction, mean over the motion", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
 // From the requested starts, and on a slope that these do not reach by continuation.
@@ -39,10 +45,11 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   if (const auto contradiction = FindContradiction(spec)) {
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;
-    solution.message = "No gait can meet the request: without sliding, the ground must carry the weight at this slope.";
+    solution.message = "No motion can meet the request: without sliding, the ground must carry the weight at this slope.";
     solution.unmet_constraints = {*contradiction};
     return solution;
   }
+  if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
   GaitSolution solution = Search(spec, &budget);
   if (solution.trajectory) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
   return solution;

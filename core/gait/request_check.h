@@ -77,6 +77,13 @@ struct CheckedMotion {
 CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity,
                           const std::vector<GaitSpec::Phase>& phases, RequestCheck& check);
 
+// For a request with a manoeuvre, in place of CheckPhases and CheckMotion.
+struct CheckedManoeuvre {
+  Manoeuvre manoeuvre;
+  std::vector<GaitSpec::Phase> phases;
+};
+CheckedManoeuvre CheckManoeuvre(const GaitRequest& request, const Scene* scene, RequestCheck& check);
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_GAIT_REQUEST_CHECK_H_

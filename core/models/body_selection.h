@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/types.h"
 
 namespace rollgait {
 
@@ -16,6 +17,18 @@ enum class FootShape { kOneEllipsoid, kTwoEllipsoids };
 
 // How far joints may go: as far as a body can, or as far as it does in walking.
 enum class JointRanges { kAnatomical, kWalking };
+
+// A rigid ellipsoid on the ground; its centre of mass is its centre.
+struct RollingEllipsoid {
+  Vector3 semi_axes;  // m
+  double mass;        // kg
+  Vector3 moments;    // kg m², principal, about the centre, along the semi-axes
+};
+struct RollingEllipsoidRequest {
+  std::optional<Vector3> semi_axes;  // default: a ball of 0.1 m
+  std::optional<double> mass;        // default: 1 kg
+  std::optional<Vector3> moments;    // default: those of a homogeneous solid body
+};
 
 // Which body, as validated: see rollgait.v1.ModelSelection.
 struct BodySelection {
@@ -29,6 +42,7 @@ struct BodySelection {
   JointRanges ranges = JointRanges::kAnatomical;
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
   std::map<std::string, double> locked_joints;    // rad, those given
+  std::optional<RollingEllipsoid> rolling_body;   // if the model is one; nothing else then means anything
 };
 
 // The same before it is checked; empty optionals take the defaults of rollgait.v1.ModelSelection.
@@ -43,6 +57,7 @@ struct BodyRequest {
   std::optional<JointRanges> ranges;              // default: that of the model
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
   std::map<std::string, double> locked_joints;    // rad, within the range of the joint
+  std::optional<RollingEllipsoidRequest> rolling_body;
 };
 
 }  // namespace rollgait

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/models/human_scene.h"
+#include "core/models/rolling_ellipsoid.h"
 #include "core/models/segment_table.h"
 
 namespace rollgait {
@@ -15,12 +16,14 @@ struct Entry {
   bool planar;  // sagittal, without arms and with a rigid trunk
   JointRanges ranges;  // by default
 };
-// Every model there is. All are the one human, reduced.
+// Every model that walks. All are the one human, reduced.
 constexpr Entry kEntries[] = {
     {"planar", "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.", true,
      JointRanges::kAnatomical},
     {"human29", "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.", false, JointRanges::kWalking},
 };
+
+constexpr const char* kBall = "ball";
 
 constexpr double kStatureMin = 1.0, kStatureMax = 2.3;  // m
 constexpr double kMassMin = 20, kMassMax = 250;         // kg
@@ -32,24 +35,53 @@ void CheckRange(const char* field, const char* unit, double value, double min, d
   violations->push_back({field, message.str()});
 }
 
+std::vector<std::string> ModelNames() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kEntries) names.emplace_back(entry.name);
+  names.emplace_back(kBall);
+  return names;
+}
+
 std::string UnknownModel(const std::string& name) {
   std::string message = name.empty() ? "is empty" : "\"" + name + "\" is not a model of this server";
   message += "; choose one of:";
-  for (const Entry& entry : kEntries) message += std::string(" \"") + entry.name + "\"";
+  for (const std::string& known : ModelNames()) message += " \"" + known + "\"";
   return message;
+}
+
+// What only a human has, of what was asked of a ball.
+Result<Scene> BuildBall(const BodyRequest& request) {
+  Violations violations;
+  const auto refuse = [&](bool given, const char* field) {
+    if (given) violations.push_back({field, std::string("means nothing for model \"") + kBall + "\"; leave it out"});
+  };
+  refuse(request.stature.has_value(), "stature_m");
+  refuse(request.mass.has_value(), "body_mass_kg");
+  refuse(!request.segment_lengths.empty(), "segment_lengths_m");
+  refuse(request.feet.has_value(), "feet");
+  refuse(request.toes, "toes");
+  refuse(request.sagittal, "sagittal");
+  refuse(request.drop_arms, "drop_arms");
+  refuse(request.rigid_trunk, "rigid_trunk");
+  refuse(!request.locked_joints.empty(), "locked_joints_rad");
+  refuse(request.ranges.has_value(), "ranges");
+  Result<Scene> scene = RollingEllipsoidScene(request.rolling_body.value_or(RollingEllipsoidRequest()), {});
+  if (violations.empty()) return scene;
+  if (!scene.ok()) violations.insert(violations.end(), scene.violations().begin(), scene.violations().end());
+  return violations;
 }
 
 }  // namespace
 
 std::vector<CatalogEntry> ListCatalog() {
   std::vector<CatalogEntry> entries;
-  for (const Entry& known : kEntries) {
+  for (const std::string& name : ModelNames()) {
     BodyRequest request;
-    request.model = known.name;
+    request.model = name;
     const Result<Scene> scene = BuildScene(request);
     ROLLGAIT_CHECK(scene.ok());
     const Model& model = scene.value().model;
-    CatalogEntry entry{known.name, known.description, model.size(), static_cast<int>(model.actuated().size()), {}};
+    CatalogEntry entry{name, scene.value().description, model.size(), static_cast<int>(model.actuated().size()), {}};
     for (const ContactSurface& contact : scene.value().contacts) entry.contacts.push_back(contact.name);
     entries.push_back(entry);
   }
@@ -57,6 +89,7 @@ std::vector<CatalogEntry> ListCatalog() {
 }
 
 Result<Scene> BuildScene(const BodyRequest& request) {
+  if (request.model == kBall) return BuildBall(request);
   Violations violations;
   const Entry* chosen = nullptr;
   for (const Entry& entry : kEntries) {
@@ -77,7 +110,9 @@ Result<Scene> BuildScene(const BodyRequest& request) {
       .drop_arms = request.drop_arms || planar,
       .rigid_trunk = request.rigid_trunk || planar,
       .locked_joints = request.locked_joints,
+      .rolling_body = {},
   };
+  if (request.rolling_body) violations.push_back({"rolling_body", "is for model \"ball\" only; leave it out"});
   CheckRange("stature_m", "m", selection.stature, kStatureMin, kStatureMax, &violations);
   CheckRange("body_mass_kg", "kg", selection.mass, kMassMin, kMassMax, &violations);
   if (!violations.empty()) return violations;

@@ -18,6 +18,7 @@ bool Contains(const std::vector<int>& values, int value) {
 
 std::vector<int> OptimalControlProblem::PreviousActive(int phase) const {
   if (phase > 0) return phases[phase - 1].active;
+  if (ends) return {};
   std::vector<int> previous = phases.back().active;
   if (mirrored) {
     for (int& contact : previous) contact = contacts[contact].mirror_contact;

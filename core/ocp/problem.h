@@ -20,10 +20,19 @@ struct PhaseDescription {
   Interval duration;  // s
 };
 
+// Bounds on the state (q, v) at one end of a motion that is not periodic, 2n values each; equal ones prescribe it.
+struct EndBounds {
+  VectorX lower, upper;
+};
+struct Ends {
+  EndBounds start, end;
+};
+
 // What the sum of the cost integrals is divided by.
 enum class CostDenominator { kDistance, kTime, kNothing };
 
-// The multi-phase periodic problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit.
+// The multi-phase problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit. Periodic, or
+// between given ends (its first case study).
 // World axes: x along the ground, z its normal; all contacts are with the plane z = 0.
 struct OptimalControlProblem {
   explicit OptimalControlProblem(Model tree) : model(std::move(tree)) {}
@@ -36,6 +45,10 @@ struct OptimalControlProblem {
   bool mirrored = true;
   int forward_joint = 0;   // prismatic joint along x that carries the displacement
   int lateral_joint = -1;  // prismatic joint along y, if there is one: where it starts is no part of a full cycle
+  // If set, the motion goes from one to the other and nothing is periodic. What rolling or touching determines (height and
+  // velocity of a body in contact) must be left free here, and `displacement` is prescribed if they prescribe the forward
+  // joint's.
+  std::optional<Ends> ends;
 
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;
@@ -52,9 +65,11 @@ struct OptimalControlProblem {
   std::optional<Interval> duty_factor;
 
   double force_size() const { return model.total_mass() * gravity.norm(); }
-  double effort_size() const { return 0.15 * force_size(); }  // N m: about 100 for an adult
+  double lever = 0.15;  // m
+  double effort_size() const { return lever * force_size(); }  // N m: about 100 for an adult
 
-  // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored.
+  // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored; none
+  // where there are ends.
   std::vector<int> PreviousActive(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;

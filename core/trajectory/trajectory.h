@@ -9,7 +9,8 @@
 namespace rollgait {
 
 enum class Scheme { kRadau2, kRadau3, kHermiteSimpson };
-enum class Cycle { kHalf, kFull };
+// What a trajectory spans: one step of two, both, or a motion from one state to another that nothing repeats.
+enum class Cycle { kHalf, kFull, kOnce };
 
 // One phase. Matrices hold one COLUMN per time (joint order of the model, N + 1 nodes, N·s collocation points).
 struct TrajectoryPhase {
@@ -27,7 +28,7 @@ struct TrajectoryPhase {
   MatrixX point_forces;        // 3·n_contacts × N·s, N, world axes, on the body
 };
 
-// An optimised motion over a half or a full cycle. Within an interval of length h from node (q₀, v₀), with θ = (t − t_k)/h:
+// An optimised motion over a half or a full cycle, or once. Within an interval of length h from node (q₀, v₀), with θ = (t − t_k)/h:
 // the acceleration is the polynomial of degree s − 1 through the interval's points, v(t) and q(t) are its integrals, and
 // efforts and forces are the polynomials of degree s − 1 through theirs. Immutable by convention.
 struct Trajectory {

@@ -39,7 +39,11 @@ CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme sche
   for (const CostDescription& cost : problem.costs) {
     coupling_.push_back(MakeCouplingTerm(problem, cost, layout_, scheme_));
   }
-  AddPeriodicityRows(problem, layout_, &linear_);
+  if (problem.ends) {
+    AddDisplacementRow(problem, layout_, &linear_);
+  } else {
+    AddPeriodicityRows(problem, layout_, &linear_);
+  }
   AddTravelRows(problem, layout_, &linear_);
   AddEffortContinuityRows(problem, layout_, scheme_, &linear_);
   SetDenominator();
@@ -64,65 +68,6 @@ void CollocationNlp::SetDenominator() {
     case CostDenominator::kNothing:
       break;
   }
-}
-
-void CollocationNlp::SetStateBounds() {
-  const int n = problem_.model.size();
-  lower_ = VectorX::Constant(variables(), -kInfinity);
-  upper_ = VectorX::Constant(variables(), kInfinity);
-  for (int k = 0; k <= layout_.intervals(); ++k) {
-    for (int j = 0; j < n; ++j) {
-      const Joint& joint = problem_.model.joint(j);
-      lower_(layout_.node(k) + j) = joint.position_min;
-      upper_(layout_.node(k) + j) = joint.position_max;
-      lower_(layout_.node(k) + n + j) = -joint.velocity_max;
-      upper_(layout_.node(k) + n + j) = joint.velocity_max;
-    }
-  }
-  // The first node is where the walk begins; without this the problem could slide along x.
-  lower_(layout_.node(0) + problem_.forward_joint) = upper_(layout_.node(0) + problem_.forward_joint) = 0;
-  // Likewise along y, unless the mirror image at the end says where the middle is.
-  if (!problem_.mirrored && problem_.lateral_joint >= 0) {
-    lower_(layout_.node(0) + problem_.lateral_joint) = upper_(layout_.node(0) + problem_.lateral_joint) = 0;
-  }
-  for (int p = 0; p < layout_.phases(); ++p) {
-    lower_(layout_.duration(p)) = problem_.phases[p].duration.min;
-    upper_(layout_.duration(p)) = problem_.phases[p].duration.max;
-  }
-  lower_(layout_.displacement()) = problem_.displacement.min;
-  upper_(layout_.displacement()) = problem_.displacement.max;
-}
-
-void CollocationNlp::SetControlBounds() {
-  for (int k = 0; k < layout_.intervals(); ++k) {
-    for (int i = 0; i < scheme_.points(); ++i) {
-      for (size_t j = 0; j < problem_.model.actuated().size(); ++j) {
-        const Joint& joint = problem_.model.joint(problem_.model.actuated()[j]);
-        lower_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_min / problem_.effort_size();
-        upper_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_max / problem_.effort_size();
-      }
-      for (const ActiveContact& active : problem_.ActiveContacts(layout_.phase(k))) {
-        const int normal = active.offset + static_cast<int>(active.directions.size()) - 1;
-        lower_(layout_.forces(k, i) + normal) = problem_.min_normal_force / problem_.force_size();
-      }
-    }
-  }
-}
-
-void CollocationNlp::SetRowBounds() {
-  for (int k = 0; k < layout_.intervals(); ++k) first_entry_row_ += blocks_[layout_.phase(k)]->rows();
-  first_linear_row_ = first_entry_row_ + entries_.size();
-  rows_ = first_linear_row_ + linear_.size();
-  row_lower_ = row_upper_ = VectorX::Zero(rows_);
-  int row = 0;
-  for (int k = 0; k < layout_.intervals(); ++k) {
-    const IntervalBlock& block = *blocks_[layout_.phase(k)];
-    block.Bounds(layout_.start(k), layout_.length(k), layout_.ends_phase(k), row_lower_.data() + row,
-                 row_upper_.data() + row);
-    row += block.rows();
-  }
-  entries_.Bounds(row_lower_.data() + first_entry_row_, row_upper_.data() + first_entry_row_);
-  linear_.Bounds(row_lower_.data() + first_linear_row_, row_upper_.data() + first_linear_row_);
 }
 
 void CollocationNlp::ScaleObjective() {

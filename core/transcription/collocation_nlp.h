@@ -27,8 +27,8 @@ struct MotionGuess {
 };
 
 // The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).
-//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity; travel; continuous
-//   efforts
+//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity or displacement; travel;
+//   continuous efforts
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
@@ -88,6 +88,7 @@ class CollocationNlp : public NlpProblem {
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
   void SetDenominator();
   void SetStateBounds();
+  void TightenNode(int k, const EndBounds& bounds);
   void SetControlBounds();
   void SetRowBounds();
   void BuildPatterns();

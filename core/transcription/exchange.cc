@@ -40,7 +40,7 @@ Trajectory CollocationNlp::Extract(const double* x) {
   trajectory.scheme = scheme_kind_;
   trajectory.points_per_interval = s;
   for (int i = 0; i < s; ++i) trajectory.point_fractions.push_back(scheme_.tableau().c(i));
-  trajectory.cycle = problem_.mirrored ? Cycle::kHalf : Cycle::kFull;
+  trajectory.cycle = problem_.ends ? Cycle::kOnce : problem_.mirrored ? Cycle::kHalf : Cycle::kFull;
   trajectory.duration = duration(x);
   trajectory.displacement = x[layout_.displacement()];
   double start = 0;

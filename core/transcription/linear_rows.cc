@@ -50,6 +50,14 @@ void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayo
   }
 }
 
+void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
+  if (problem.displacement.min == problem.displacement.max) return;  // the ends prescribe it
+  const int joint = problem.forward_joint;
+  rows->Add({"displacement", "m", 0, 0,
+             {{layout.node(layout.intervals()) + joint, 1.0}, {layout.node(0) + joint, -1.0}, {layout.displacement(), -1.0}},
+             1});
+}
+
 void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
   const auto durations = [&layout](double coefficient) {
     std::vector<std::pair<int, double>> terms;

@@ -37,6 +37,8 @@ class LinearRows {
 
 // x_N = mirror(x_0) + displacement along x, without the mirror in a full cycle.
 void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
+// Without periodicity: the displacement is how far the forward joint went, unless it is prescribed.
+void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
 // Range of the mean speed, of the duty factor and of the sum of the durations.
 void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
 // In schemes whose intervals share an instant (the first point is a node), efforts whose rate costs something are the same

@@ -1,7 +1,10 @@
 #ifndef ROLLGAIT_CORE_VALIDATION_REPORT_H_
 #define ROLLGAIT_CORE_VALIDATION_REPORT_H_
 
+#include <optional>
+
 #include "core/models/scene.h"
+#include "core/trajectory/manoeuvre.h"
 #include "core/trajectory/trajectory.h"
 
 namespace rollgait {
@@ -20,6 +23,7 @@ struct AccuracyReport {
   double max_friction_ratio = 0;
   double min_swing_clearance = 0;
   double periodicity_error = 0;
+  double end_error = 0;
   double energy_balance_error = 0;
   double energy_balance_error_relative = 0;
   double momentum_balance_error = 0;
@@ -30,6 +34,7 @@ struct ValidationOptions {
   Vector3 gravity{0, 0, -9.81};         // m/s², world axes (fixed to the slope)
   double integrator_tolerance = 1e-10;  // relative and absolute
   int samples_per_interval = 10;        // between nodes, for gap, slip, forces
+  std::optional<Manoeuvre> manoeuvre;   // what a motion of Cycle::kOnce was asked to do
 };
 
 // Judges a trajectory of a scene by re-integration and dense sampling.

@@ -102,6 +102,7 @@ EndState PeriodicEnd(const Model& model, const Trajectory& trajectory) {
 }
 
 double PeriodicityError(const Model& model, const Trajectory& trajectory) {
+  if (trajectory.cycle == Cycle::kOnce) return 0;
   const EndState end = PeriodicEnd(model, trajectory);
   const TrajectoryPhase& last = trajectory.phases.back();
   double worst = 0;
@@ -109,6 +110,27 @@ double PeriodicityError(const Model& model, const Trajectory& trajectory) {
     RaiseTo(std::abs(last.node_positions(j, Intervals(last)) - end.position[j]), &worst);
     RaiseTo(std::abs(last.node_velocities(j, Intervals(last)) - end.velocity[j]), &worst);
   }
+  return worst;
+}
+
+double EndError(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
+                const Manoeuvre& manoeuvre) {
+  const ContactSurface& surface = scene.contacts.front();
+  double worst = 0;
+  BodyDynamics::State state;
+  const auto compare = [&](const TrajectoryPhase& phase, int node, const BodyState& asked) {
+    dynamics.ComputeState(phase.node_positions.col(node), phase.node_velocities.col(node), &state);
+    const BodyDynamics::Link& body = state[surface.joint];
+    if (asked.x) RaiseTo(std::abs(body.p_WL.x() - *asked.x), &worst);
+    if (asked.y) RaiseTo(std::abs(body.p_WL.y() - *asked.y), &worst);
+    if (asked.orientation) {
+      const Eigen::Quaterniond actual(body.R_WL * surface.R_LE);
+      RaiseTo(actual.angularDistance(*asked.orientation), &worst);
+    }
+    RaiseTo((body.R_WL * body.twist.angular - asked.angular_velocity).norm(), &worst);
+  };
+  compare(trajectory.phases.front(), 0, manoeuvre.start);
+  compare(trajectory.phases.back(), Intervals(trajectory.phases.back()), manoeuvre.end);
   return worst;
 }
 

@@ -2,6 +2,7 @@
 #define ROLLGAIT_CORE_VALIDATION_RESIDUALS_H_
 
 #include "core/models/scene.h"
+#include "core/trajectory/manoeuvre.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/trajectory/trajectory.h"
 
@@ -50,8 +51,15 @@ struct EndState {
 // value of mirror_joint) if it spans half a cycle, with the joint "base_x", if there is one, moved on by the displacement.
 EndState PeriodicEnd(const Model& model, const Trajectory& trajectory);
 
-// Largest difference between the last node and PeriodicEnd over positions and velocities: rad, m, rad/s, m/s.
+// Largest difference between the last node and PeriodicEnd over positions and velocities: rad, m, rad/s, m/s. 0 for a motion
+// that is not periodic (Cycle::kOnce).
 double PeriodicityError(const Model& model, const Trajectory& trajectory);
+
+// Largest difference between what the manoeuvre prescribes at its two ends and what the body that carries the first contact
+// does at the first and the last node (its orientation is that of the surface): m, rad (angle of the rotation between the
+// two), rad/s.
+double EndError(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
+                const Manoeuvre& manoeuvre);
 
 struct BalanceErrors {
   double energy = 0;  // J, |change of kinetic and potential energy between first and last node − work of the efforts|

@@ -102,7 +102,7 @@ Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const 
       if (p + 1 < trajectory.phases.size()) {
         const TrajectoryPhase& next = trajectory.phases[p + 1];
         compare(next.node_positions.col(0), next.node_velocities.col(0));
-      } else {
+      } else if (trajectory.cycle != Cycle::kOnce) {
         const EndState end = PeriodicEnd(scene.model, trajectory);
         compare(end.position, end.velocity);
       }

@@ -50,6 +50,7 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.max_friction_ratio = forces.max_friction_ratio();
   report.min_swing_clearance = contacts.min_swing_clearance;
   report.periodicity_error = PeriodicityError(scene.model, trajectory);
+  if (options.manoeuvre) report.end_error = EndError(scene, dynamics, trajectory, *options.manoeuvre);
   report.energy_balance_error = balance.energy;
   report.energy_balance_error_relative = balance.energy_relative;
   report.momentum_balance_error = balance.momentum;

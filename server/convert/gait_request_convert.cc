@@ -19,8 +19,8 @@ class RequestDecoder {
     violations.push_back(
         {field, "enum value " + std::to_string(value) + " is not known to this server; use a named one"});
   }
-  Cycle DecodeCycle(v1::Cycle cycle);
-  GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization);
+  Cycle DecodeCycle(v1::Cycle cycle, bool manoeuvre);
+  GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization, bool manoeuvre);
   std::optional<Preset> DecodePreset(v1::Preset preset);
   Scheme DecodeScheme(v1::Discretization::Scheme scheme);
   GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
@@ -71,6 +71,26 @@ GaitRequest::GroundContact DecodeGround(const v1::GroundContact& ground) {
   return decoded;
 }
 
+Vector3 DecodeComponents(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+ManoeuvreRequest::State DecodeState(const v1::Manoeuvre::State& state) {
+  ManoeuvreRequest::State decoded;
+  decoded.x = ROLLGAIT_OPTIONAL(state, x_m);
+  decoded.y = ROLLGAIT_OPTIONAL(state, y_m);
+  const v1::Quaternion& q = state.orientation();
+  if (state.has_orientation()) decoded.orientation = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  decoded.angular_velocity = DecodeComponents(state.angular_velocity_rad_s());
+  return decoded;
+}
+
+RollingEllipsoidRequest DecodeRollingBody(const v1::RollingBody& body) {
+  RollingEllipsoidRequest decoded;
+  if (body.has_semi_axes_m()) decoded.semi_axes = DecodeComponents(body.semi_axes_m());
+  decoded.mass = ROLLGAIT_OPTIONAL(body, mass_kg);
+  if (body.has_moments_kg_m2()) decoded.moments = DecodeComponents(body.moments_kg_m2());
+  return decoded;
+}
+
 BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1::ModelSelection& selection) {
   BodyRequest body;
   body.model = selection.name();
@@ -117,12 +137,16 @@ BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1:
   body.drop_arms = selection.drop_arms();
   body.rigid_trunk = selection.rigid_trunk();
   body.locked_joints = DecodeNumbers(selection.locked_joints_rad());
+  if (selection.has_rolling_body()) body.rolling_body = DecodeRollingBody(selection.rolling_body());
   return body;
 }
 
-Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle) {
+Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle, bool manoeuvre) {
   switch (cycle) {
     case v1::CYCLE_UNSPECIFIED:
+      return manoeuvre ? Cycle::kOnce : Cycle::kHalf;
+    case v1::CYCLE_ONCE:
+      return Cycle::kOnce;
     case v1::CYCLE_HALF:
       return Cycle::kHalf;
     case v1::CYCLE_FULL:
@@ -133,9 +157,11 @@ Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle) {
   }
 }
 
-GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormalization normalization) {
+GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormalization normalization,
+                                                                bool manoeuvre) {
   switch (normalization) {
     case v1::COST_NORMALIZATION_UNSPECIFIED:
+      return manoeuvre ? GaitRequest::Normalization::kNone : GaitRequest::Normalization::kPerDistance;
     case v1::COST_NORMALIZATION_PER_DISTANCE:
       return GaitRequest::Normalization::kPerDistance;
     case v1::COST_NORMALIZATION_PER_TIME:
@@ -239,7 +265,13 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.motion = {ROLLGAIT_OPTIONAL(spec.motion(), speed_m_s), ROLLGAIT_OPTIONAL(spec.motion(), step_length_m),
                     ROLLGAIT_OPTIONAL(spec.motion(), step_duration_s), spec.motion().free_speed(), std::nullopt};
   if (spec.motion().has_duty_factor()) request.motion.duty_factor = DecodeRange(spec.motion().duty_factor());
-  request.cycle = DecodeCycle(spec.cycle());
+  request.cycle = DecodeCycle(spec.cycle(), spec.has_manoeuvre());
+  if (spec.has_manoeuvre()) {
+    request.manoeuvre.emplace();
+    request.manoeuvre->start = DecodeState(spec.manoeuvre().start());
+    request.manoeuvre->end = DecodeState(spec.manoeuvre().end());
+    request.manoeuvre->duration = ROLLGAIT_OPTIONAL(spec.manoeuvre(), duration_s);
+  }
   if (spec.has_phases()) {
     request.phases.emplace();
     for (const v1::Phase& phase : spec.phases().phases()) request.phases->push_back(DecodePhase(phase));
@@ -249,7 +281,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   for (int i = 0; i < spec.costs_size(); ++i) {
     request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i)));
   }
-  request.normalization = DecodeNormalization(spec.cost_normalization());
+  request.normalization = DecodeNormalization(spec.cost_normalization(), spec.has_manoeuvre());
   request.ground_contact = DecodeGround(spec.ground_contact());
   request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
                     DecodeRanges(spec.limits().joint_effort())};

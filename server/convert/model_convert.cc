@@ -78,6 +78,13 @@ void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::Contac
 
 void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {
   encoded->set_name(selection.model);
+  if (selection.rolling_body) {
+    v1::RollingBody& body = *encoded->mutable_rolling_body();
+    EncodeVector(selection.rolling_body->semi_axes, body.mutable_semi_axes_m());
+    body.set_mass_kg(selection.rolling_body->mass);
+    EncodeVector(selection.rolling_body->moments, body.mutable_moments_kg_m2());
+    return;
+  }
   encoded->set_sex(selection.sex == Sex::kFemale ? v1::ModelSelection::SEX_FEMALE : v1::ModelSelection::SEX_MALE);
   encoded->set_stature_m(selection.stature);
   encoded->set_body_mass_kg(selection.mass);
@@ -116,7 +123,7 @@ v1::Model EncodeModel(const Scene& scene, double gravity) {
   for (const ContactSurface& contact : scene.contacts) EncodeContact(contact, scene, model.add_contacts());
   model.set_gravity_m_s2(gravity);
   model.set_total_mass_kg(scene.model.total_mass());
-  model.set_stature_m(scene.selection.stature);
+  if (!scene.selection.rolling_body) model.set_stature_m(scene.selection.stature);
   model.set_leg_length_m(scene.leg_length);
   for (const std::string& source : scene.sources) model.add_sources(source);
   return model;

@@ -38,6 +38,18 @@ v1::Discretization::Scheme EncodeScheme(Scheme scheme) {
   ROLLGAIT_CHECK(false);
 }
 
+v1::Cycle EncodeCycle(Cycle cycle) {
+  switch (cycle) {
+    case Cycle::kHalf:
+      return v1::CYCLE_HALF;
+    case Cycle::kFull:
+      return v1::CYCLE_FULL;
+    case Cycle::kOnce:
+      return v1::CYCLE_ONCE;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
 // One column per time becomes one row per time; column-major in, row-major out, so the numbers keep their order.
 void EncodeTimes(const MatrixX& columns, v1::Matrix* matrix) {
   matrix->set_rows(static_cast<int>(columns.cols()));
@@ -77,6 +89,7 @@ v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSoluti
   encoded.set_max_friction_ratio(report.max_friction_ratio);
   encoded.set_min_swing_clearance_m(report.min_swing_clearance);
   encoded.set_periodicity_error(report.periodicity_error);
+  encoded.set_end_error(report.end_error);
   encoded.set_energy_balance_error_j(report.energy_balance_error);
   encoded.set_energy_balance_error_relative(report.energy_balance_error_relative);
   encoded.set_momentum_balance_error_n_s(report.momentum_balance_error);
@@ -146,7 +159,7 @@ v1::Trajectory EncodeTrajectory(const Trajectory& trajectory, const Scene& scene
   }
   encoded.set_scheme(EncodeScheme(trajectory.scheme));
   encoded.set_points_per_interval(trajectory.points_per_interval);
-  encoded.set_cycle(trajectory.cycle == Cycle::kHalf ? v1::CYCLE_HALF : v1::CYCLE_FULL);
+  encoded.set_cycle(EncodeCycle(trajectory.cycle));
   encoded.set_duration_s(trajectory.duration);
   encoded.set_displacement_m(trajectory.displacement);
   for (const TrajectoryPhase& phase : trajectory.phases) EncodePhase(phase, scene, encoded.add_phases());
@@ -154,12 +167,13 @@ v1::Trajectory EncodeTrajectory(const Trajectory& trajectory, const Scene& scene
 }
 
 v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec) {
+  const Scene& scene = solution.scene ? *solution.scene : spec.scene;
   v1::SolveResult result;
   result.set_termination(EncodeTermination(solution.termination));
   result.set_message(solution.message);
-  if (solution.trajectory) *result.mutable_trajectory() = EncodeTrajectory(*solution.trajectory, spec.scene);
+  if (solution.trajectory) *result.mutable_trajectory() = EncodeTrajectory(*solution.trajectory, scene);
   if (solution.accuracy) {
-    *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, spec.scene.model);
+    *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model);
   }
   if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);
   result.set_objective(solution.objective);
@@ -169,7 +183,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   result.set_speed_m_s(solution.speed);
   result.set_step_length_m(solution.step_length);
   result.set_wall_time_s(solution.wall_time);
-  *result.mutable_model() = EncodeModel(spec.scene, spec.gravity.norm());
+  *result.mutable_model() = EncodeModel(scene, spec.gravity.norm());
   return result;
 }
 

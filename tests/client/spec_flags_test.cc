@@ -90,6 +90,29 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
   }
 }
 
+TEST(SpecFlagsTest, ManoeuvreFlagsReachTheirFields) {
+  const v1::SolveSpec spec =
+      Parse("--model ball --from 0.5,-1 --to -2,3,0,0,90 --duration 1.5 --mass 2 --semi-axes 0.3,0.2,0.1");
+  EXPECT_EQ(spec.manoeuvre().start().x_m(), 0.5);
+  EXPECT_EQ(spec.manoeuvre().start().y_m(), -1);
+  EXPECT_FALSE(spec.manoeuvre().start().has_orientation());
+  const v1::Manoeuvre::State& end = spec.manoeuvre().end();
+  EXPECT_EQ(end.x_m(), -2);
+  EXPECT_EQ(end.y_m(), 3);
+  EXPECT_NEAR(end.orientation().w(), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(end.orientation().z(), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(end.orientation().x(), 0);
+  EXPECT_EQ(spec.manoeuvre().duration_s(), 1.5);
+  EXPECT_EQ(spec.model().rolling_body().mass_kg(), 2);
+  EXPECT_FALSE(spec.model().has_body_mass_kg());
+  EXPECT_EQ(spec.model().rolling_body().semi_axes_m().x(), 0.3);
+  EXPECT_EQ(spec.model().rolling_body().semi_axes_m().z(), 0.1);
+  EXPECT_EQ(Parse("--to 1,2,0,0,0").manoeuvre().end().orientation().w(), 1);
+  for (const char* const line : {"--to 1", "--to 1,2,", "--to 1,2,3", "--to a,b", "--from 1,2x", "--semi-axes 1,2"}) {
+    EXPECT_THROW(Parse(line), Failure) << line;
+  }
+}
+
 TEST(SpecFlagsTest, OutOfRangeNumbersArePassedOn) {
   EXPECT_TRUE(std::isnan(Parse("--speed nan").motion().speed_m_s()));
   EXPECT_NEAR(Parse("--slope 80").slope_rad(), 80 * M_PI / 180, 1e-15);

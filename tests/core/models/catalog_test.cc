@@ -83,7 +83,8 @@ TEST(CatalogTest, MassMatrixIsThatOfInverseDynamicsAndMirrors) {
     const MatrixX mass = mass_matrix(q);
     EXPECT_EQ(mass.llt().info(), Eigen::Success);
     EXPECT_TRUE(MatrixNear(mass_matrix(mirrored), exchange * mass * exchange.transpose(), 1e-12));
-    EXPECT_GT((mass_matrix(mirrored) - mass).norm(), 0.1);
+    // A ball looks the same from both sides.
+    EXPECT_TRUE(entry.name == "ball" || (mass_matrix(mirrored) - mass).norm() > 0.1) << entry.name;
   }
 }
 

@@ -156,6 +156,34 @@ TEST(DecodeRequest, PresetStartsAndDutyFactorArrive) {
   EXPECT_FALSE(DecodeRequest(Parse("")).value().preset);
 }
 
+TEST(DecodeRequest, ManoeuvreArrivesWithItsOwnDefaults) {
+  const GaitRequest request = DecodeRequest(Parse(R"(
+      model { name: 'ball' rolling_body { semi_axes_m { x: 0.3 y: 0.2 z: 0.1 } mass_kg: 4 moments_kg_m2 { x: 5 y: 6 z: 7 } } }
+      manoeuvre { start { x_m: 0.1 y_m: 0.2 orientation { w: 0.3 x: 0.4 y: 0.5 z: 0.6 } }
+                  end { y_m: 0.7 angular_velocity_rad_s { x: 0.8 y: 0.9 z: 1.1 } } duration_s: 1.2 })"))
+                                  .value();
+  EXPECT_EQ(*request.body.rolling_body->semi_axes, Vector3(0.3, 0.2, 0.1));
+  EXPECT_EQ(request.body.rolling_body->mass, 4);
+  EXPECT_EQ(*request.body.rolling_body->moments, Vector3(5, 6, 7));
+  ASSERT_TRUE(request.manoeuvre);
+  EXPECT_EQ(request.manoeuvre->start.x, 0.1);
+  EXPECT_EQ(request.manoeuvre->start.y, 0.2);
+  EXPECT_EQ(*request.manoeuvre->start.orientation, Eigen::Vector4d(0.3, 0.4, 0.5, 0.6));
+  EXPECT_FALSE(request.manoeuvre->end.x);
+  EXPECT_EQ(request.manoeuvre->end.y, 0.7);
+  EXPECT_FALSE(request.manoeuvre->end.orientation);
+  EXPECT_EQ(request.manoeuvre->end.angular_velocity, Vector3(0.8, 0.9, 1.1));
+  EXPECT_EQ(request.manoeuvre->duration, 1.2);
+  EXPECT_EQ(request.cycle, Cycle::kOnce);
+  EXPECT_EQ(request.normalization, GaitRequest::Normalization::kNone);
+}
+
+TEST(DecodeSpec, AcceptsTheSmallestManoeuvre) {
+  const Result<GaitSpec> spec = DecodeSpec(Parse("model { name: 'ball' } manoeuvre { end { x_m: 1 } duration_s: 2 }"));
+  ASSERT_TRUE(spec.ok()) << spec.violations()[0].field << ": " << spec.violations()[0].message;
+  EXPECT_EQ(spec.value().manoeuvre->end.x, 1);
+}
+
 TEST(DecodeRequest, PhasesThatAreSetAndEmptyAreNotTheDefault) {
   const GaitRequest request = DecodeRequest(Parse("phases {}")).value();
   ASSERT_TRUE(request.phases);
