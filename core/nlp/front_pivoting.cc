@@ -48,8 +48,16 @@ class Elimination {
     p_.updated[c] = found_.count;
   }
 
+  // Columns that have seen equally many pivots go together.
   void UpdateAll() {
-    for (int c = found_.count; c < p_.columns; ++c) Update(c);
+    for (int c = found_.count, end; c < p_.columns; c = end) {
+      const int first = p_.updated[c];
+      for (end = c + 1; end < p_.columns && p_.updated[end] == first;) ++end;
+      SubtractProductMatrix(p_.l + static_cast<size_t>(first) * p_.rows + found_.count, p_.rows,
+                            p_.ld + static_cast<size_t>(first) * p_.rows + c, p_.rows, found_.count - first,
+                            p_.rows - found_.count, end - c, Column(c) + found_.count, p_.rows);
+      std::fill(p_.updated + c, p_.updated + end, found_.count);
+    }
     flushed_ = found_.count;
   }
 

@@ -188,11 +188,8 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 
 void FrontalLdlt::UpdateSchur(Front* front) {
   const int order = front->rows - front->columns;
-  for (int j = 0; j < order; ++j) {
-    const int row = front->columns + j;
-    SubtractProducts(front->panel.data() + row, front->rows, scaled_.data() + row, front->rows, front->pivots,
-                     order - j, front->schur.data() + static_cast<size_t>(j) * order + j);
-  }
+  SubtractProductTriangle(front->panel.data() + front->columns, front->rows, scaled_.data() + front->columns, front->rows,
+                          front->pivots, order, front->schur.data(), order);
 }
 
 void FrontalLdlt::Solve(double* x) {
@@ -203,8 +200,9 @@ void FrontalLdlt::Solve(double* x) {
     for (int k = 0; k < pivots; ++k) {
       const double* column = front.panel.data() + static_cast<size_t>(k) * rows;
       const double value = y[k];
-      for (int i = k + 1; i < rows; ++i) y[i] -= column[i] * value;
+      for (int i = k + 1; i < pivots; ++i) y[i] -= column[i] * value;
     }
+    SubtractProducts(front.panel.data() + pivots, rows, y, 1, pivots, rows - pivots, y + pivots);
     for (int i = pivots; i < rows; ++i) x[front.unknowns[i]] += y[i];
     for (int k = 0; k < pivots; ++k) {
       double* value = y + k;
@@ -225,11 +223,10 @@ void FrontalLdlt::Solve(double* x) {
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const int pivots = front->pivots, rows = front->rows;
     for (int i = 0; i < rows; ++i) y[i] = x[front->unknowns[i]];
+    SubtractTransposedProduct(front->panel.data() + pivots, rows, pivots, rows - pivots, y + pivots, y);
     for (int k = pivots - 1; k >= 0; --k) {
       const double* column = front->panel.data() + static_cast<size_t>(k) * rows;
-      double sum = 0;
-      for (int i = k + 1; i < rows; ++i) sum += column[i] * y[i];
-      y[k] -= sum;
+      SubtractTransposedProduct(column + k + 1, rows, 1, pivots - k - 1, y + k + 1, y + k);
     }
     for (int k = 0; k < pivots; ++k) x[front->unknowns[k]] = y[k];
   }

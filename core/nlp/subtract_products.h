@@ -3,11 +3,21 @@
 
 namespace rollgait {
 
-// The inner loop of dense elimination:
-// y (n) −= Σ_k l_k w_k for `count` columns l_k (each `l_stride` after the last one) and numbers w_k (`w_stride` apart).
-// Columns whose number is zero are passed over. Runs with AVX2 and FMA where the processor has them, so the last bits of a result
-// depend on the kind of processor.
+// The inner loops of dense elimination. Matrices are column-major; `stride` is the distance between columns. All run with AVX2 and
+// FMA where the processor has them, so the last bits of a result depend on the kind of processor.
+
+// y (n) −= Σ_k l_k w_k for `count` columns l_k and numbers w_k (`w_stride` apart). Columns whose number is zero are passed over.
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y);
+
+// Y (n × columns) −= L (n × count) W (columns × count)ᵀ.
+void SubtractProductMatrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,
+                           double* y, int y_stride);
+// The lower triangle of the same with n = columns; the upper one is left undefined.
+void SubtractProductTriangle(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y,
+                             int y_stride);
+
+// y (count) −= Lᵀ x for L (n × count), x (n).
+void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, const double* x, double* y);
 
 }  // namespace rollgait
 
