@@ -13,6 +13,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using VectorX = Eigen::VectorXd;
 using MatrixX = Eigen::MatrixXd;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

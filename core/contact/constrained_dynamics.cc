@@ -1,11 +1,13 @@
 #include "core/contact/constrained_dynamics.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
 #include "core/base/check.h"
 #include "core/math/dense_solve.h"
+#include "core/math/subtract_products.h"
 
 namespace rollgait {
 namespace {
@@ -15,6 +17,9 @@ constexpr double kRankTolerance = 1e-10;
 // Forces of dependent rows that cancel up to this share of their size move the tree alike: bodies that slide side by
 // side turn a little in trial steps. Forces that really differ are of order 1.
 constexpr double kSameMotion = 1e-3;
+
+// The next multiple of four.
+int RoundUp(int columns) { return (columns + 3) & ~3; }
 
 }  // namespace
 
@@ -56,14 +61,23 @@ void ConstrainedSolver::Factorise() {
   }
 }
 
+void ConstrainedSolver::FactoriseMass(const MatrixX& mass) {
+  if (!tree_ && factor_.size() != mass.rows()) factor_ = TreeFactor::Dense(static_cast<int>(mass.rows()));
+  factor_.Factorise(mass);
+}
+
 void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian,
                               const VectorX& right_side, ConstrainedSolution* solution) {
-  const int m = static_cast<int>(jacobian.rows());
-  ROLLGAIT_CHECK(jacobian.cols() == mass.cols() && force.size() == mass.rows() && right_side.size() == m);
-  cholesky_.compute(mass);
-  // In y = Lᵀ a:  y = L⁻¹ f + A λ  with A = L⁻¹ Jᵀ, and the constraint is  Aᵀ y = r.
-  free_ = force;
-  cholesky_.matrixL().solveInPlace(free_);
+  const int n = static_cast<int>(mass.rows()), m = static_cast<int>(jacobian.rows());
+  ROLLGAIT_CHECK(jacobian.cols() == n && force.size() == n && right_side.size() == m);
+  FactoriseMass(mass);
+  // In y = L a:  y = L⁻ᵀ f + A λ  with A = L⁻ᵀ Jᵀ, and the constraint is  Aᵀ y = r.
+  const int width = RoundUp(m + 1);
+  columns_.setZero(n, width);
+  columns_.leftCols(m) = jacobian.transpose();
+  columns_.col(m) = force;
+  factor_.SolveTransposed(columns_.data(), width, width);
+  free_ = columns_.col(m);
   solution->rank = 0;
   solution->determined = true;
   solution->redundant = false;
@@ -71,13 +85,13 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   solution->forces.resize(m);
   if (m == 0) {
     pivots_.clear();
-    q_.resize(mass.rows(), 0);
+    rank_ = 0;
+    q_.resize(n, 0);
     solution->acceleration = free_;
-    cholesky_.matrixU().solveInPlace(solution->acceleration);
+    factor_.Solve(solution->acceleration.data(), 1, 1);
     return;
   }
-  a_ = jacobian.transpose();
-  cholesky_.matrixL().solveInPlace(a_);
+  a_ = columns_.leftCols(m);
   right_ = right_side;
   right_.noalias() -= a_.transpose() * free_;
   scale_.resize(m);
@@ -89,7 +103,7 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   }
   Factorise();
 
-  // A P = Q R. With y = L⁻¹ f + Q z:  Rᵀ z = right side, of which the first `rank` rows decide.
+  // A P = Q R. With y = L⁻ᵀ f + Q z:  Rᵀ z = right side, of which the first `rank` rows decide.
   z_.resize(rank_);
   for (int i = 0; i < rank_; ++i) {
     double sum = right_[pivots_[i]];
@@ -98,13 +112,15 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   }
   if (rank_ > 0) free_.noalias() += q_.leftCols(rank_) * z_;
   solution->acceleration = free_;
-  cholesky_.matrixU().solveInPlace(solution->acceleration);
+  factor_.Solve(solution->acceleration.data(), 1, 1);
 
   // Forces: R λ = z, square if no row is redundant, else its solution of least norm λ = Rᵀ (R Rᵀ)⁻¹ z.
   forces_.setZero(m);
   if (rank_ < m && rank_ > 0) {
     gram_.noalias() = r_.topRows(rank_) * r_.topRows(rank_).transpose();
-    forces_.noalias() = r_.topRows(rank_).transpose() * gram_.llt().solve(z_);
+    least_norm_.compute(gram_);
+    least_norm_.solveInPlace(z_);
+    forces_.noalias() = r_.topRows(rank_).transpose() * z_;
   } else if (rank_ == m) {
     for (int i = m - 1; i >= 0; --i) {
       double sum = z_[i];
@@ -126,15 +142,18 @@ void ConstrainedSolver::SolveSliding(const MatrixX& mass, const VectorX& force, 
                                      ConstrainedSolution* solution) {
   const int m = static_cast<int>(jacobian.rows());
   ROLLGAIT_CHECK(m > 0 && force_jacobian.rows() == m && right_side.size() == m);
-  cholesky_.compute(mass);
-  free_ = force;
-  cholesky_.matrixL().solveInPlace(free_);
-  a_ = jacobian.transpose();
-  cholesky_.matrixL().solveInPlace(a_);
-  q_ = force_jacobian.transpose();
-  cholesky_.matrixL().solveInPlace(q_);
+  FactoriseMass(mass);
+  const int width = RoundUp(2 * m + 1);
+  columns_.setZero(mass.rows(), width);
+  columns_.leftCols(m) = jacobian.transpose();
+  columns_.middleCols(m, m) = force_jacobian.transpose();
+  columns_.col(2 * m) = force;
+  factor_.SolveTransposed(columns_.data(), width, width);
+  a_ = columns_.leftCols(m);
+  q_ = columns_.middleCols(m, m);
+  free_ = columns_.col(2 * m);
   scale_.resize(m);
-  // (D AᵀB D) μ = D (r − Aᵀ L⁻¹ f),  λ = D μ,  with B = L⁻¹ Fᵀ and D = 1 / |columns of A|.
+  // (D AᵀB D) μ = D (r − Aᵀ L⁻ᵀ f),  λ = D μ,  with B = L⁻ᵀ Fᵀ and D = 1 / |columns of A|.
   right_ = right_side;
   right_.noalias() -= a_.transpose() * free_;
   for (int j = 0; j < m; ++j) {
@@ -152,44 +171,56 @@ void ConstrainedSolver::SolveSliding(const MatrixX& mass, const VectorX& force, 
   if (solution->redundant && !((q_ * forces.null_space).norm() <= kSameMotion)) solution->determined = false;
   solution->forces = scale_.cwiseProduct(forces.x);
   solution->acceleration = free_ + q_ * forces.x;
-  cholesky_.matrixU().solveInPlace(solution->acceleration);
+  factor_.Solve(solution->acceleration.data(), 1, 1);
   solution->residual = (jacobian * solution->acceleration - right_side).cwiseAbs().maxCoeff();
   if (!solution->determined) solution->acceleration.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
-void ConstrainedSolver::Response(ConstrainedResponse* response) {
-  const int n = static_cast<int>(cholesky_.rows()), m = static_cast<int>(pivots_.size());
-  const int rank = m == 0 ? 0 : rank_;
-  // a = M⁻¹ f − B Bᵀ f + B G r and λ = H (G r − Bᵀ f) with B = L⁻ᵀ Q, z = G r − …, λ = H z.
-  response->acceleration_force.setIdentity(n, n);
-  cholesky_.solveInPlace(response->acceleration_force);
-  basis_ = q_.leftCols(rank);
-  cholesky_.matrixU().solveInPlace(basis_);
-  from_right_.setZero(rank, m);
-  to_forces_.setZero(m, rank);
-  if (rank > 0) {
-    for (int i = 0; i < rank; ++i) from_right_(i, pivots_[i]) = scale_[pivots_[i]];
-    const auto square = r_.topLeftCorner(rank, rank);
-    square.transpose().triangularView<Eigen::Lower>().solveInPlace(from_right_);
-    MatrixX& inverse = gram_;
-    if (rank == m) {
-      inverse.setIdentity(m, m);
-      square.triangularView<Eigen::Upper>().solveInPlace(inverse);
-    } else {
-      const MatrixX products = r_.topRows(rank) * r_.topRows(rank).transpose();
-      inverse = r_.topRows(rank).transpose() * products.llt().solve(MatrixX::Identity(rank, rank));
-    }
-    for (int i = 0; i < m; ++i) to_forces_.row(pivots_[i]) = scale_[pivots_[i]] * inverse.row(i);
+void ConstrainedSolver::Differentiate(RowMajorMatrix* acceleration, RowMajorMatrix* forces) {
+  const int n = factor_.size(), m = static_cast<int>(pivots_.size()), k = static_cast<int>(acceleration->cols());
+  ROLLGAIT_CHECK(acceleration->rows() == n && forces->rows() == m && forces->cols() == k);
+  // As in Solve:  dy = L⁻ᵀ df + Q t,  t = R₁⁻ᵀ dr − Qᵀ L⁻ᵀ df  with R₁ the columns of R that were chosen,  R dλ = t.
+  factor_.SolveTransposed(acceleration->data(), k, k);
+  chosen_.resize(rank_, k);
+  for (int i = 0; i < rank_; ++i) {
+    chosen_.row(i) = scale_[pivots_[i]] * forces->row(pivots_[i]);
+    SubtractProducts(chosen_.data(), k, r_.col(i).data(), 1, i, k, chosen_.row(i).data());
+    chosen_.row(i) *= 1 / r_(i, i);
   }
-  response->acceleration_force.noalias() -= basis_ * basis_.transpose();
-  response->acceleration_right.noalias() = basis_ * from_right_;
-  response->forces_force.noalias() = -to_forces_ * basis_.transpose();
-  response->forces_right.noalias() = to_forces_ * from_right_;
+  for (int i = 0; i < rank_; ++i) {
+    SubtractProducts(acceleration->data(), k, q_.col(i).data(), 1, n, k, chosen_.row(i).data());
+  }
+  chosen_ = -chosen_;
+  for (int j = 0; j < n; ++j) {
+    SubtractProducts(chosen_.data(), k, q_.data() + j, n, rank_, k, acceleration->row(j).data());
+  }
+  factor_.Solve(acceleration->data(), k, k);
+  if (rank_ < m) {
+    if (rank_ > 0) least_norm_.solveInPlace(chosen_);
+    forces->setZero();
+    for (int i = 0; i < m; ++i) {
+      const int row = pivots_[i];
+      SubtractProducts(chosen_.data(), k, r_.col(i).data(), 1, rank_, k, forces->row(row).data());
+      forces->row(row) *= scale_[row];
+    }
+    return;
+  }
+  for (int i = m - 1; i >= 0; --i) {
+    // −λ in chosen_, unscaled.
+    SubtractProducts(chosen_.data() + static_cast<ptrdiff_t>(i + 1) * k, k, r_.data() + i + (i + 1) * m, m, m - 1 - i, k,
+                     chosen_.row(i).data());
+    chosen_.row(i) *= 1 / r_(i, i);
+    forces->row(pivots_[i]) = -scale_[pivots_[i]] * chosen_.row(i);
+  }
 }
 
 ConstrainedDynamics::ConstrainedDynamics(const BodyDynamics& dynamics, std::vector<ContactSurface> surfaces,
                                          Baumgarte baumgarte)
-    : dynamics_(dynamics), surfaces_(std::move(surfaces)), baumgarte_(baumgarte), contacts_(surfaces_.size()) {
+    : dynamics_(dynamics),
+      surfaces_(std::move(surfaces)),
+      baumgarte_(baumgarte),
+      contacts_(surfaces_.size()),
+      solver_(dynamics.model().ColumnParents()) {
   int rows = 0;
   for (const ContactSurface& surface : surfaces_) {
     first_row_.push_back(rows);

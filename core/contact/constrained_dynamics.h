@@ -9,6 +9,7 @@
 #include "core/contact/contact_surface.h"
 #include "core/contact/rolling_kinematics.h"
 #include "core/multibody/body_dynamics.h"
+#include "core/multibody/tree_factor.h"
 
 namespace rollgait {
 
@@ -26,18 +27,14 @@ struct ConstrainedSolution {
   bool determined = true;
 };
 
-// The inverse of that system's matrix: derivatives of a and λ by f and by r. If rows are redundant, r acts through the
-// rows that were chosen as independent, and λ is the one of least norm.
-struct ConstrainedResponse {
-  MatrixX acceleration_force;  // n × n
-  MatrixX acceleration_right;  // n × rows
-  MatrixX forces_force;        // rows × n
-  MatrixX forces_right;        // rows × rows
-};
-
-// Solves that system for one size of M. Allocates only when n or the number of rows grows.
+// Solves that system. Allocates only when n or the number of rows grows.
 class ConstrainedSolver {
  public:
+  // For any M.
+  ConstrainedSolver() = default;
+  // For the mass matrix of a tree (Model::ColumnParents), of which it uses that unrelated columns do not interact.
+  explicit ConstrainedSolver(const std::vector<int>& parents) : tree_(true), factor_(parents) {}
+
   // Contract: `mass` is symmetric positive definite, J has as many columns. J may have no rows.
   void Solve(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const VectorX& right_side,
              ConstrainedSolution* solution);
@@ -47,19 +44,25 @@ class ConstrainedSolver {
   // tree differently.
   void SolveSliding(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const MatrixX& force_jacobian,
                     const VectorX& right_side, ConstrainedSolution* solution);
-  // Of the last Solve.
-  void Response(ConstrainedResponse* response);
+  // What the last Solve's a and λ change by if f and r do: replaces changes df (n × k) by da and dr (rows × k) by dλ. If
+  // rows are redundant, r acts through the rows that were chosen as independent, and λ is the one of least norm. Fastest
+  // if k is a multiple of four.
+  void Differentiate(RowMajorMatrix* acceleration, RowMajorMatrix* forces);
 
  private:
-  // Orthonormal basis of the columns of A = L⁻¹ Jᵀ by pivoted Gram–Schmidt with reorthogonalisation.
+  void FactoriseMass(const MatrixX& mass);
+  // Orthonormal basis of the columns of A = L⁻ᵀ Jᵀ by pivoted Gram–Schmidt with reorthogonalisation.
   void Factorise();
 
-  Eigen::LLT<MatrixX> cholesky_;
+  bool tree_ = false;
+  TreeFactor factor_;        // M = Lᵀ L
+  RowMajorMatrix columns_;   // n × (rows, f, and zeros up to a multiple of four)
   MatrixX a_;                // n × rows, columns scaled to unit norm
   MatrixX q_;                // n × rank
   MatrixX r_;                // rank × rows, columns in the order of pivots_
   MatrixX gram_;
-  MatrixX basis_, from_right_, to_forces_;  // of Response
+  Eigen::LLT<MatrixX> least_norm_;  // of R Rᵀ, if rows are redundant
+  RowMajorMatrix chosen_;           // of Differentiate
   VectorX scale_, free_, right_, z_, forces_;
   std::vector<int> pivots_;
   int rank_ = 0;

@@ -29,6 +29,7 @@ ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeC
       sliding_(contacts_.size()),
       pairs_(contacts_.size()),
       kinematics_(contacts_.size()),
+      solver_(dynamics.model().ColumnParents()),
       forces_(contacts_.size(), Vector3::Zero()),
       spin_torques_(contacts_.size(), 0.0) {
   for (size_t k = 0; k < contacts_.size(); ++k) {
@@ -138,10 +139,10 @@ int ContactDynamics::WriteRows(int k, int row, MatrixX* jacobian) {
     jacobian->middleRows(row, 3) = linear_;
     row += 3;
   } else {
-    if (GripNow(k) == Grip::kRollingAlong) jacobian->row(row++) = Tangent(k).transpose() * linear_;
-    jacobian->row(row++) = n.transpose() * linear_;
+    if (GripNow(k) == Grip::kRollingAlong) jacobian->row(row++).noalias() = Tangent(k).transpose() * linear_;
+    jacobian->row(row++).noalias() = n.transpose() * linear_;
   }
-  if (contacts_[k].no_spin) jacobian->row(row++) = n.transpose() * angular_;
+  if (contacts_[k].no_spin) jacobian->row(row++).noalias() = n.transpose() * angular_;
   return row;
 }
 

@@ -60,8 +60,10 @@ class ContactDynamics {
   const ConstrainedSolution& Accelerate(const std::vector<int>& active, const VectorX& tau, const Vector3& gravity,
                                         const Baumgarte& baumgarte);
   const ConstrainedSolution& solution() const { return solution_; }
-  // The derivatives of that solution by what it was solved for. Contract: no active contact slides.
-  void Response(ConstrainedResponse* response) { solver_.Response(response); }
+  // The derivatives of that solution (ConstrainedSolver::Differentiate). Contract: no active contact slides.
+  void Differentiate(RowMajorMatrix* acceleration, RowMajorMatrix* forces) {
+    solver_.Differentiate(acceleration, forces);
+  }
   // Of the last Accelerate: force on body 1 (N, world), torque about the normal on body 1 (N m); zero if not active.
   Vector3 Force(int k) const { return forces_[k]; }
   double SpinTorque(int k) const { return spin_torques_[k]; }

@@ -22,14 +22,17 @@ const ContactSensitivity& ContactSensitivitySolver::Solve(const std::vector<int>
                                                           const Vector3& gravity, const Baumgarte& baumgarte) {
   ROLLGAIT_CHECK(!dynamics_.AnySlides(active));
   const ConstrainedSolution& solution = dynamics_.Accelerate(active, tau, gravity, baumgarte);
-  dynamics_.Response(&response_);
   const int nv = static_cast<int>(tau.size()), rows = static_cast<int>(solution.forces.size());
   result_.redundant = solution.redundant;
   result_.exists = true;
   motion_.Update(dynamics_.state(), dynamics_.velocity(), solution.acceleration, gravity);
-  motion_.InverseDynamics(&dynamics_q_, &dynamics_v_);
-  rows_q_.setZero(rows, nv);
-  rows_v_.setZero(rows, nv);
+  const int width = (3 * nv + 3) / 4 * 4;
+  dynamics_by_.resize(nv, width);
+  rows_by_.resize(rows, width);
+  for (int i = 0; i < nv; ++i) dynamics_by_.row(i).setZero();  // row by row: a long memset is slow to begin
+  for (int i = 0; i < rows; ++i) rows_by_.row(i).setZero();
+  motion_.InverseDynamics(dynamics_by_.leftCols(nv), dynamics_by_.middleCols(nv, nv));
+  dynamics_by_.middleCols(2 * nv, nv).diagonal().setConstant(-1);
   int row = 0;
   for (int k : active) {
     const TreeContact& contact = dynamics_.contact(k);
@@ -41,20 +44,18 @@ const ContactSensitivity& ContactSensitivitySolver::Solve(const std::vector<int>
     AddContact(contact, derivatives, row);
     row += count;
   }
-  result_.acceleration_tau = response_.acceleration_force;
-  result_.forces_tau = response_.forces_force;
-  const auto apply = [this](const MatrixX& force, const MatrixX& right, MatrixX* acceleration, MatrixX* forces) {
-    acceleration->noalias() = -response_.acceleration_force * force;
-    acceleration->noalias() -= response_.acceleration_right * right;
-    forces->noalias() = -response_.forces_force * force;
-    forces->noalias() -= response_.forces_right * right;
-  };
-  apply(dynamics_q_, rows_q_, &result_.acceleration_q, &result_.forces_q);
-  apply(dynamics_v_, rows_v_, &result_.acceleration_v, &result_.forces_v);
+  dynamics_.Differentiate(&dynamics_by_, &rows_by_);
+  result_.acceleration_q = -dynamics_by_.leftCols(nv);
+  result_.acceleration_v = -dynamics_by_.middleCols(nv, nv);
+  result_.acceleration_tau = -dynamics_by_.middleCols(2 * nv, nv);
+  result_.forces_q = -rows_by_.leftCols(nv);
+  result_.forces_v = -rows_by_.middleCols(nv, nv);
+  result_.forces_tau = -rows_by_.middleCols(2 * nv, nv);
   return result_;
 }
 
 void ContactSensitivitySolver::AddContact(const TreeContact& contact, const RowDerivatives& derivatives, int row) {
+  const int nv = static_cast<int>(dynamics_by_.rows());
   const int links[2] = {contact.link, contact.other_link};
   moving_.clear();
   static const std::vector<int> kNone;
@@ -73,9 +74,9 @@ void ContactSensitivitySolver::AddContact(const TreeContact& contact, const RowD
       acceleration_q.segment<6>(6 * side) << by_q.motion.a, by_q.motion.alpha;
       acceleration_v.segment<6>(6 * side) << by_v.motion.a, by_v.motion.alpha;
     }
-    rows_q_.col(m).segment(row, count).noalias() = derivatives.by_pose * pose + derivatives.by_twist * twist_q +
+    rows_by_.col(m).segment(row, count).noalias() = derivatives.by_pose * pose + derivatives.by_twist * twist_q +
                                                    derivatives.by_acceleration * acceleration_q;
-    rows_v_.col(m).segment(row, count).noalias() =
+    rows_by_.col(nv + m).segment(row, count).noalias() =
         derivatives.by_twist * twist_v + derivatives.by_acceleration * acceleration_v;
     // The generalised force S_k · W of a wrench W: W changes, and S_k turns with whatever moves it.
     const Vector12 change = derivatives.wrenches_by_pose * pose;
@@ -83,7 +84,7 @@ void ContactSensitivitySolver::AddContact(const TreeContact& contact, const RowD
       const Vector6 moved = change.segment<6>(6 * side), wrench = derivatives.wrenches.segment<6>(6 * side);
       const Vector6 turned = -CrossForce(motion_.column(m), wrench);  // (S_m × S_k) · W = −S_k · (S_m ×* W)
       for (int k : *paths[side]) {
-        dynamics_q_(k, m) -= motion_.column(k).dot(motion_.Moves(m, k) ? Vector6(moved + turned) : moved);
+        dynamics_by_(k, m) -= motion_.column(k).dot(motion_.Moves(m, k) ? Vector6(moved + turned) : moved);
       }
     }
   }

@@ -13,8 +13,8 @@ namespace rollgait {
 // Derivatives of ContactDynamics::Accelerate. Columns: tangent directions of q (nv, see configuration.h), v (nv), tau
 // (nv).
 struct ContactSensitivity {
-  MatrixX acceleration_q, acceleration_v, acceleration_tau;  // nv × nv
-  MatrixX forces_q, forces_v, forces_tau;                    // rows of the active contacts × nv, N or N m
+  RowMajorMatrix acceleration_q, acceleration_v, acceleration_tau;  // nv × nv
+  RowMajorMatrix forces_q, forces_v, forces_tau;                    // rows of the active contacts × nv, N or N m
   // True if rows depend on each other: then the derivatives of the accelerations hold along motions that keep the rows
   // consistent, and those of the forces are of the ones of least norm.
   bool redundant = false;
@@ -44,9 +44,10 @@ class ContactSensitivitySolver {
 
   ContactDynamics& dynamics_;
   MotionDerivatives motion_;
-  ConstrainedResponse response_;
   ContactSensitivity result_;
-  MatrixX dynamics_q_, dynamics_v_, rows_q_, rows_v_;  // of the residual
+  // Columns q, v, τ, zeros up to a multiple of four: of the residual, of its first nv rows and the contacts'; then of the
+  // solution, with the other sign.
+  RowMajorMatrix dynamics_by_, rows_by_;
   std::vector<int> moving_;
 };
 

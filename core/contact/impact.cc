@@ -14,7 +14,8 @@ constexpr double kRounding = 1e-10;
 
 class ImpactSolver {
  public:
-  explicit ImpactSolver(ContactDynamics* dynamics) : dynamics_(*dynamics) {}
+  explicit ImpactSolver(ContactDynamics* dynamics)
+      : dynamics_(*dynamics), solver_(dynamics->dynamics().model().ColumnParents()) {}
 
   Impact Solve(const std::vector<int>& held, const std::vector<int>& touching) {
     Impact impact;

@@ -66,7 +66,8 @@ Motion ToChild(const Motion& m, const BodyDynamics::Link& link) {
 
 }  // namespace
 
-BodyDynamics::BodyDynamics(const Model& model) : nq_(model.nq()), nv_(model.nv()), total_mass_(model.total_mass()) {
+BodyDynamics::BodyDynamics(const Model& model)
+    : model_(model), nq_(model.nq()), nv_(model.nv()), total_mass_(model.total_mass()) {
   for (int i = 0; i < model.size(); ++i) {
     const Joint& joint = model.joint(i);
     joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type), joint.axis,

@@ -53,6 +53,7 @@ class BodyDynamics {
   };
 
   explicit BodyDynamics(const Model& model);
+  const Model& model() const { return model_; }
 
   // Number of joints and links; the lengths of q and v are nq() and nv(), the same number in a tree without free joints.
   int size() const { return static_cast<int>(joints_.size()); }
@@ -107,6 +108,7 @@ class BodyDynamics {
   void NewtonEuler(const State& state, const VectorX* a, const Vector3& gravity, Workspace* workspace,
                    VectorX* tau) const;
 
+  Model model_;
   std::vector<JointData> joints_;
   int nq_ = 0, nv_ = 0;
   double total_mass_ = 0;

@@ -174,6 +174,16 @@ Model::Model(std::vector<Joint> joints) : joints_(std::move(joints)) {
   }
 }
 
+std::vector<int> Model::ColumnParents() const {
+  std::vector<int> parents;
+  for (int i = 0; i < size(); ++i) {
+    const int p = parent(i);
+    parents.push_back(p < 0 ? -1 : v_index(p) + VelocityCount(joint(p).type) - 1);
+    for (int c = 1; c < VelocityCount(joint(i).type); ++c) parents.push_back(v_index(i) + c - 1);
+  }
+  return parents;
+}
+
 int Model::Find(const std::string& name) const {
   for (int i = 0; i < size(); ++i) {
     if (joints_[i].name == name) return i;

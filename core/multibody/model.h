@@ -72,6 +72,9 @@ class Model {
   // True if one of the two is an ancestor of the other.
   bool Related(int a, int b) const { return IsAncestor(a, b) || IsAncestor(b, a); }
   double total_mass() const { return total_mass_; }
+  // For each column of v: the one before it on its path to the world, -1 if there is none. Columns of a joint follow each
+  // other.
+  std::vector<int> ColumnParents() const;
   // Index of a joint by name, -1 if there is none.
   int Find(const std::string& name) const;
 

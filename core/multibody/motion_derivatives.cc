@@ -85,9 +85,9 @@ void MotionDerivatives::Update(const BodyDynamics::State& state, const VectorX& 
   }
 }
 
-void MotionDerivatives::InverseDynamics(MatrixX* dq, MatrixX* dv) {
-  dq->setZero(model_.nv(), model_.nv());
-  dv->setZero(model_.nv(), model_.nv());
+void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Ref<RowMajorMatrix> dv) {
+  ROLLGAIT_CHECK(dq.rows() == model_.nv() && dq.cols() == model_.nv());
+  ROLLGAIT_CHECK(dv.rows() == model_.nv() && dv.cols() == model_.nv());
   for (int i = 0; i < model_.size(); ++i) {
     const Body& body = bodies_[static_cast<size_t>(i)];
     const std::vector<int>& path = paths_[static_cast<size_t>(i)];
@@ -99,8 +99,8 @@ void MotionDerivatives::InverseDynamics(MatrixX* dq, MatrixX* dv) {
       const Vector6 u = body.inertia * column.s, b = body.motion.ApplyTranspose(column.s);
       for (int m : path) {
         const Column& moving = columns_[static_cast<size_t>(m)];
-        (*dq)(k, m) = u.dot(moving.psi2) + b.dot(moving.psi);
-        (*dv)(k, m) = u.dot(moving.psi + moving.s_dot) + b.dot(moving.s);
+        dq(k, m) = u.dot(moving.psi2) + b.dot(moving.psi);
+        dv(k, m) = u.dot(moving.psi + moving.s_dot) + b.dot(moving.s);
       }
       // Column k in the rows before, which stand still.
       const Vector6 by_q =
@@ -108,8 +108,8 @@ void MotionDerivatives::InverseDynamics(MatrixX* dq, MatrixX* dv) {
       const Vector6 by_v = body.inertia * (column.psi + column.s_dot) + body.motion.Apply(column.s);
       for (size_t j = 0; j < before; ++j) {
         const Vector6& s = columns_[static_cast<size_t>(path[j])].s;
-        (*dq)(path[j], k) = s.dot(by_q);
-        (*dv)(path[j], k) = s.dot(by_v);
+        dq(path[j], k) = s.dot(by_q);
+        dv(path[j], k) = s.dot(by_v);
       }
     }
   }

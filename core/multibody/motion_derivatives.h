@@ -24,8 +24,8 @@ class MotionDerivatives {
   // below refers to it.
   void Update(const BodyDynamics::State& state, const VectorX& v, const VectorX& a, const Vector3& gravity);
 
-  // ∂ID/∂q and ∂ID/∂v, nv × nv; resized.
-  void InverseDynamics(MatrixX* dq, MatrixX* dv);
+  // ∂ID/∂q and ∂ID/∂v, nv × nv, written where one of row and column moves the other, else not touched.
+  void InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Ref<RowMajorMatrix> dv);
 
   // How a point fixed to a link moves: velocity, acceleration (without gravity) and their changes along one column.
   struct PointMotion {

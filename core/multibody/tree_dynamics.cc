@@ -19,7 +19,8 @@ Matrix3 AxisRotation(const Vector3& axis, double angle) {
 
 }  // namespace
 
-TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()) {
+TreeDynamics::TreeDynamics(const Model& model)
+    : model_(&model), n_(model.size()), factor_(model.ColumnParents()) {
   ROLLGAIT_CHECK(!model.HasFreeJoint());  // q and v of one length: the optimal control stack's trees
   for (const Joint& joint : model.joints()) {
     JointData data;
@@ -48,7 +49,6 @@ TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()
   virtual_.assign(n_, VirtualComposite());
   moves_.assign(n_, 0);
   touched_ = moves_;
-  factor_ = RowMajorMatrix::Zero(n_, n_);
   scratch_ = VectorX::Zero(n_);
 }
 

@@ -5,10 +5,9 @@
 
 #include "core/multibody/model.h"
 #include "core/multibody/spatial.h"
+#include "core/multibody/tree_factor.h"
 
 namespace rollgait {
-
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ ID,
 // all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that. The
@@ -46,13 +45,6 @@ class TreeDynamics {
   // a (n) = M⁻¹ (τ − b(q, v)) for generalized forces τ (n). Moves the tree to (q, v, 0) and factorises its mass matrix.
   // Contract: M is positive definite.
   void ForwardDynamics(const double* q, const double* v, const double* tau, const Vector3& gravity, double* a);
-  // Factorises M = Lᵀ D L at the point of Update; SolveMass then replaces x (n) by M⁻¹ x.
-  // Source: Featherstone 2008, section 6.5: L has no entries where joints are unrelated.
-  void FactoriseMass();
-  void SolveMass(double* x) const;
-  // The same for every column of x (n rows).
-  void SolveMassRows(RowMajorMatrix& x) const;
-
   // World pose of link i and its twist, joint axes, spatial accelerations (gravity included as −g at the root).
   const Matrix3& rotation(int i) const { return rotation_[i]; }
   const Vector3& origin(int i) const { return origin_[i]; }
@@ -102,7 +94,7 @@ class TreeDynamics {
   std::vector<VirtualComposite> virtual_;
   std::vector<char> moves_, touched_;  // joints with a virtual velocity; joints of which a derivative may differ from zero
   Vector6 root_acceleration_ = Vector6::Zero();
-  RowMajorMatrix factor_;  // row i: L_ij of the ancestors j of i, and D_i
+  TreeFactor factor_;
   VectorX scratch_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/nlp/subtract_products.h"
+#include "core/math/subtract_products.h"
 
 namespace rollgait {
 namespace {

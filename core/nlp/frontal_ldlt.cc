@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/nlp/front_pivoting.h"
-#include "core/nlp/subtract_products.h"
+#include "core/math/subtract_products.h"
 
 namespace rollgait {
 

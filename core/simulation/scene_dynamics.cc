@@ -32,7 +32,8 @@ SceneDynamics::SceneDynamics(const SimulationScene& scene)
       contacts_(BodyDynamics(scene.model), TreeContacts(scene)),
       active_(ActiveAtTheStart(scene)),
       ground_(scene.ground.size()),
-      tau_(VectorX::Zero(nv_)) {}
+      tau_(VectorX::Zero(nv_)),
+      solver_(scene.model.ColumnParents()) {}
 
 VectorX SceneDynamics::MakeState(const VectorX& q, const VectorX& v, double work) const {
   VectorX x(size());

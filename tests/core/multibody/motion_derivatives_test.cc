@@ -58,8 +58,8 @@ TEST_P(MotionDerivativesTest, InverseDynamicsMeetsDifferences) {
   dynamics.ComputeState(q, v, &state);
   MotionDerivatives motion(model);
   motion.Update(state, v, a, kGravity);
-  MatrixX dq, dv;
-  motion.InverseDynamics(&dq, &dv);
+  RowMajorMatrix dq = RowMajorMatrix::Zero(nv, nv), dv = dq;
+  motion.InverseDynamics(dq, dv);
   for (int j = 0; j < nv; ++j) {
     const VectorX unit = VectorX::Unit(nv, j);
     const VectorX by_q = HighOrderDifference([&](double h) { return tau(Retract(model, q, h * unit), v); }, 1e-2);
@@ -115,8 +115,9 @@ TEST_P(MotionDerivativesTest, AgreesWithTreeDynamics) {
   dynamics.ComputeState(q, v, &state);
   MotionDerivatives motion(model);
   motion.Update(state, v, a, kGravity);
-  MatrixX dq, dv, expected_q = MatrixX::Zero(9, 9), expected_v = expected_q, mass = expected_q;
-  motion.InverseDynamics(&dq, &dv);
+  RowMajorMatrix dq = RowMajorMatrix::Zero(9, 9), dv = dq;
+  MatrixX expected_q = MatrixX::Zero(9, 9), expected_v = expected_q, mass = expected_q;
+  motion.InverseDynamics(dq, dv);
   TreeDynamics tree(model);
   tree.Update(q.data(), v.data(), a.data(), kGravity);
   tree.FirstDerivatives(expected_q, expected_v, mass);

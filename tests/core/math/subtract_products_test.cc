@@ -1,4 +1,4 @@
-#include "core/nlp/subtract_products.h"
+#include "core/math/subtract_products.h"
 
 #include <gtest/gtest.h>
 

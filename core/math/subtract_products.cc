@@ -1,4 +1,4 @@
-#include "core/nlp/subtract_products.h"
+#include "core/math/subtract_products.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,8 +30,9 @@ ROLLGAIT_INLINE void Subtract(const double* const* columns, const double* f, int
   }
 }
 
-ROLLGAIT_INLINE void ColumnKernel(const double* l, int l_stride, const double* w, int w_stride, int count, int n,
-                                  double* y) {
+// Columns places[k], or without places all from the first.
+ROLLGAIT_INLINE void ColumnKernel(const double* l, int l_stride, const int* places, const double* w, int w_stride,
+                                  int count, int n, double* y) {
   constexpr int kMost = 8;
   const double* columns[kMost];
   double factors[kMost];
@@ -39,7 +40,7 @@ ROLLGAIT_INLINE void ColumnKernel(const double* l, int l_stride, const double* w
   for (int k = 0; k < count; ++k) {
     const double factor = w[static_cast<size_t>(k) * w_stride];
     if (factor == 0) continue;
-    columns[used] = l + static_cast<size_t>(k) * l_stride;
+    columns[used] = l + static_cast<size_t>(places == nullptr ? k : places[k]) * l_stride;
     factors[used] = factor;
     if (++used < kMost) continue;
     Subtract<kMost>(columns, factors, n, y);
@@ -131,16 +132,17 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
 }
 
 struct Kernels {
-  decltype(&SubtractProducts) column;
+  void (*column)(const double*, int, const int*, const double*, int, int, int, double*);
   void (*matrix)(const double*, int, const double*, int, int, int, int, double*, int, int);
   decltype(&SubtractTransposedProduct) transposed;
 };
 
 // The three kernels for one instruction set.
 #define ROLLGAIT_KERNELS(NAME, TARGET)                                                                                    \
-  TARGET void NAME##Column(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y) {   \
-    ColumnKernel(l, l_stride, w, w_stride, count, n, y);                                                                  \
-  }                                                                                                                       \
+  TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride,             \
+                           int count, int n, double* y) {                                                               \
+    ColumnKernel(l, l_stride, places, w, w_stride, count, n, y);                                                        \
+  }                                                                                                                     \
   TARGET void NAME##Matrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,   \
                            double* y, int y_stride, int first_step) {                                                     \
     MatrixKernel(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step);                                   \
@@ -168,7 +170,11 @@ const Kernels& Chosen() {
 }  // namespace
 
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y) {
-  Chosen().column(l, l_stride, w, w_stride, count, n, y);
+  Chosen().column(l, l_stride, nullptr, w, w_stride, count, n, y);
+}
+
+void SubtractColumns(const double* l, int l_stride, const int* places, const double* w, int count, int n, double* y) {
+  Chosen().column(l, l_stride, places, w, 1, count, n, y);
 }
 
 void SubtractProductMatrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,

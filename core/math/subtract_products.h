@@ -1,5 +1,5 @@
-#ifndef ROLLGAIT_CORE_NLP_SUBTRACT_PRODUCTS_H_
-#define ROLLGAIT_CORE_NLP_SUBTRACT_PRODUCTS_H_
+#ifndef ROLLGAIT_CORE_MATH_SUBTRACT_PRODUCTS_H_
+#define ROLLGAIT_CORE_MATH_SUBTRACT_PRODUCTS_H_
 
 namespace rollgait {
 
@@ -8,6 +8,8 @@ namespace rollgait {
 
 // y (n) −= Σ_k l_k w_k for `count` columns l_k and numbers w_k (`w_stride` apart). Columns whose number is zero are passed over.
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y);
+// The inner loop of sparse elimination: the same with columns places[k] of l, numbers next to each other. y is none of them.
+void SubtractColumns(const double* l, int l_stride, const int* places, const double* w, int count, int n, double* y);
 
 // Y (n × columns) −= L (n × count) W (columns × count)ᵀ.
 void SubtractProductMatrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,
@@ -21,4 +23,4 @@ void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, 
 
 }  // namespace rollgait
 
-#endif  // ROLLGAIT_CORE_NLP_SUBTRACT_PRODUCTS_H_
+#endif  // ROLLGAIT_CORE_MATH_SUBTRACT_PRODUCTS_H_
