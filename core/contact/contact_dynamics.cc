@@ -10,7 +10,7 @@ namespace rollgait {
 namespace {
 
 // A link with its bias accelerations as classical ones.
-FrameMotion Motion(const BodyDynamics::Link& link) {
+FrameMotion Classical(const BodyDynamics::Link& link) {
   FrameMotion motion;
   motion.R_WB = link.R_WL;
   motion.p_WB = link.p_WL;
@@ -29,6 +29,9 @@ ContactDynamics::ContactDynamics(const BodyDynamics& dynamics, std::vector<TreeC
       sliding_(contacts_.size()),
       pairs_(contacts_.size()),
       kinematics_(contacts_.size()),
+      motion_(dynamics.model()),
+      mass_(MatrixX::Zero(dynamics.nv(), dynamics.nv())),
+      no_acceleration_(VectorX::Zero(dynamics.nv())),
       solver_(dynamics.model().ColumnParents()),
       forces_(contacts_.size(), Vector3::Zero()),
       spin_torques_(contacts_.size(), 0.0) {
@@ -89,9 +92,9 @@ void ContactDynamics::SetState(const VectorX& q, const VectorX& v, const std::ve
   velocity_ = v;
   ground_ = ground;
   links_.resize(state_.size());
-  for (size_t i = 0; i < state_.size(); ++i) links_[i] = Motion(state_[i]);
+  for (size_t i = 0; i < state_.size(); ++i) links_[i] = Classical(state_[i]);
   for (auto& kinematics : kinematics_) kinematics.reset();
-  mass_known_ = false;
+  motion_known_ = mass_known_ = false;
 }
 
 const PairKinematics& ContactDynamics::Kinematics(int k) {
@@ -120,8 +123,14 @@ void ContactDynamics::SlipJacobian(int k, MatrixX* linear, MatrixX* angular) {
   *linear = twist_.bottomRows(3);
 }
 
+MotionDerivatives& ContactDynamics::Motion() {
+  if (!motion_known_) motion_.SetState(state_);
+  motion_known_ = true;
+  return motion_;
+}
+
 const MatrixX& ContactDynamics::MassMatrix() {
-  if (!mass_known_) dynamics_.MassMatrix(state_, &workspace_, &mass_);
+  if (!mass_known_) Motion().MassMatrix(mass_);
   mass_known_ = true;
   return mass_;
 }
@@ -204,8 +213,9 @@ void ContactDynamics::VelocityRows(const std::vector<int>& active, MatrixX* jaco
 const ConstrainedSolution& ContactDynamics::Accelerate(const std::vector<int>& active, const VectorX& tau,
                                                        const Vector3& gravity, const Baumgarte& baumgarte) {
   AccelerationRows(active, baumgarte, &jacobian_, &right_);
-  dynamics_.BiasForce(state_, gravity, &workspace_, &bias_);
-  force_ = tau - bias_;
+  Motion().SetAcceleration(no_acceleration_, gravity);
+  motion_.InverseDynamics(&force_);
+  force_ = tau - force_;
   if (AnySlides(active)) {
     ForceRows(active, jacobian_, &force_jacobian_);
     solver_.SolveSliding(MassMatrix(), force_, jacobian_, force_jacobian_, right_, &solution_);

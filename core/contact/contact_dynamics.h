@@ -10,6 +10,7 @@
 #include "core/contact/surface_pair.h"
 #include "core/contact/tree_contact.h"
 #include "core/multibody/body_dynamics.h"
+#include "core/multibody/motion_derivatives.h"
 
 namespace rollgait {
 
@@ -54,6 +55,8 @@ class ContactDynamics {
   void SlipJacobian(int k, MatrixX* linear, MatrixX* angular);
   // M at the state.
   const MatrixX& MassMatrix();
+  // Of the state, and of the accelerations that its SetAcceleration was given last.
+  MotionDerivatives& Motion();
 
   // Accelerations and forces with these contacts active (ascending), generalized forces tau (nv) and gravity (m/s²,
   // world). Not finite where the surface of an active contact is flat. Valid until the next call.
@@ -96,14 +99,14 @@ class ContactDynamics {
   std::vector<FrameMotion> ground_, links_;
   VectorX velocity_;
   BodyDynamics::State state_;
-  BodyDynamics::Workspace workspace_;
   std::vector<std::optional<Sliding>> sliding_;
   std::vector<std::optional<SurfacePair>> pairs_;  // of contacts with another surface: each follows its normal in time
   std::vector<std::optional<PairKinematics>> kinematics_;
-  bool mass_known_ = false;
+  bool motion_known_ = false, mass_known_ = false;
+  MotionDerivatives motion_;
   MatrixX mass_, jacobian_, force_jacobian_, twist_;
   MatrixX linear_, angular_;
-  VectorX bias_, force_, right_;
+  VectorX no_acceleration_, force_, right_;
   ConstrainedSolver solver_;
   ConstrainedSolution solution_;
   std::vector<Vector3> forces_;

@@ -11,14 +11,15 @@ Vector6 Stack(const Vector3& angular, const Vector3& linear) {
   return both;
 }
 
-// A motion vector at the point p in world axes, moved to the world's origin.
+// A motion vector at the point p in world axes, moved to the origin of p.
 Vector6 FromPoint(const Vector3& p, const Vector3& angular, const Vector3& linear) {
   return Stack(angular, linear + p.cross(angular));
 }
 
-SpatialInertia WorldInertia(const Joint& joint, const BodyDynamics::Link& link) {
+// About the origin of p, the link's origin.
+SpatialInertia WorldInertia(const Joint& joint, const BodyDynamics::Link& link, const Vector3& p) {
   SpatialInertia inertia;
-  const Vector3 com = link.p_WL + link.R_WL * joint.center_of_mass;
+  const Vector3 com = p + link.R_WL * joint.center_of_mass;
   inertia.mass = joint.mass;
   inertia.moment = joint.mass * com;
   inertia.rotational.noalias() = link.R_WL * joint.inertia * link.R_WL.transpose();
@@ -41,51 +42,135 @@ MotionDerivatives::MotionDerivatives(const Model& model) : model_(model) {
       joint_of_.push_back(i);
     }
   }
+  // Of each tree the first link with mass: a chain of massless joints that carries a base may begin far away.
+  std::vector<int> roots(bodies_.size()), anchors(bodies_.size(), -1);
+  for (int i = 0; i < model.size(); ++i) {
+    bodies_[static_cast<size_t>(i)].massive = model.joint(i).mass > 0;
+    const int root = roots[static_cast<size_t>(i)] =
+        model.parent(i) < 0 ? i : roots[static_cast<size_t>(model.parent(i))];
+    int& anchor = anchors[static_cast<size_t>(root)];
+    if (anchor < 0 && model.joint(i).mass > 0) anchor = i;
+  }
+  for (size_t i = 0; i < bodies_.size(); ++i) bodies_[i].anchor = anchors[static_cast<size_t>(roots[i])];
 }
 
 void MotionDerivatives::Update(const BodyDynamics::State& state, const VectorX& v, const VectorX& a,
                                const Vector3& gravity) {
-  ROLLGAIT_CHECK(v.size() == model_.nv() && a.size() == model_.nv());
-  gravity_ = gravity;
-  const Vector6 root = Stack(Vector3::Zero(), -gravity);
+  ROLLGAIT_CHECK(v.size() == model_.nv());
+  SetState(state);
+  SetAcceleration(a, gravity);
+  UpdateDerivatives();
+}
+
+void MotionDerivatives::SetState(const BodyDynamics::State& state) {
+  ROLLGAIT_CHECK(state.size() == bodies_.size());
   for (int i = 0; i < model_.size(); ++i) {
     const Joint& joint = model_.joint(i);
     const BodyDynamics::Link& link = state[static_cast<size_t>(i)];
     Body& body = bodies_[static_cast<size_t>(i)];
-    const bool at_root = joint.parent < 0;
-    const Vector6 parent_twist = at_root ? Vector6(Vector6::Zero()) : bodies_[static_cast<size_t>(joint.parent)].twist;
-    const Vector6& parent_acceleration = at_root ? root : bodies_[static_cast<size_t>(joint.parent)].acceleration;
-    const Vector3& p = body.origin = link.p_WL;
+    body.reference = state[static_cast<size_t>(body.anchor)].p_WL;
+    const Vector3 p = body.origin = link.p_WL - body.reference;
     body.twist = FromPoint(p, link.R_WL * link.twist.angular, link.R_WL * link.twist.linear);
-    // A_k = A_p + Σ S a + V_p × (V_k − V_p)
-    body.acceleration = parent_acceleration + CrossMotion(parent_twist, body.twist);
+    if (joint.parent < 0) {
+      body.velocity_product.setZero();
+    } else {
+      body.velocity_product = CrossMotion(bodies_[static_cast<size_t>(joint.parent)].twist, body.twist);
+    }
     const int first = model_.v_index(i);
     for (int c = 0; c < VelocityCount(joint.type); ++c) {
-      Column& column = columns_[static_cast<size_t>(first + c)];
       const bool free = joint.type == JointType::kFree;
       const Vector3 direction = free ? Vector3(link.R_WL.col(c % 3)) : Vector3(link.R_WL * joint.axis);
       const bool turns = free ? c < 3 : joint.type == JointType::kRevolute;
-      column.s = turns ? FromPoint(p, direction, Vector3::Zero()) : Stack(Vector3::Zero(), direction);
-      column.psi = CrossMotion(parent_twist, column.s);
-      column.psi2 = CrossMotion(parent_acceleration, column.s) + CrossMotion(parent_twist, column.psi);
-      column.s_dot = CrossMotion(body.twist, column.s);
-      body.acceleration += column.s * a[first + c];
+      columns_[static_cast<size_t>(first + c)].s =
+          turns ? FromPoint(p, direction, Vector3::Zero()) : Stack(Vector3::Zero(), direction);
     }
-    body.inertia = WorldInertia(joint, link);
-    body.motion.Set(body.inertia, body.twist);
-    body.force = body.inertia * body.acceleration + CrossForce(body.twist, body.inertia * body.twist);
+    if (body.massive) {
+      body.own = WorldInertia(joint, link, p);
+      body.gyroscopic = CrossForce(body.twist, body.own * body.twist);
+    }
+    body.inertia = body.own;
   }
   for (int i = model_.size() - 1; i > 0; --i) {
     if (model_.parent(i) < 0) continue;
-    const Body& body = bodies_[static_cast<size_t>(i)];
-    Body& parent = bodies_[static_cast<size_t>(model_.parent(i))];
-    parent.inertia += body.inertia;
-    parent.motion += body.motion;
-    parent.force += body.force;
+    bodies_[static_cast<size_t>(model_.parent(i))].inertia += bodies_[static_cast<size_t>(i)].inertia;
   }
 }
 
-void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Ref<RowMajorMatrix> dv) {
+void MotionDerivatives::SetAcceleration(const VectorX& a, const Vector3& gravity) {
+  ROLLGAIT_CHECK(a.size() == model_.nv());
+  gravity_ = gravity;
+  for (int i = 0; i < model_.size(); ++i) {
+    const int parent = model_.parent(i);
+    Body& body = bodies_[static_cast<size_t>(i)];
+    // A_k = A_p + Σ S a + V_p × (V_k − V_p)
+    body.acceleration = body.velocity_product;
+    if (parent < 0) {
+      body.acceleration.tail<3>() -= gravity;
+    } else {
+      body.acceleration += bodies_[static_cast<size_t>(parent)].acceleration;
+    }
+    const int first = model_.v_index(i);
+    for (int c = first; c < first + VelocityCount(model_.joint(i).type); ++c) {
+      body.acceleration += columns_[static_cast<size_t>(c)].s * a[c];
+    }
+    if (body.massive) {
+      body.force = body.own * body.acceleration + body.gyroscopic;
+    } else {
+      body.force.setZero();
+    }
+  }
+  for (int i = model_.size() - 1; i > 0; --i) {
+    if (model_.parent(i) < 0) continue;
+    bodies_[static_cast<size_t>(model_.parent(i))].force += bodies_[static_cast<size_t>(i)].force;
+  }
+}
+
+void MotionDerivatives::UpdateDerivatives() {
+  const Vector6 root = Stack(Vector3::Zero(), -gravity_);
+  for (int i = 0; i < model_.size(); ++i) {
+    const int parent = model_.parent(i), first = model_.v_index(i);
+    Body& body = bodies_[static_cast<size_t>(i)];
+    const Vector6 parent_twist = parent < 0 ? Vector6(Vector6::Zero()) : bodies_[static_cast<size_t>(parent)].twist;
+    const Vector6& parent_acceleration = parent < 0 ? root : bodies_[static_cast<size_t>(parent)].acceleration;
+    for (int c = first; c < first + VelocityCount(model_.joint(i).type); ++c) {
+      Column& column = columns_[static_cast<size_t>(c)];
+      column.psi = CrossMotion(parent_twist, column.s);
+      column.psi2 = CrossMotion(parent_acceleration, column.s) + CrossMotion(parent_twist, column.psi);
+      column.rate = column.psi + CrossMotion(body.twist, column.s);
+    }
+    if (body.massive) {
+      body.motion.Set(body.own, body.twist);
+    } else {
+      body.motion = CompositeMotion();
+    }
+  }
+  for (int i = model_.size() - 1; i > 0; --i) {
+    if (model_.parent(i) < 0) continue;
+    bodies_[static_cast<size_t>(model_.parent(i))].motion += bodies_[static_cast<size_t>(i)].motion;
+  }
+}
+
+void MotionDerivatives::MassMatrix(Eigen::Ref<MatrixX> mass) const {
+  ROLLGAIT_CHECK(mass.rows() == model_.nv() && mass.cols() == model_.nv());
+  for (int k = 0; k < model_.nv(); ++k) {
+    const auto joint = static_cast<size_t>(joint_of_[static_cast<size_t>(k)]);
+    const Vector6 u = bodies_[joint].inertia * columns_[static_cast<size_t>(k)].s;
+    for (int m : paths_[joint]) {
+      if (m > k) break;
+      mass(m, k) = mass(k, m) = u.dot(columns_[static_cast<size_t>(m)].s);
+    }
+  }
+}
+
+void MotionDerivatives::InverseDynamics(VectorX* tau) const {
+  tau->resize(model_.nv());
+  for (int k = 0; k < model_.nv(); ++k) {
+    const auto joint = static_cast<size_t>(joint_of_[static_cast<size_t>(k)]);
+    (*tau)[k] = columns_[static_cast<size_t>(k)].s.dot(bodies_[joint].force);
+  }
+}
+
+void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Ref<RowMajorMatrix> dv) const {
   ROLLGAIT_CHECK(dq.rows() == model_.nv() && dq.cols() == model_.nv());
   ROLLGAIT_CHECK(dv.rows() == model_.nv() && dv.cols() == model_.nv());
   for (int i = 0; i < model_.size(); ++i) {
@@ -95,17 +180,20 @@ void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Re
     const size_t before = path.size() - static_cast<size_t>(count);  // columns of proper ancestors
     for (int k = first; k < first + count; ++k) {
       const Column& column = columns_[static_cast<size_t>(k)];
-      // Row k along what moves it: itself, its joint, the joints before.
-      const Vector6 u = body.inertia * column.s, b = body.motion.ApplyTranspose(column.s);
+      // Row k along what moves it: itself, its joint, the joints before. BᵀS has no linear part.
+      const Vector6 u = body.inertia * column.s;
+      const Vector3 b = body.motion.ApplyTranspose(column.s).head<3>();
+      double* const dq_row = &dq(k, 0);
+      double* const dv_row = &dv(k, 0);
       for (int m : path) {
         const Column& moving = columns_[static_cast<size_t>(m)];
-        dq(k, m) = u.dot(moving.psi2) + b.dot(moving.psi);
-        dv(k, m) = u.dot(moving.psi + moving.s_dot) + b.dot(moving.s);
+        dq_row[m] = u.dot(moving.psi2) + b.dot(moving.psi.head<3>());
+        dv_row[m] = u.dot(moving.rate) + b.dot(moving.s.head<3>());
       }
       // Column k in the rows before, which stand still.
       const Vector6 by_q =
           CrossForce(column.s, body.force) + body.inertia * column.psi2 + body.motion.Apply(column.psi);
-      const Vector6 by_v = body.inertia * (column.psi + column.s_dot) + body.motion.Apply(column.s);
+      const Vector6 by_v = body.inertia * column.rate + body.motion.Apply(column.s);
       for (size_t j = 0; j < before; ++j) {
         const Vector6& s = columns_[static_cast<size_t>(path[j])].s;
         dq(path[j], k) = s.dot(by_q);
@@ -151,7 +239,7 @@ MotionDerivatives::Change MotionDerivatives::AlongPosition(int link, int c) cons
 MotionDerivatives::Change MotionDerivatives::AlongVelocity(int link, int c) const {
   const Body& body = bodies_[static_cast<size_t>(link)];
   const Column& column = columns_[static_cast<size_t>(c)];
-  return AtOrigin(body, Vector6::Zero(), column.s, column.psi + column.s_dot - CrossMotion(body.twist, column.s));
+  return AtOrigin(body, Vector6::Zero(), column.s, column.rate - CrossMotion(body.twist, column.s));
 }
 
 }  // namespace rollgait
