@@ -152,12 +152,15 @@ void MotionDerivatives::UpdateDerivatives() {
 
 void MotionDerivatives::MassMatrix(Eigen::Ref<MatrixX> mass) const {
   ROLLGAIT_CHECK(mass.rows() == model_.nv() && mass.cols() == model_.nv());
+  const Eigen::Index stride = mass.outerStride();
   for (int k = 0; k < model_.nv(); ++k) {
     const auto joint = static_cast<size_t>(joint_of_[static_cast<size_t>(k)]);
     const Vector6 u = bodies_[joint].inertia * columns_[static_cast<size_t>(k)].s;
+    double* const column = mass.data() + k * stride;
+    double* const row = mass.data() + k;
     for (int m : paths_[joint]) {
       if (m > k) break;
-      mass(m, k) = mass(k, m) = u.dot(columns_[static_cast<size_t>(m)].s);
+      column[m] = row[m * stride] = u.dot(columns_[static_cast<size_t>(m)].s);
     }
   }
 }

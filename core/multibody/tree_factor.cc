@@ -69,12 +69,36 @@ void TreeFactor::Factorise() {
       by_column_[static_cast<size_t>(place_[static_cast<size_t>(begin + k)])] = factor;
       // The path of a column on the path is the beginning of it.
       double* const __restrict changed = row(path_[static_cast<size_t>(begin + k)]);
-      for (int j = 0; j <= k; ++j) changed[j] -= factor * pivot[j];
+      int j = 0;
+      for (; j < k; j += 2) {  // by two, of k + 1: rows are short
+        changed[j] -= factor * pivot[j];
+        changed[j + 1] -= factor * pivot[j + 1];
+      }
+      if (j == k) changed[j] -= factor * pivot[j];
+    }
+  }
+}
+
+// Few columns: y_b −= L_cb y_c for all b on the path of c, in place of sums over what is beyond b.
+template <int kColumns>
+void TreeFactor::SolveTransposedFew(double* x, int stride) const {
+  using Row = Eigen::Array<double, 1, kColumns>;
+  for (int c = size() - 1; c >= 0; --c) {
+    const int begin = first_[static_cast<size_t>(c)], end = first_[static_cast<size_t>(c) + 1] - 1;
+    const double* const l = entries_.data();
+    Eigen::Map<Row> given(x + static_cast<ptrdiff_t>(c) * stride);
+    const Row solved = given * inverse_[static_cast<size_t>(c)];
+    given = solved;
+    for (int k = begin; k < end; ++k) {
+      Eigen::Map<Row>(x + static_cast<ptrdiff_t>(path_[static_cast<size_t>(k)]) * stride) -= l[k] * solved;
     }
   }
 }
 
 void TreeFactor::SolveTransposed(double* x, int stride, int columns) const {
+  if (columns == 1) return SolveTransposedFew<1>(x, stride);
+  if (columns == 4) return SolveTransposedFew<4>(x, stride);
+  if (columns == 8) return SolveTransposedFew<8>(x, stride);
   for (int c = size() - 1; c >= 0; --c) {
     const auto begin = static_cast<size_t>(first_beyond_[static_cast<size_t>(c)]);
     const int count = first_beyond_[static_cast<size_t>(c) + 1] - static_cast<int>(begin);
@@ -85,7 +109,19 @@ void TreeFactor::SolveTransposed(double* x, int stride, int columns) const {
   }
 }
 
+void TreeFactor::SolveOne(double* x, int stride) const {
+  for (int c = 0; c < size(); ++c) {
+    const int begin = first_[static_cast<size_t>(c)], end = first_[static_cast<size_t>(c) + 1] - 1;
+    double sum = x[static_cast<ptrdiff_t>(c) * stride];
+    for (int k = begin; k < end; ++k) {
+      sum -= entries_[static_cast<size_t>(k)] * x[static_cast<ptrdiff_t>(path_[static_cast<size_t>(k)]) * stride];
+    }
+    x[static_cast<ptrdiff_t>(c) * stride] = sum * inverse_[static_cast<size_t>(c)];
+  }
+}
+
 void TreeFactor::Solve(double* x, int stride, int columns) const {
+  if (columns == 1) return SolveOne(x, stride);
   for (int c = 0; c < size(); ++c) {
     const auto begin = static_cast<size_t>(first_[static_cast<size_t>(c)]);
     double* const y = x + static_cast<ptrdiff_t>(c) * stride;

@@ -32,6 +32,10 @@ class TreeFactor {
   void Solve(double* x, int stride, int columns) const;
 
  private:
+  template <int kColumns>
+  void SolveTransposedFew(double* x, int stride) const;
+  void SolveOne(double* x, int stride) const;
+
   std::vector<int> path_, first_;             // columns of the path to c: path_[first_[c] … first_[c + 1])
   std::vector<int> beyond_, first_beyond_;    // columns beyond c (c on their path), likewise
   std::vector<int> place_;                    // of an entry below the diagonal in by_column_
