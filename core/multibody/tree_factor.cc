@@ -103,7 +103,8 @@ void TreeFactor::SolveTransposed(double* x, int stride, int columns) const {
     const auto begin = static_cast<size_t>(first_beyond_[static_cast<size_t>(c)]);
     const int count = first_beyond_[static_cast<size_t>(c) + 1] - static_cast<int>(begin);
     double* const y = x + static_cast<ptrdiff_t>(c) * stride;
-    SubtractRows(x, stride, beyond_.data() + begin, by_column_.data() + begin, count, columns, y);
+    // Rows of x are columns to the kernel.
+    SubtractColumns(x, stride, beyond_.data() + begin, by_column_.data() + begin, count, columns, y);
     const double inverse = inverse_[static_cast<size_t>(c)];
     for (int k = 0; k < columns; ++k) y[k] *= inverse;
   }
@@ -125,7 +126,7 @@ void TreeFactor::Solve(double* x, int stride, int columns) const {
   for (int c = 0; c < size(); ++c) {
     const auto begin = static_cast<size_t>(first_[static_cast<size_t>(c)]);
     double* const y = x + static_cast<ptrdiff_t>(c) * stride;
-    SubtractRows(x, stride, path_.data() + begin, entries_.data() + begin, path_length(c) - 1, columns, y);
+    SubtractColumns(x, stride, path_.data() + begin, entries_.data() + begin, path_length(c) - 1, columns, y);
     const double inverse = inverse_[static_cast<size_t>(c)];
     for (int k = 0; k < columns; ++k) y[k] *= inverse;
   }
