@@ -35,6 +35,7 @@ std::vector<std::string> Labels(const std::vector<v1::Solve>& solves) {
   };
   if (ambiguous()) {
     for (size_t i = 0; i < solves.size(); ++i) {
+      if (solves[i].spec().has_manoeuvre()) continue;  // from rest to rest: no speed tells it from others
       labels[i] += ", " + FormatNumber(solves[i].result().speed_m_s(), 3) + " m/s";
     }
   }
