@@ -98,7 +98,7 @@ TEST(LowestPointTest, IsTheLowestPoint) {
   const std::vector<Pose> poses = LinkPoses(model, {0.1, 0.2, 0.3, 0.7, -0.5, 1.1});
   const Eigen::Vector3d lowest = LowestPoint(model.contacts(0), poses);
   double least = 1e9;
-  Eigen::Vector3d found;
+  Eigen::Vector3d found = Eigen::Vector3d::Zero();
   for (int i = 0; i <= 400; ++i) {
     for (int j = 0; j < 800; ++j) {
       const double polar = M_PI * i / 400, around = M_PI * j / 400;
