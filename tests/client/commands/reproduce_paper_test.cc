@@ -90,7 +90,9 @@ TEST_F(ReproducePaperTest, WithoutASolutionThePageSaysSo) {
   ClientProcess client(Arguments({"--json", "--model", "infeasible"}));
   EXPECT_EQ(client.Wait(), 4);
   EXPECT_EQ(service_.created().size(), 3u);
-  for (const json& statement : json::parse(client.out())["statements"]) EXPECT_EQ(statement["verdict"], "open");
+  const json page = json::parse(client.out());
+  EXPECT_FALSE(page["statements"].empty());
+  for (const json& statement : page["statements"]) EXPECT_EQ(statement["verdict"], "open");
   ClientProcess crash(Arguments({"--json", "--model", "crash"}));
   EXPECT_EQ(crash.Wait(), 5);
   EXPECT_EQ(json::parse(crash.out())["slopes"][0]["solved"], false);
