@@ -12,18 +12,28 @@
 namespace rollgait::server {
 namespace {
 
-TEST(SimulateTest, ABowledBallBeginsToRollWhenItShould) {
-  const TemporaryDirectory directory;
-  Daemon::Options options;
-  options.data_dir = directory.path() + "/data";
-  options.solver = SLOW_SOLVER;  // the server wants one at its start; no solve is asked for
-  const Daemon daemon(options);
-  ASSERT_NE(daemon.address(), "");
-  const auto stub = daemon.NewStub();
-  grpc::ClientContext context;
-  v1::SimulateRequest request;
-  *request.mutable_scene() = ReadShipped("ball_bowled.json");
-  const auto stream = stub->Simulate(&context, request);
+// A server of its own, and a ball that is bowled.
+class SimulateTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Daemon::Options options;
+    options.data_dir = directory_.path() + "/data";
+    options.solver = SLOW_SOLVER;  // the server wants one at its start; no solve is asked for
+    daemon_ = std::make_unique<Daemon>(options);
+    ASSERT_NE(daemon_->address(), "");
+    stub_ = daemon_->NewStub();
+    *request_.mutable_scene() = ReadShipped("ball_bowled.json");
+  }
+
+  const TemporaryDirectory directory_;
+  std::unique_ptr<Daemon> daemon_;
+  std::unique_ptr<v1::GaitService::Stub> stub_;
+  grpc::ClientContext context_;
+  v1::SimulateRequest request_;
+};
+
+TEST_F(SimulateTest, ABowledBallBeginsToRollWhenItShould) {
+  const auto stream = stub_->Simulate(&context_, request_);
   std::vector<v1::SimulationEvent> events;
   std::vector<v1::SimulationSample> samples;
   v1::SimulationReport report;
@@ -50,19 +60,9 @@ TEST(SimulateTest, ABowledBallBeginsToRollWhenItShould) {
   EXPECT_NEAR(samples.back().positions(4), x, 1e-9);
 }
 
-TEST(SimulateTest, ARefusalNamesTheField) {
-  const TemporaryDirectory directory;
-  Daemon::Options options;
-  options.data_dir = directory.path() + "/data";
-  options.solver = SLOW_SOLVER;  // the server wants one at its start; no solve is asked for
-  const Daemon daemon(options);
-  ASSERT_NE(daemon.address(), "");
-  const auto stub = daemon.NewStub();
-  grpc::ClientContext context;
-  v1::SimulateRequest request;
-  *request.mutable_scene() = ReadShipped("ball_bowled.json");
-  request.mutable_scene()->mutable_contacts(0)->set_friction(-0.2);
-  const auto stream = stub->Simulate(&context, request);
+TEST_F(SimulateTest, ARefusalNamesTheField) {
+  request_.mutable_scene()->mutable_contacts(0)->set_friction(-0.2);
+  const auto stream = stub_->Simulate(&context_, request_);
   v1::SimulationMessage message;
   EXPECT_FALSE(stream->Read(&message));
   const grpc::Status status = stream->Finish();

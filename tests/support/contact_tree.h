@@ -27,18 +27,7 @@ struct ContactTree {
   Model MakeModel() {
     std::vector<Joint> joints = RandomTree(random, 5).joints();
     for (int i = 0; i < 5; ++i) joints[static_cast<size_t>(i)].parent = i == 4 ? -1 : i - 1;
-    for (Joint& joint : joints) joint.mirror_joint = -1;
-    for (const size_t i : {0, 4}) {
-      joints[i].type = JointType::kFree;
-      joints[i].actuated = false;
-      joints[i].effort_min = joints[i].effort_max = 0;
-    }
-    for (Joint& joint : joints) {
-      if (joint.mass > 0) continue;
-      joint.mass = 0.7;
-      joint.inertia = Vector3(0.2, 0.3, 0.4).asDiagonal();
-    }
-    return Model::Create(std::move(joints)).value();
+    return WithFreeJoints(std::move(joints), {0, 4});
   }
 
   PlacedSurface RandomSurface() {

@@ -2,8 +2,10 @@
 #define ROLLGAIT_TESTS_SUPPORT_RANDOM_TREE_H_
 
 #include <Eigen/Geometry>
+#include <initializer_list>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/multibody/model.h"
@@ -53,6 +55,22 @@ inline Model RandomTree(std::mt19937& random, int n) {
     if (joint.parent >= 0) has_child[joint.parent] = true;
   }
   if (n > 3 && !has_child[1]) joints[2].parent = 1;
+  return Model::Create(std::move(joints)).value();
+}
+
+// The same joints, those named by their index free; every link has mass.
+inline Model WithFreeJoints(std::vector<Joint> joints, std::initializer_list<size_t> free) {
+  for (const size_t i : free) {
+    joints[i].type = JointType::kFree;
+    joints[i].actuated = false;
+    joints[i].effort_min = joints[i].effort_max = 0;
+  }
+  for (Joint& joint : joints) {
+    joint.mirror_joint = -1;
+    if (joint.mass > 0) continue;
+    joint.mass = 0.7;
+    joint.inertia = Vector3(0.2, 0.3, 0.4).asDiagonal();
+  }
   return Model::Create(std::move(joints)).value();
 }
 

@@ -12,6 +12,7 @@
 #include "core/multibody/configuration.h"
 #include "tests/support/contact_tree.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/standing_box.h"
 
 namespace rollgait {
 namespace {
@@ -135,19 +136,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, ContactDynamicsTest, ::testing::Range(1, 7));
 
 // A box that stands on four frictional points: more rows than it can move. Accelerations are right, forces balance.
 TEST(ContactDynamics, RedundantContactsGiveTheRightAcceleration) {
-  Joint joint;
-  joint.name = "box", joint.type = JointType::kFree, joint.mass = 2;
-  joint.inertia = Vector3(0.1, 0.1, 0.1).asDiagonal();
-  const Model model = Model::Create({joint}).value();
-  std::vector<TreeContact> contacts(4);
-  for (int k = 0; k < 4; ++k) {
-    contacts[static_cast<size_t>(k)].surface = {Sphere(0.1), Vector3(k % 2 == 0 ? 1 : -1, k < 2 ? 1 : -1, -0.9),
-                                               Matrix3::Identity()};
-  }
-  ContactDynamics dynamics(BodyDynamics(model), contacts);
-  VectorX q = NeutralConfiguration(model);
-  q[6] = 1;
-  dynamics.SetState(q, VectorX::Zero(6), {FrameMotion{}});
+  testing::StandingBox box(Vector3(0.1, 0.1, 0.1));
+  ContactDynamics& dynamics = box.dynamics;
   const ConstrainedSolution& solution = dynamics.Accelerate({0, 1, 2, 3}, VectorX::Zero(6), Vector3(1, 0, -9.81), {});
   EXPECT_TRUE(solution.redundant);
   EXPECT_EQ(solution.rank, 6);

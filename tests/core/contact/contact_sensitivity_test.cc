@@ -13,6 +13,7 @@
 #include "tests/support/contact_tree.h"
 #include "tests/support/high_order_difference.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/standing_box.h"
 
 namespace rollgait {
 namespace {
@@ -170,20 +171,9 @@ TEST(ContactSensitivity, IsTheDerivativeOfTheSolution) {
 // A box on four points: twelve rows of rank six. Accelerations answer to efforts as those of a box on three points do,
 // and the forces of least norm change so that they balance the effort.
 TEST(ContactSensitivity, OfRedundantContacts) {
-  Joint joint;
-  joint.name = "box", joint.type = JointType::kFree, joint.mass = 2;
-  joint.inertia = Vector3(0.1, 0.2, 0.3).asDiagonal();
-  const Model model = Model::Create({joint}).value();
-  std::vector<TreeContact> contacts(4);
-  for (int k = 0; k < 4; ++k) {
-    contacts[static_cast<size_t>(k)].surface = {Sphere(0.1), Vector3(k % 2 == 0 ? 1 : -1, k < 2 ? 1 : -1, -0.9),
-                                               Matrix3::Identity()};
-  }
-  ContactDynamics dynamics(BodyDynamics(model), contacts);
-  VectorX q = NeutralConfiguration(model);
-  q[6] = 1;
-  dynamics.SetState(q, VectorX::Zero(6), {FrameMotion{}});
-  ContactSensitivitySolver solver(model, &dynamics);
+  testing::StandingBox box(Vector3(0.1, 0.2, 0.3));
+  ContactDynamics& dynamics = box.dynamics;
+  ContactSensitivitySolver solver(box.model, &dynamics);
   const ContactSensitivity all = solver.Solve({0, 1, 2, 3}, VectorX::Zero(6), kGravity, {});
   EXPECT_TRUE(all.redundant);
   EXPECT_LT(all.acceleration_tau.cwiseAbs().maxCoeff(), 1e-12);

@@ -24,18 +24,7 @@ class TreeFactorTest : public ::testing::TestWithParam<unsigned> {
   Model MakeModel() {
     std::vector<Joint> joints = testing::RandomTree(random_, 11).joints();
     joints[5].parent = -1;
-    for (Joint& joint : joints) joint.mirror_joint = -1;
-    for (const size_t i : {0, 5}) {
-      joints[i].type = JointType::kFree;
-      joints[i].actuated = false;
-      joints[i].effort_min = joints[i].effort_max = 0;
-    }
-    for (Joint& joint : joints) {
-      if (joint.mass > 0) continue;
-      joint.mass = 0.7;
-      joint.inertia = Vector3(0.2, 0.3, 0.4).asDiagonal();
-    }
-    return Model::Create(std::move(joints)).value();
+    return testing::WithFreeJoints(std::move(joints), {0, 5});
   }
   MatrixX Mass(const Model& model) {
     const BodyDynamics dynamics(model);
