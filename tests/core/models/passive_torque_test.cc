@@ -28,7 +28,7 @@ Joint Named(const std::string& name) {
 
 TEST(PassiveTorque, PushesBackAllOverTheRange) {
   for (const char* joint : kSprung) {
-    const JointLimits& limits = LimitsOf(joint);
+    const JointLimits limits = LimitsOf(joint);
     const ExponentialSpring spring = PassiveTorque(Named(joint), 75);
     for (int i = 0; i <= 50; ++i) {
       const double x = (limits.position_min + i / 50.0 * (limits.position_max - limits.position_min)) * kDegree;
