@@ -17,6 +17,7 @@
 
 #include "core/contact/contact_derivatives.h"
 #include "core/contact/pair_derivatives.h"
+#include "core/contact/pair_hessians.h"
 #include "core/geometry/flattened_superellipsoid.h"
 #include "core/models/catalog.h"
 
@@ -68,6 +69,11 @@ const std::map<std::string, void (*)(Case&)> kFunctions = {
      [](Case& c) { benchmark::DoNotOptimize(ComputePlaneDerivatives(c.surface_1, c.body_1, c.plane, c.body_2, 1)); }},
     {"plane/second",
      [](Case& c) { benchmark::DoNotOptimize(ComputePlaneDerivatives(c.surface_1, c.body_1, c.plane, c.body_2, 2)); }},
+    {"plane/second_and_drift",
+     [](Case& c) {
+       const PairHessians at = PairHessians::OnPlane(c.surface_1, c.body_1, c.plane, c.body_2);
+       benchmark::DoNotOptimize(at.Drift(c.nu));
+     }},
     {"pair/kinematics_warm", [](Case& c) { benchmark::DoNotOptimize(c.pair.Compute(c.body_1, c.body_2)); }},
     {"pair/kinematics_cold",
      [](Case& c) {
@@ -83,6 +89,12 @@ const std::map<std::string, void (*)(Case&)> kFunctions = {
      [](Case& c) {
        benchmark::DoNotOptimize(
            ComputeSurfacePairDerivatives(c.surface_1, c.body_1, c.surface_2, c.body_2, c.pair.separation(), 2));
+     }},
+    {"pair/second_and_drift",
+     [](Case& c) {
+       const PairHessians at =
+           PairHessians::OfSurfaces(c.surface_1, c.body_1, c.surface_2, c.body_2, c.pair.separation());
+       benchmark::DoNotOptimize(at.Drift(c.nu));
      }},
     {"planar_foot/first", [](Case& c) { c.foot->Update(*c.tree); }},
     {"planar_foot/second",

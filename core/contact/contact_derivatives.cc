@@ -2,22 +2,12 @@
 
 #include <algorithm>
 
+#include "core/math/assign_dual.h"
+
 namespace rollgait {
 namespace {
 
 const Vector3 kNormal = Vector3::UnitZ();
-
-// value + ε derivative, for both scalars.
-template <typename To, typename A, typename B>
-void Assign(To& to, const A& value, const B& derivative) {
-  for (int i = 0; i < to.size(); ++i) {
-    if constexpr (std::is_same_v<typename To::Scalar, Dual>) {
-      to(i) = Dual(value(i), derivative(i));
-    } else {
-      to(i) = value(i);
-    }
-  }
-}
 
 }  // namespace
 
@@ -43,31 +33,31 @@ void ContactDerivatives<T>::Update(const TreeDynamics& tree) {
   const Vector3 w = twist.head<3>();
   const Matrix3 R = tree.rotation(link) * contact_.R_LE;
   const Matrix3 dR = Skew(w) * R;
-  Assign(rotation_, R, dR);
+  AssignDual(rotation_, R, dR);
   const Vector3 center = tree.origin(link) + tree.rotation(link) * contact_.p_LE;
   const Vector3 dcenter = twist.tail<3>() + w.cross(center);
   const Vector3 nu = -R.transpose() * kNormal;
   const Vector3 dnu = -dR.transpose() * kNormal;
-  Assign(nu_, nu, dnu);
+  AssignDual(nu_, nu, dnu);
 
   constexpr int kOrder = std::is_same_v<T, Dual> ? 3 : 2;
   contact_.surface.Evaluate(nu, kOrder, &jet_);
   const Vector3& x = jet_.x;
   const Matrix3& S = jet_.S;
   const Vector3 dx = S * dnu;
-  Assign(surface_point_, x, dx);
+  AssignDual(surface_point_, x, dx);
   const Vector3 p = center + R * x;
   const Vector3 dp = dcenter + dR * x + R * dx;
-  Assign(point_, p, dp);
+  AssignDual(point_, p, dp);
   if constexpr (std::is_same_v<T, Dual>) {
-    Assign(hessian_, S, jet_.Third(dnu));
+    AssignDual(hessian_, S, jet_.Third(dnu));
   } else {
     hessian_ = S;
   }
   for (int k = 0; k < path_size(); ++k) {
     const Vector6& s = tree.axis(path_[k]);
     const Vector6 ds = CrossMotion(tree.twist(path_[k]), s);
-    Assign(axis_[k], s, ds);
+    AssignDual(axis_[k], s, ds);
     const Vec3 theta = Angular(k);
     turn_[k] = rotation_.transpose() * theta.cross(kNormal.template cast<T>());
     delta_[k] = rotation_ * (hessian_ * turn_[k]);
@@ -90,7 +80,7 @@ void ContactDerivatives<T>::UpdateSecond() {
   contact_.surface.Evaluate(nu, kOrder, &jet_);
   for (int j = 0; j < 3; ++j) {
     if constexpr (std::is_same_v<T, Dual>) {
-      Assign(third_[j], jet_.T[j], jet_.FourthOf(j, dnu));
+      AssignDual(third_[j], jet_.T[j], jet_.FourthOf(j, dnu));
     } else {
       third_[j] = jet_.T[j];
     }

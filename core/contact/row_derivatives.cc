@@ -25,12 +25,10 @@ class RowLinearisation {
                    const FrameMotion& body_2, const Baumgarte& baumgarte)
       : contact_(contact), pair_(pair), one_(body_1), two_(body_2), baumgarte_(baumgarte),
         on_plane_(std::holds_alternative<PlacedPlane>(contact.other)) {
-    r_1_ = pair.p_1 - one_.p_WB;
-    r_2_ = (on_plane_ ? pair.p_1 : pair.p_2) - two_.p_WB;
-    r_1_dot_ = pair.p_dot_1 - one_.v_WB;
-    r_2_dot_ = (on_plane_ ? pair.p_dot_1 : pair.p_dot_2) - two_.v_WB;
-    slip_dot_ = one_.a_WB + one_.alpha_WB.cross(r_1_) + one_.w_WB.cross(r_1_dot_) - two_.a_WB -
-                two_.alpha_WB.cross(r_2_) - two_.w_WB.cross(r_2_dot_);
+    const Vector3& p_2 = on_plane_ ? pair.p_1 : pair.p_2;
+    const Vector3& p_dot_2 = on_plane_ ? pair.p_dot_1 : pair.p_dot_2;
+    slip_dot_ = one_.a_WB + one_.alpha_WB.cross(pair.p_1 - one_.p_WB) + one_.w_WB.cross(pair.p_dot_1 - one_.v_WB) -
+                two_.a_WB - two_.alpha_WB.cross(p_2 - two_.p_WB) - two_.w_WB.cross(p_dot_2 - two_.v_WB);
     along_ = two_.R_WB * contact.along;
     tangent_ = (along_ - pair.normal * pair.normal.dot(along_)).normalized();
   }
@@ -44,17 +42,17 @@ class RowLinearisation {
                                              *separation);
   }
 
-  Changes ByPose(const PairRateDerivatives& rates) const {
+  SlipDerivatives Slip(const PairRateDerivatives& rates) const {
+    return ComputeSlipDerivatives(on_plane_, pair_, one_, two_, rates);
+  }
+
+  Changes ByPose(const PairRateDerivatives& rates, const SlipDerivatives& slip) const {
     Changes changes;
     changes.normal = rates.first.normal;
     changes.normal_dot = rates.normal_dot;
     changes.gap = rates.first.gap;
-    const Matrix3x12 lever_1 = Lever1(rates.first), lever_2 = Lever2(rates.first);
-    const Matrix3x12& rate_2 = on_plane_ ? rates.p_dot_1 : rates.p_dot_2;
-    const Matrix3 w_1 = Skew(one_.w_WB), w_2 = Skew(two_.w_WB);
-    changes.slip = w_1 * lever_1 - w_2 * lever_2;
-    changes.slip_dot =
-        Skew(one_.alpha_WB) * lever_1 - Skew(two_.alpha_WB) * lever_2 + w_1 * rates.p_dot_1 - w_2 * rate_2;
+    changes.slip = slip.slip_by_pose;
+    changes.slip_dot = slip.drift_by_pose;
     const Vector3& n = pair_.normal;
     Matrix3x12 turned = Matrix3x12::Zero();
     turned.rightCols<3>() = -Skew(along_);
@@ -64,22 +62,20 @@ class RowLinearisation {
     return changes;
   }
 
-  Changes ByTwist(const PairRateDerivatives& rates) const {
+  Changes ByTwist(const PairRateDerivatives& rates, const SlipDerivatives& slip) const {
     Changes changes;
     changes.normal_dot = rates.first.normal;
-    changes.slip = Relative(r_1_, r_2_);
-    changes.slip_dot = Skew(one_.w_WB) * Lever1(rates.first) - Skew(two_.w_WB) * Lever2(rates.first);
-    changes.slip_dot.middleCols<3>(3) -= Skew(r_1_dot_);
-    changes.slip_dot.rightCols<3>() += Skew(r_2_dot_);
+    changes.slip = slip.slip_by_twist;
+    changes.slip_dot = slip.drift_by_twist;
     changes.omega.middleCols<3>(3).setIdentity();
     changes.omega.rightCols<3>() = -Matrix3::Identity();
     changes.omega_2.rightCols<3>().setIdentity();
     return changes;
   }
 
-  Changes ByAcceleration() const {
+  Changes ByAcceleration(const SlipDerivatives& slip) const {
     Changes changes;
-    changes.slip_dot = Relative(r_1_, r_2_);
+    changes.slip_dot = slip.slip_by_twist;
     changes.alpha.middleCols<3>(3).setIdentity();
     changes.alpha.rightCols<3>() = -Matrix3::Identity();
     return changes;
@@ -154,29 +150,12 @@ class RowLinearisation {
   }
 
  private:
-  // Changes of r_1 and r_2 by pose, which are those of their rates by twist.
-  Matrix3x12 Lever1(const PairDerivatives& first) const {
-    Matrix3x12 lever = first.p_1;
-    lever.leftCols<3>() -= Matrix3::Identity();
-    return lever;
-  }
-  Matrix3x12 Lever2(const PairDerivatives& first) const {
-    Matrix3x12 lever = on_plane_ ? first.p_1 : first.p_2;
-    lever.middleCols<3>(6) -= Matrix3::Identity();
-    return lever;
-  }
-  static Matrix3x12 Relative(const Vector3& r_1, const Vector3& r_2) {
-    Matrix3x12 relative;
-    relative << Matrix3::Identity(), -Skew(r_1), -Matrix3::Identity(), Skew(r_2);
-    return relative;
-  }
-
   const TreeContact& contact_;
   const PairKinematics& pair_;
   const FrameMotion &one_, &two_;
   const Baumgarte& baumgarte_;
   const bool on_plane_;
-  Vector3 r_1_, r_2_, r_1_dot_, r_2_dot_, slip_dot_, along_, tangent_;
+  Vector3 slip_dot_, along_, tangent_;
 };
 
 }  // namespace
@@ -186,12 +165,13 @@ RowDerivatives ComputeRowDerivatives(const TreeContact& contact, const PairKinem
                                      const Baumgarte& baumgarte, const Eigen::Ref<const VectorX>& forces) {
   const RowLinearisation linearisation(contact, kinematics, body_1, body_2, baumgarte);
   const PairRateDerivatives rates = linearisation.Rates(separation);
-  const Changes pose = linearisation.ByPose(rates);
+  const SlipDerivatives slip = linearisation.Slip(rates);
+  const Changes pose = linearisation.ByPose(rates, slip);
   RowDerivatives result;
   result.exist = rates.first.order == 2;
   result.by_pose = linearisation.Rows(pose);
-  result.by_twist = linearisation.Rows(linearisation.ByTwist(rates));
-  result.by_acceleration = linearisation.Rows(linearisation.ByAcceleration());
+  result.by_twist = linearisation.Rows(linearisation.ByTwist(rates, slip));
+  result.by_acceleration = linearisation.Rows(linearisation.ByAcceleration(slip));
   linearisation.Wrenches(pose, rates, forces, &result);
   return result;
 }

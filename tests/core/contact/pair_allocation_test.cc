@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/contact/pair_derivatives.h"
+#include "core/contact/pair_hessians.h"
 #include "core/geometry/flattened_superellipsoid.h"
 #include "tests/support/allocation_counter.h"
 
@@ -29,6 +29,12 @@ TEST(PairAllocationTest, NoneInAnyCall) {
       sum += ComputeSurfacePairDerivatives(one, body_1, two, body_2, pair.separation(), 2).gap[0];
       sum += ComputePlaneContact(one, body_1, plane, body_2).gap;
       sum += ComputePlaneDerivatives(one, body_1, plane, body_2, 2).gap[0];
+      const PairHessians on_plane = PairHessians::OnPlane(one, body_1, plane, body_2);
+      const PairHessians pairs = PairHessians::OfSurfaces(one, body_1, two, body_2, pair.separation());
+      for (const PairHessians* hessians : {&on_plane, &pairs}) {
+        ASSERT_TRUE(hessians->exist());
+        sum += hessians->GapAcceleration()(3, 4) + hessians->Drift(body_2.p_WB)(3, 4);
+      }
     }
     EXPECT_EQ(Allocations() - before, 0);
     EXPECT_TRUE(std::isfinite(sum));

@@ -8,8 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/contact/pair_tangent.h"
-#include "core/geometry/flattened_superellipsoid.h"
+#include "tests/support/displaced_frames.h"
 #include "tests/support/high_order_difference.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/seeded_random.h"
@@ -18,25 +17,6 @@ namespace rollgait {
 namespace {
 
 using Vector10 = Eigen::Matrix<double, 10, 1>;
-
-Matrix3 Turn(const Vector3& theta) {
-  const double angle = theta.norm();
-  return angle == 0 ? Matrix3::Identity() : Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
-}
-
-FrameMotion Displaced(const FrameMotion& body, const Vector3& shift, const Vector3& theta) {
-  FrameMotion moved = body;
-  moved.p_WB += shift;
-  moved.R_WB = Turn(theta) * body.R_WB;
-  return moved;
-}
-
-FrameMotion RandomFrame(SeededRandom* random, const Vector3& at) {
-  FrameMotion body;
-  body.R_WB = Turn(3 * random->Unit());
-  body.p_WB = at;
-  return body;
-}
 
 Vector10 Stack(const PairKinematics& pair) {
   Vector10 stack;
@@ -80,46 +60,28 @@ void CheckAgainstDifferences(const Evaluate& evaluate, const PairDerivatives& de
   for (int i = 0; i < 3; ++i) EXPECT_EQ(derivatives.p_1_second[i], derivatives.p_1_second[i].transpose());
 }
 
-std::vector<Surface> Bodies() {
-  return {Ellipsoid({0.8, 1.2, 0.5}), Sphere(0.7),
-          Surface(Ellipsoid({0.4, 0.6, 0.9})).Rounded(0.2).MovedTo({0.1, 0, 0.2}),
-          FlattenedSuperellipsoid::Create({0.8, 0.9, 0.7}, 0.8, 0.9, 0.3).value()};
-}
-
 TEST(PairDerivativesTest, SurfacesAgreeWithDifferences) {
   SeededRandom random(31);
-  for (const Surface& first : Bodies()) {
+  for (const Surface& first : SmoothBodies()) {
     for (const double distance : {3.0, 0.9}) {  // apart, and overlapping
-      const PlacedSurface one{first, {0.1, 0.2, -0.1}, Turn({0.3, -0.2, 0.5})};
-      const PlacedSurface two{Ellipsoid({0.7, 0.5, 0.9}), {-0.2, 0.1, 0.3}, Turn({-0.4, 0.6, 0.1})};
-      SurfacePair pair(one, two);
-      FrameMotion body_1, body_2;
-      // Where S₁ + S₂ + d I is nearly singular the normal moves fast and differences say little.
-      for (double least = 0; least < 0.3;) {
-        body_1 = RandomFrame(&random, {0, 0, 0});
-        body_2 = RandomFrame(&random, distance * random.Unit());
-        pair.Restart();
-        pair.Compute(body_1, body_2);
-        const Separation& at = pair.separation();
-        least = PairTangent(Pose(one, body_1), Pose(two, body_2), at.nu, at.distance).curvature.minCoeff();
-      }
-      const Separation separation = pair.separation();
-      ASSERT_EQ(separation.state, distance > 2 ? Separation::State::kSeparated : Separation::State::kOverlap);
+      const TwoBodies at(first, distance, &random);
+      ASSERT_EQ(at.separation.state, distance > 2 ? Separation::State::kSeparated : Separation::State::kOverlap);
+      SurfacePair pair(at.one, at.two);
       const auto evaluate = [&](const Vector12& z) {
-        pair.StartFrom(separation.nu);
-        return Stack(pair.Compute(Displaced(body_1, z.segment<3>(0), z.segment<3>(3)),
-                                  Displaced(body_2, z.segment<3>(6), z.segment<3>(9))));
+        pair.StartFrom(at.separation.nu);
+        return Stack(pair.Compute(Displaced(at.body_1, z.segment<3>(0), z.segment<3>(3)),
+                                  Displaced(at.body_2, z.segment<3>(6), z.segment<3>(9))));
       };
-      CheckAgainstDifferences(evaluate, ComputeSurfacePairDerivatives(one, body_1, two, body_2, separation, 2),
-                              &random);
+      CheckAgainstDifferences(
+          evaluate, ComputeSurfacePairDerivatives(at.one, at.body_1, at.two, at.body_2, at.separation, 2), &random);
     }
   }
 }
 
 TEST(PairDerivativesTest, PlanesAgreeWithDifferences) {
   SeededRandom random(37);
-  for (const Surface& surface : Bodies()) {
-    const PlacedSurface placed{surface, {0.1, 0.2, -0.1}, Turn({0.3, -0.2, 0.5})};
+  for (const Surface& surface : SmoothBodies()) {
+    const PlacedSurface placed{surface, {0.1, 0.2, -0.1}, ExtremeContacts::Turn({0.3, -0.2, 0.5})};
     const PlacedPlane plane{{0.3, 0.1, -0.2}, random.Unit()};
     const FrameMotion body = RandomFrame(&random, {0, 0, 2}), ground = RandomFrame(&random, {0.3, 0, 0});
     const auto evaluate = [&](const Vector12& z) {
@@ -133,8 +95,8 @@ TEST(PairDerivativesTest, PlanesAgreeWithDifferences) {
 // Velocities are the derivatives times the twists; the drift at zero accelerations is theirs, too.
 TEST(PairDerivativesTest, TwistsGiveTheVelocitiesOfTheKinematics) {
   SeededRandom random(41);
-  const PlacedSurface one{Ellipsoid({0.8, 1.2, 0.5}), {0.1, 0.2, -0.1}, Turn({0.3, -0.2, 0.5})};
-  const PlacedSurface two{Ellipsoid({0.7, 0.5, 0.9}), {-0.2, 0.1, 0.3}, Turn({-0.4, 0.6, 0.1})};
+  const PlacedSurface one{Ellipsoid({0.8, 1.2, 0.5}), {0.1, 0.2, -0.1}, ExtremeContacts::Turn({0.3, -0.2, 0.5})};
+  const PlacedSurface two{Ellipsoid({0.7, 0.5, 0.9}), {-0.2, 0.1, 0.3}, ExtremeContacts::Turn({-0.4, 0.6, 0.1})};
   const PlacedPlane plane{{0.3, 0.1, -0.2}, random.Unit()};
   FrameMotion body_1 = RandomFrame(&random, {0, 0, 0}), body_2 = RandomFrame(&random, {0.4, 3, 0.2});
   for (FrameMotion* body : {&body_1, &body_2}) body->v_WB = random.Vector(-1, 1), body->w_WB = random.Vector(-1, 1);
