@@ -53,12 +53,14 @@ struct Case {
     lambda = vector();
     tau = VectorX::Zero(n);
     dq = dv = da = qq = qv = qa = vv = MatrixX::Zero(n, n);
+    rows = std::make_unique<RowHessians>(n);
     tree->Update(q.data(), v.data(), a.data(), gravity);
   }
 
   std::unique_ptr<Scene> scene;
   int n = 0;
   std::unique_ptr<TreeDynamics> tree;
+  std::unique_ptr<RowHessians> rows;
   std::unique_ptr<ContactDynamics> contact;
   std::unique_ptr<ContactSensitivitySolver> sensitivity;
   const std::vector<FrameMotion> ground{1};
@@ -87,12 +89,7 @@ void ContractedSecond(Case& c) {
 // The Hessian of every row.
 void AllSecond(Case& c) {
   c.tree->Update(c.q.data(), c.v.data(), c.a.data(), c.gravity);
-  VectorX& unit = c.tau;
-  for (int i = 0; i < c.n; ++i) {
-    unit.setZero();
-    unit(i) = 1;
-    c.tree->AddContractedHessian(unit.data(), c.qq, c.qv, c.qa, c.vv);
-  }
+  c.tree->SecondDerivatives(c.rows.get());
 }
 
 void MassMatrix(Case& c) { c.tree->MassMatrix(c.q.data(), c.da); }

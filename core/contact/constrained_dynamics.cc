@@ -18,8 +18,21 @@ constexpr double kRankTolerance = 1e-10;
 // side turn a little in trial steps. Forces that really differ are of order 1.
 constexpr double kSameMotion = 1e-3;
 
-// The next multiple of four.
-int RoundUp(int columns) { return (columns + 3) & ~3; }
+// The next multiple of four: vectors are filled with zeros up to it, so that loops over them have no remainder.
+int RoundUp(int length) { return (length + 3) & ~3; }
+
+using Four = Eigen::Map<Eigen::Array<double, 4, 1>>;
+using ConstFour = Eigen::Map<const Eigen::Array<double, 4, 1>>;
+
+// xᵀ y and y −= d x for filled vectors.
+double Dot(const double* x, const double* y, int n) {
+  Eigen::Array<double, 4, 1> sum = ConstFour(x) * ConstFour(y);
+  for (int i = 4; i < n; i += 4) sum += ConstFour(x + i) * ConstFour(y + i);
+  return sum.sum();
+}
+void Subtract(double d, const double* x, double* y, int n) {
+  for (int i = 0; i < n; i += 4) Four(y + i) -= d * ConstFour(x + i);
+}
 
 }  // namespace
 
@@ -33,30 +46,34 @@ void ConstrainedSolver::Factorise() {
   for (int k = 0; k < m && k < n; ++k) {
     // Columns k … m−1 of a_ (in pivot order) hold what is left of them orthogonal to q_0 … q_{k−1}.
     int best = k;
-    double best_norm = -1;
+    double best_square = -1;
     for (int j = k; j < m; ++j) {
-      const double norm = a_.col(pivots_[j]).norm();
-      if (norm > best_norm) best = j, best_norm = norm;
+      const double* const left = a_.col(pivots_[j]).data();
+      const double square = Dot(left, left, n);
+      if (square > best_square) best = j, best_square = square;
     }
-    if (!(best_norm > kRankTolerance)) return;
+    if (!(best_square > kRankTolerance * kRankTolerance)) return;
     std::swap(pivots_[k], pivots_[best]);
-    r_.col(k).swap(r_.col(best));
+    if (best != k) r_.col(k).swap(r_.col(best));
     // A second pass makes q_k orthogonal to rounding level ("twice is enough").
+    double* const q = q_.col(k).data();
     q_.col(k) = a_.col(pivots_[k]);
     for (int i = 0; i < k; ++i) {
-      const double d = q_.col(i).dot(q_.col(k));
+      const double* const before = q_.col(i).data();
+      const double d = Dot(before, q, n);
       r_(i, k) += d;
-      q_.col(k) -= d * q_.col(i);
+      Subtract(d, before, q, n);
     }
-    const double norm = q_.col(k).norm();
+    const double norm = std::sqrt(Dot(q, q, n));
     if (!(norm > kRankTolerance)) return;
-    q_.col(k) /= norm;
+    q_.col(k) *= 1 / norm;
     r_(k, k) = norm;
     rank_ = k + 1;
     for (int j = k + 1; j < m; ++j) {
-      const double d = q_.col(k).dot(a_.col(pivots_[j]));
+      double* const left = a_.col(pivots_[j]).data();
+      const double d = Dot(q, left, n);
       r_(k, j) = d;
-      a_.col(pivots_[j]) -= d * q_.col(k);
+      Subtract(d, q, left, n);
     }
   }
 }
@@ -77,7 +94,8 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   columns_.leftCols(m) = jacobian.transpose();
   columns_.col(m) = force;
   factor_.SolveTransposed(columns_.data(), width, width);
-  free_ = columns_.col(m);
+  free_.setZero(RoundUp(n));
+  free_.head(n) = columns_.col(m);
   solution->rank = 0;
   solution->determined = true;
   solution->redundant = false;
@@ -87,19 +105,20 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
     pivots_.clear();
     rank_ = 0;
     q_.resize(n, 0);
-    solution->acceleration = free_;
+    solution->acceleration = free_.head(n);
     factor_.Solve(solution->acceleration.data(), 1, 1);
     return;
   }
-  a_ = columns_.leftCols(m);
-  right_ = right_side;
-  right_.noalias() -= a_.transpose() * free_;
+  a_.setZero(RoundUp(n), m);
+  a_.topRows(n) = columns_.leftCols(m);
+  right_.resize(m);
   scale_.resize(m);
   for (int j = 0; j < m; ++j) {
-    const double norm = a_.col(j).norm();
+    const double* const column = a_.col(j).data();
+    const double norm = std::sqrt(Dot(column, column, RoundUp(n)));
     scale_[j] = norm > 0 ? 1 / norm : 1.0;
+    right_[j] = (right_side[j] - Dot(column, free_.data(), RoundUp(n))) * scale_[j];
     a_.col(j) *= scale_[j];
-    right_[j] *= scale_[j];
   }
   Factorise();
 
@@ -110,8 +129,8 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
     for (int k = 0; k < i; ++k) sum -= r_(k, i) * z_[k];
     z_[i] = sum / r_(i, i);
   }
-  if (rank_ > 0) free_.noalias() += q_.leftCols(rank_) * z_;
-  solution->acceleration = free_;
+  for (int i = 0; i < rank_; ++i) Subtract(-z_[i], q_.col(i).data(), free_.data(), RoundUp(n));
+  solution->acceleration = free_.head(n);
   factor_.Solve(solution->acceleration.data(), 1, 1);
 
   // Forces: R λ = z, square if no row is redundant, else its solution of least norm λ = Rᵀ (R Rᵀ)⁻¹ z.
@@ -191,8 +210,9 @@ void ConstrainedSolver::Differentiate(RowMajorMatrix* acceleration, RowMajorMatr
     SubtractProducts(acceleration->data(), k, q_.col(i).data(), 1, n, k, chosen_.row(i).data());
   }
   chosen_ = -chosen_;
+  const int stride = static_cast<int>(q_.rows());
   for (int j = 0; j < n; ++j) {
-    SubtractProducts(chosen_.data(), k, q_.data() + j, n, rank_, k, acceleration->row(j).data());
+    SubtractProducts(chosen_.data(), k, q_.data() + j, stride, rank_, k, acceleration->row(j).data());
   }
   factor_.Solve(acceleration->data(), k, k);
   if (rank_ < m) {

@@ -57,7 +57,7 @@ class ConstrainedSolver {
   bool tree_ = false;
   TreeFactor factor_;        // M = Lᵀ L
   RowMajorMatrix columns_;   // n × (rows, f, and zeros up to a multiple of four)
-  MatrixX a_;                // n × rows, columns scaled to unit norm
+  MatrixX a_;                // n × rows, columns scaled to unit norm; as q_ and free_ filled to a multiple of four
   MatrixX q_;                // n × rank
   MatrixX r_;                // rank × rows, columns in the order of pivots_
   MatrixX gram_;

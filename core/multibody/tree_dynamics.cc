@@ -50,6 +50,23 @@ TreeDynamics::TreeDynamics(const Model& model)
   moves_.assign(n_, 0);
   touched_ = moves_;
   scratch_ = VectorX::Zero(n_);
+  std::vector<char> parent(static_cast<size_t>(n_), 0);
+  for (const JointData& joint : joints_) {
+    if (joint.parent >= 0) parent[static_cast<size_t>(joint.parent)] = 1;
+  }
+  path_of_.assign(n_, 0);
+  depth_.assign(n_, 0);
+  for (int leaf = 0; leaf < n_; ++leaf) {
+    if (parent[static_cast<size_t>(leaf)]) continue;
+    Path& path = paths_.emplace_back();
+    for (int i = leaf; i >= 0; i = joints_[i].parent) path.joints.insert(path.joints.begin(), i);
+    const int length = static_cast<int>(path.joints.size());
+    path.vectors = RowMajorMatrix::Zero(18, (length + 3) / 4 * 4);
+    for (int i = 0; i < length; ++i) {
+      path_of_[path.joints[i]] = static_cast<int>(paths_.size()) - 1;
+      depth_[path.joints[i]] = i;
+    }
+  }
 }
 
 // Pose of link i and the axis of its joint, from the pose of its parent.
@@ -226,7 +243,7 @@ void TreeDynamics::UpdateVirtual(const double* lambda) {
     const Vector6& v = twist_[i];
     c.momentum = inertia * w;
     // z = V ×* I W − W ×* I V − I (V × W)
-    c.z = CrossForce(v, c.momentum) - CrossForce(w, inertia * v) - inertia * CrossMotion(v, w);
+    c.z = (CrossForce(v, c.momentum) - CrossForce(w, inertia * v) - inertia * CrossMotion(v, w)).head<3>();
     Matrix3 k = 2 * inertia.rotational;
     k.diagonal().array() -= inertia.rotational.trace();
     c.e.noalias() = k * Skew(w.head<3>()) + 2 * Skew(w.tail<3>()) * Skew(inertia.moment);
@@ -251,31 +268,29 @@ void TreeDynamics::AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX
     const VirtualComposite& w = virtual_[k];
     const Vector6& s = axis_[k];
     const Vector6& psi = psi_[k];
-    const auto e_transpose = [&w](const Vector6& x) {
-      Vector6 y;
-      y.head<3>() = w.e.transpose() * x.head<3>();
-      y.tail<3>() = 2 * w.momentum.tail<3>().cross(x.head<3>());
-      return y;
+    // 2 x ×* P + Eᵀ x, which is a moment alone.
+    const auto moment = [&w](const Vector6& x) {
+      return Vector3(w.e.transpose() * x.head<3>() +
+                     2 * (x.head<3>().cross(w.momentum.head<3>()) + x.tail<3>().cross(w.momentum.tail<3>())));
     };
     // Covectors of ∂L/∂q_k, ∂L/∂v_k, ∂L/∂a_k on the triple (Ω, Ψ, Ψ2); see the class comment.
     const Vector6 q_omega = CrossForce(s, force_[k]) + c.inertia * psi2_[k] + c.motion.Apply(psi);
-    const Vector6 q_psi = c.motion.ApplyTranspose(omega_[k]) + 2 * CrossForce(psi, w.momentum) + CrossForce(s, w.z) +
-                          e_transpose(psi);
+    const Vector3 q_psi = c.motion.ApplyTranspose(omega_[k]).head<3>() + s.head<3>().cross(w.z) + moment(psi);
     const Vector6 q_psi2 = c.inertia * omega_[k] + CrossForce(s, w.momentum);
     const Vector6 v_omega = 2 * (c.inertia * psi) + c.motion.Apply(s);
-    const Vector6 v_psi = 2 * CrossForce(s, w.momentum) + e_transpose(s);
+    const Vector3 v_psi = moment(s);
     const Vector6 a_omega = c.inertia * s;
     for (int m = k; m >= 0; m = joints_[m].parent) {
-      const double qq = q_omega.dot(omega_[m]) + q_psi.dot(psi_[m]) + q_psi2.dot(psi2_[m]);
-      const double vv = v_psi.dot(axis_[m]);
+      const double qq = q_omega.dot(omega_[m]) + q_psi.dot(psi_[m].head<3>()) + q_psi2.dot(psi2_[m]);
+      const double vv = v_psi.dot(axis_[m].head<3>());
       h_qq(k, m) += qq;
       h_vv(k, m) += vv;
-      h_qv(m, k) += v_omega.dot(omega_[m]) + v_psi.dot(psi_[m]);
+      h_qv(m, k) += v_omega.dot(omega_[m]) + v_psi.dot(psi_[m].head<3>());
       h_qa(m, k) += a_omega.dot(omega_[m]);
       if (m == k) continue;
       h_qq(m, k) += qq;
       h_vv(m, k) += vv;
-      h_qv(k, m) += q_psi.dot(axis_[m]) + 2 * q_psi2.dot(psi_[m]);
+      h_qv(k, m) += q_psi.dot(axis_[m].head<3>()) + 2 * q_psi2.dot(psi_[m]);
       h_qa(k, m) += q_psi2.dot(axis_[m]);
     }
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/multibody/model.h"
+#include "core/multibody/row_hessians.h"
 #include "core/multibody/spatial.h"
 #include "core/multibody/tree_factor.h"
 
@@ -39,6 +40,10 @@ class TreeDynamics {
   void AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX> h_qq, Eigen::Ref<MatrixX> h_qv,
                             Eigen::Ref<MatrixX> h_qa, Eigen::Ref<MatrixX> h_vv);
 
+  // Second derivatives of every row of ID; each written where row and both variables are on one path, zero elsewhere on
+  // entry and exit.
+  void SecondDerivatives(RowHessians* rows);
+
   // M(q), both triangles, written as in FirstDerivatives. Moves the tree to (q, at rest): Update before anything else.
   void MassMatrix(const double* q, Eigen::Ref<MatrixX> mass);
 
@@ -69,17 +74,24 @@ class TreeDynamics {
     SpatialInertia inertia;
     CompositeMotion motion;
   };
-  // The same for the virtual velocity W: momentum P, Z = BᵀW, and E X = [e x_ω − 2 P_v × x_v; 0].
+  // The same for the virtual velocity W: momentum P, the moment Z = BᵀW, and E X = [e x_ω − 2 P_v × x_v; 0].
   struct VirtualComposite {
     Vector6 momentum = Vector6::Zero();
-    Vector6 z = Vector6::Zero();
+    Vector3 z = Vector3::Zero();
     Matrix3 e = Matrix3::Zero();
+  };
+  // The joints from the root to a leaf, and (18 × their number, filled up to a multiple of four) their S, ψ̇, ψ̈.
+  struct Path {
+    std::vector<int> joints;
+    RowMajorMatrix vectors;
   };
   void UpdatePose(int i, double q);
   void UpdateForces();
   void UpdateInertias();
   void UpdateComposites();
   void UpdateVirtual(const double* lambda);
+  void DifferentiateRow(int l, RowHessians* rows);
+  void DifferentiateRowsBefore(int k, RowHessians* rows);
 
   const Model* model_;
   int n_;
@@ -93,6 +105,8 @@ class TreeDynamics {
   std::vector<Vector6> virtual_twist_, omega_;
   std::vector<VirtualComposite> virtual_;
   std::vector<char> moves_, touched_;  // joints with a virtual velocity; joints of which a derivative may differ from zero
+  std::vector<Path> paths_;
+  std::vector<int> path_of_, depth_;  // of a joint: a path on which it is, and its place there
   Vector6 root_acceleration_ = Vector6::Zero();
   TreeFactor factor_;
   VectorX scratch_;

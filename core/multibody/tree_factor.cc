@@ -7,22 +7,29 @@
 #include "core/math/subtract_products.h"
 
 namespace rollgait {
+namespace {
 
-TreeFactor::TreeFactor(const std::vector<int>& parents) : first_{0}, inverse_(parents.size()) {
+constexpr int kWidth = 4;
+int RoundUp(int length) { return (length + kWidth - 1) & -kWidth; }
+
+}  // namespace
+
+TreeFactor::TreeFactor(const std::vector<int>& parents) : inverse_(parents.size()) {
   const int n = size();
   std::vector<std::vector<int>> beyond(parents.size());
   for (int c = 0; c < n; ++c) {
     const int parent = parents[static_cast<size_t>(c)];
     ROLLGAIT_CHECK(parent >= -1 && parent < c);
-    const int begin = parent < 0 ? 0 : first_[static_cast<size_t>(parent)];
-    const int end = parent < 0 ? 0 : first_[static_cast<size_t>(parent) + 1];
-    for (int k = begin; k < end; ++k) {
-      const int before = path_[static_cast<size_t>(k)];
+    first_.push_back(static_cast<int>(path_.size()));
+    const int shared = parent < 0 ? 0 : length_[static_cast<size_t>(parent)];
+    for (int k = 0; k < shared; ++k) {
+      const int before = path_[static_cast<size_t>(first_[static_cast<size_t>(parent)] + k)];
       path_.push_back(before);
       beyond[static_cast<size_t>(before)].push_back(c);
     }
     path_.push_back(c);
-    first_.push_back(static_cast<int>(path_.size()));
+    length_.push_back(shared + 1);
+    path_.resize(static_cast<size_t>(first_.back() + RoundUp(shared + 1)), c);
   }
   first_beyond_.push_back(0);
   for (const std::vector<int>& columns : beyond) {
@@ -30,12 +37,14 @@ TreeFactor::TreeFactor(const std::vector<int>& parents) : first_{0}, inverse_(pa
     first_beyond_.push_back(static_cast<int>(beyond_.size()));
   }
   std::vector<int> next = first_beyond_;
+  place_.resize(path_.size());
   for (int c = 0; c < n; ++c) {
-    for (int k = first_[static_cast<size_t>(c)]; k < first_[static_cast<size_t>(c) + 1]; ++k) {
-      const auto column = static_cast<size_t>(path_[static_cast<size_t>(k)]);
-      place_.push_back(path_[static_cast<size_t>(k)] == c ? -1 : next[column]++);
+    for (int k = 0; k + 1 < path_length(c); ++k) {
+      const auto entry = static_cast<size_t>(first_[static_cast<size_t>(c)] + k);
+      place_[entry] = next[static_cast<size_t>(path_[entry])]++;
     }
   }
+  for (const int column : path_) row_of_.push_back(first_[static_cast<size_t>(column)]);
   entries_.resize(path_.size());
   by_column_.resize(beyond_.size());
 }
@@ -48,33 +57,34 @@ TreeFactor TreeFactor::Dense(int n) {
 
 void TreeFactor::Factorise(const MatrixX& mass) {
   ROLLGAIT_CHECK(mass.rows() == size() && mass.cols() == size());
-  double* entry = entries_.data();
-  const int* before = path_.data();
   for (int c = 0; c < size(); ++c) {
     const double* const column = mass.col(c).data();
-    for (int k = path_length(c); k > 0; --k) *entry++ = column[*before++];
+    double* const entry = row(c);
+    const int* const before = path_.data() + first_[static_cast<size_t>(c)];
+    for (int k = 0; k < path_length(c); ++k) entry[k] = column[before[k]];
   }
   Factorise();
 }
 
 void TreeFactor::Factorise() {
+  using Four = Eigen::Map<Eigen::Array<double, 4, 1>>;
+  double* const entries = entries_.data();
+  double* const by_column = by_column_.data();
   for (int c = size() - 1; c >= 0; --c) {
-    const int length = path_length(c) - 1;  // without the diagonal
+    const int last = path_length(c) - 1;  // the diagonal
     const int begin = first_[static_cast<size_t>(c)];
-    double* const pivot = row(c);
-    const double inverse = inverse_[static_cast<size_t>(c)] = 1 / std::sqrt(pivot[length]);
-    for (int k = 0; k < length; ++k) pivot[k] *= inverse;
-    for (int k = 0; k < length; ++k) {
+    double* const pivot = entries + begin;
+    const double inverse = inverse_[static_cast<size_t>(c)] = 1 / std::sqrt(pivot[last]);
+    for (int j = last; j < RoundUp(last + 1); ++j) pivot[j] = 0;  // what follows the row takes no part
+    for (int j = 0; j < last; j += kWidth) Four(pivot + j) *= inverse;
+    const int* const places = place_.data() + begin;
+    const int* const rows = row_of_.data() + begin;
+    for (int k = 0; k < last; ++k) {
       const double factor = pivot[k];
-      by_column_[static_cast<size_t>(place_[static_cast<size_t>(begin + k)])] = factor;
-      // The path of a column on the path is the beginning of it.
-      double* const __restrict changed = row(path_[static_cast<size_t>(begin + k)]);
-      int j = 0;
-      for (; j < k; j += 2) {  // by two, of k + 1: rows are short
-        changed[j] -= factor * pivot[j];
-        changed[j + 1] -= factor * pivot[j + 1];
-      }
-      if (j == k) changed[j] -= factor * pivot[j];
+      by_column[places[k]] = factor;
+      // The path of a column on the path is the beginning of it; entries beyond the diagonal of that row are its filling.
+      double* const changed = entries + rows[k];
+      for (int j = 0; j <= k; j += kWidth) Four(changed + j) -= factor * Four(pivot + j);
     }
   }
 }
@@ -84,7 +94,7 @@ template <int kColumns>
 void TreeFactor::SolveTransposedFew(double* x, int stride) const {
   using Row = Eigen::Array<double, 1, kColumns>;
   for (int c = size() - 1; c >= 0; --c) {
-    const int begin = first_[static_cast<size_t>(c)], end = first_[static_cast<size_t>(c) + 1] - 1;
+    const int begin = first_[static_cast<size_t>(c)], end = begin + path_length(c) - 1;
     const double* const l = entries_.data();
     Eigen::Map<Row> given(x + static_cast<ptrdiff_t>(c) * stride);
     const Row solved = given * inverse_[static_cast<size_t>(c)];
@@ -112,7 +122,7 @@ void TreeFactor::SolveTransposed(double* x, int stride, int columns) const {
 
 void TreeFactor::SolveOne(double* x, int stride) const {
   for (int c = 0; c < size(); ++c) {
-    const int begin = first_[static_cast<size_t>(c)], end = first_[static_cast<size_t>(c) + 1] - 1;
+    const int begin = first_[static_cast<size_t>(c)], end = begin + path_length(c) - 1;
     double sum = x[static_cast<ptrdiff_t>(c) * stride];
     for (int k = begin; k < end; ++k) {
       sum -= entries_[static_cast<size_t>(k)] * x[static_cast<ptrdiff_t>(path_[static_cast<size_t>(k)]) * stride];

@@ -21,7 +21,7 @@ class TreeFactor {
   // Row c of the lower triangle of M, to be written before Factorise: `path_length` entries, in the columns of the path
   // from the world to c, c the last.
   double* row(int c) { return entries_.data() + first_[static_cast<size_t>(c)]; }
-  int path_length(int c) const { return first_[static_cast<size_t>(c) + 1] - first_[static_cast<size_t>(c)]; }
+  int path_length(int c) const { return length_[static_cast<size_t>(c)]; }
   void Factorise();
   // The same for the entries of M (n × n), of which it reads the upper triangle along the paths.
   void Factorise(const MatrixX& mass);
@@ -36,9 +36,12 @@ class TreeFactor {
   void SolveTransposedFew(double* x, int stride) const;
   void SolveOne(double* x, int stride) const;
 
-  std::vector<int> path_, first_;             // columns of the path to c: path_[first_[c] … first_[c + 1])
-  std::vector<int> beyond_, first_beyond_;    // columns beyond c (c on their path), likewise
+  // Columns of the path to c: length_[c] of them from path_[first_[c]], then filling up to a multiple of four, so that
+  // rows of entries_ are vectors without remainder.
+  std::vector<int> path_, first_, length_;
+  std::vector<int> beyond_, first_beyond_;    // columns beyond c (c on their path): beyond_[first_beyond_[c] … [c + 1])
   std::vector<int> place_;                    // of an entry below the diagonal in by_column_
+  std::vector<int> row_of_;                   // of an entry: first_ of its column
   std::vector<double> entries_, by_column_;   // by row, as path_; by column, as beyond_
   std::vector<double> inverse_;               // 1 / L_cc
 };

@@ -94,6 +94,28 @@ TEST_P(TreeDynamicsTest, ContractedHessianMeetsDifferencesOfFirstDerivatives) {
   }
 }
 
+// Two derivations: row by row as the Hessian of one combination, and all rows at once. Both sum at most some hundred products
+// of the size of the largest entry: 1e-12 of it leaves a factor of 30 to rounding.
+TEST_P(TreeDynamicsTest, SecondDerivativesOfEveryRowAreTheContractedHessiansOfUnitVectors) {
+  const int n = GetParam();
+  std::mt19937 random(700 + n);
+  const Model model = RandomTree(random, n);
+  TreeDynamics tree(model);
+  const Point at = RandomPoint(random, n);
+  InverseDynamicsAt(tree, at);
+  RowHessians rows(n);
+  tree.SecondDerivatives(&rows);
+  for (int l = 0; l < n; ++l) {
+    MatrixX qq = MatrixX::Zero(n, n), qv = qq, qa = qq, vv = qq;
+    tree.AddContractedHessian(VectorX(VectorX::Unit(n, l)).data(), qq, qv, qa, vv);
+    const double scale = 1e-12 * (1 + qq.cwiseAbs().maxCoeff() + qv.cwiseAbs().maxCoeff());
+    EXPECT_LT((rows.Row(rows.qq, l) - qq).cwiseAbs().maxCoeff(), scale) << l;
+    EXPECT_LT((rows.Row(rows.qv, l) - qv).cwiseAbs().maxCoeff(), scale) << l;
+    EXPECT_LT((rows.Row(rows.qa, l) - qa).cwiseAbs().maxCoeff(), scale) << l;
+    EXPECT_LT((rows.Row(rows.vv, l) - vv).cwiseAbs().maxCoeff(), scale) << l;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, TreeDynamicsTest, ::testing::Values(1, 2, 4, 9, 29));
 
 }  // namespace
