@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "core/contact/contact_dynamics.h"
 #include "core/multibody/configuration.h"
 #include "tests/support/seeded_random.h"
+#include "tests/support/standing_plate.h"
 
 namespace rollgait {
 namespace {
@@ -126,50 +126,23 @@ void MassRatio() {
   }
 }
 
-// A plate at rest on frictionless feet at `places`.
-struct Stand {
-  Stand(const std::vector<Vector3>& places, Grip grip) : dynamics(BodyDynamics(MakeModel()), Contacts(places, grip)) {
-    VectorX q = NeutralConfiguration(MakeModel());
-    q[6] = 0.5;
-    dynamics.SetState(q, VectorX::Zero(6), {FrameMotion{}});
-    for (size_t k = 0; k < places.size(); ++k) active.push_back(static_cast<int>(k));
-  }
-  static Model MakeModel() {
-    Joint joint;
-    joint.name = "plate", joint.type = JointType::kFree, joint.mass = 3, joint.inertia = Vector3(1, 1, 2).asDiagonal();
-    return Model::Create({joint}).value();
-  }
-  static std::vector<TreeContact> Contacts(const std::vector<Vector3>& places, Grip grip) {
-    std::vector<TreeContact> contacts(places.size());
-    for (size_t k = 0; k < places.size(); ++k) {
-      contacts[k].surface = {Sphere(0.1), places[k] + Vector3(0, 0, -0.4), Matrix3::Identity()};
-      contacts[k].grip = grip;
-    }
-    return contacts;
-  }
-  ContactDynamics dynamics;
-  std::vector<int> active;
-};
-
-// Three feet, the third off the line of the others by δ: each carries a third of the weight.
-void NearlyDependent() {
-  for (int e = 0; e >= -14; --e) {
-    const double delta = std::pow(10, e);
-    Stand stand({{-1, -delta / 3, 0}, {1, -delta / 3, 0}, {0, 2 * delta / 3, 0}}, Grip::kFrictionless);
+// Three feet, the third off the line of the others by δ. In balance each carries a third of the weight. Off balance, the
+// centre of mass 0.3 m from the line, the third holds −W (0.3 − δ/3)/δ; nothing accelerates. Contacts that depend on each
+// other within rounding are reported: `ForcesUnique`.
+void NearlyDependent(const char* plot, double off) {
+  const double weight = 3 * 9.81;
+  for (int e = 0; e >= -15; --e) {
+    const double delta = std::pow(10, e), third = off + 2 * delta / 3;
+    testing::StandingPlate stand({{-1, off - delta / 3, 0}, {1, off - delta / 3, 0}, {0, third, 0}}, Grip::kFrictionless);
     const ConstrainedSolution& solution = stand.dynamics.Accelerate(stand.active, VectorX::Zero(6), {0, 0, -9.81}, {});
-    MatrixX rows;
-    VectorX right;
-    stand.dynamics.AccelerationRows(stand.active, {}, &rows, &right);
-    const MatrixX mobility = rows * stand.dynamics.MassMatrix().llt().solve(rows.transpose());
-    const Eigen::SelfAdjointEigenSolver<MatrixX> eigen(mobility);
-    const double weight = 3 * 9.81;
-    Print("feet_in_line", solution.redundant ? "force (reported redundant)" : "force", delta,
-          (solution.forces.array() - weight / 3).abs().maxCoeff() / (weight / 3));
-    Print("feet_in_line", "acceleration / g", delta, solution.acceleration.norm() / 9.81);
-    if (eigen.eigenvalues()[0] > 0) {
-      Print("feet_in_line", "condition number times epsilon", delta,
-            eigen.eigenvalues()[2] / eigen.eigenvalues()[0] * 2.2e-16L);
-    }
+    const Vector3 feet = solution.forces;
+    const double last = -weight * (off - delta / 3) / delta, others = (weight - last) / 2;
+    const double error = (feet - Vector3(others, others, last)).cwiseAbs().maxCoeff() / std::abs(last);
+    Print(plot, solution.ForcesUnique() ? "force" : "force (reported as not unique)", delta, error);
+    Print(plot, solution.redundant ? "acceleration / g (rank 2)" : "acceleration / g", delta,
+          solution.acceleration.norm() / 9.81);
+    Print(plot, "independence", delta, solution.independence);
+    Print(plot, "epsilon / independence squared", delta, 2.2e-16 / (solution.independence * solution.independence));
   }
 }
 
@@ -178,7 +151,7 @@ void Redundant() {
   for (int n = 2; n <= 16; ++n) {
     std::vector<Vector3> places;
     for (int k = 0; k < n; ++k) places.push_back({std::cos(2 * M_PI * k / n), std::sin(2 * M_PI * k / n), 0});
-    Stand stand(places, Grip::kRolling);
+    testing::StandingPlate stand(places, Grip::kRolling);
     const ConstrainedSolution& solution = stand.dynamics.Accelerate(stand.active, VectorX::Zero(6), {1, 0, -9.81}, {});
     Vector3 sum = Vector3::Zero();
     for (int k : stand.active) sum += stand.dynamics.Force(k);
@@ -195,7 +168,8 @@ int main() {
   rollgait::SeededRandom random(4);
   rollgait::Bodies(&random);
   rollgait::MassRatio();
-  rollgait::NearlyDependent();
+  rollgait::NearlyDependent("feet_in_line", 0);
+  rollgait::NearlyDependent("feet_off_balance", 0.3);
   rollgait::Redundant();
   return 0;
 }

@@ -1,5 +1,6 @@
 #include "core/contact/constrained_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -97,6 +98,7 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   free_.setZero(RoundUp(n));
   free_.head(n) = columns_.col(m);
   solution->rank = 0;
+  solution->independence = 1;
   solution->determined = true;
   solution->redundant = false;
   solution->residual = 0;
@@ -150,6 +152,7 @@ void ConstrainedSolver::Solve(const MatrixX& mass, const VectorX& force, const M
   for (int i = 0; i < m; ++i) solution->forces[pivots_[i]] = forces_[i] * scale_[pivots_[i]];
   solution->rank = rank_;
   solution->redundant = rank_ < m;
+  for (int i = 0; i < rank_; ++i) solution->independence = std::min(solution->independence, r_(i, i));
   for (int i = 0; i < m; ++i) {
     const double residual = std::abs(jacobian.row(i).dot(solution->acceleration) - right_side[i]);
     if (!(residual <= solution->residual)) solution->residual = residual;
@@ -187,6 +190,7 @@ void ConstrainedSolver::SolveSliding(const MatrixX& mass, const VectorX& force, 
   const LeastNormSolution forces = SolveLeastNorm(gram_, right_, kRankTolerance);
   solution->rank = forces.rank;
   solution->redundant = forces.rank < m;
+  solution->independence = std::sqrt(forces.least_pivot);  // the matrix is Aᵀ A but for friction
   if (solution->redundant && !((q_ * forces.null_space).norm() <= kSameMotion)) solution->determined = false;
   solution->forces = scale_.cwiseProduct(forces.x);
   solution->acceleration = free_ + q_ * forces.x;

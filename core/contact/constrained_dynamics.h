@@ -21,6 +21,13 @@ struct ConstrainedSolution {
   // True if rank < rows. The acceleration is still the right one. The forces are not unique: of all that give this
   // acceleration, those of least norm are returned (each row scaled to unit effective mobility).
   bool redundant = false;
+  // How far the rows that count are from depending on each other: the least distance, in the metric of M⁻¹, of one of
+  // them (unit length) from the span of those before it, in the order of pivots; 1: all perpendicular; above 1e-10.
+  // Rounding ε of poses and velocities costs accelerations ε / independence of their size, forces ε / independence².
+  double independence = 1;
+  // False if the forces are not unique within rounding: redundant, or so nearly that they have no digit left.
+  bool ForcesUnique() const { return !redundant && independence > kForcesLost; }
+  static constexpr double kForcesLost = 1.5e-8;  // √ε
   // max |J a − r|, m/s². Rounding level, unless redundant rows contradict each other.
   double residual = 0;
   // False if friction and rigid bodies leave the accelerations undetermined (SolveSliding): then they are NaN.

@@ -34,7 +34,7 @@ class ImpactSolver {
     }
     const VectorX& change = solution_.acceleration;
     impact.velocity = before + change;
-    impact.redundant = solution_.redundant;
+    impact.redundant = !solution_.ForcesUnique();
     impact.energy_loss = -change.dot(mass * before) - 0.5 * change.dot(mass * change);
     dynamics_.Distribute(held, solution_.forces, &impact.impulses, &impact.spin_impulses);
     impact.gap_rates.assign(dynamics_.contact_count(), 0.0);

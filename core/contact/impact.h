@@ -17,7 +17,7 @@ struct Impact {
   std::vector<double> spin_impulses;   // N m s about the normal
   std::vector<double> gap_rates;       // m/s, n·w⁺ of every contact (only of `held` and `released`)
   double energy_loss = 0;              // J, kinetic energy before − after (in the world's axes)
-  bool redundant = false;              // rows of the held contacts depend on each other: impulses are not unique
+  bool redundant = false;              // impulses are not unique (ConstrainedSolution::ForcesUnique)
   // False if no set of held contacts is free of pulling impulses and of released contacts that move into each other.
   // Then `held` is what had to be held (the newly touching and the bilateral ones).
   bool consistent = true;

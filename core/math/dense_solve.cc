@@ -28,6 +28,10 @@ LeastNormSolution SolveLeastNorm(const MatrixX& a, const VectorX& b, double thre
   const Decomposition decomposition = Decompose(a, threshold);
   LeastNormSolution solution;
   solution.rank = static_cast<int>(decomposition.rank());
+  if (solution.rank > 0) {
+    const auto pivots = decomposition.matrixQTZ().diagonal().head(solution.rank).cwiseAbs();
+    solution.least_pivot = pivots.minCoeff() / pivots.maxCoeff();
+  }
   solution.x = decomposition.solve(b);
   solution.null_space.resize(a.cols(), a.cols() - solution.rank);
   if (solution.rank < a.cols()) solution.null_space = Bases(decomposition).rightCols(a.cols() - solution.rank);

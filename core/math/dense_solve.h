@@ -14,6 +14,7 @@ struct LeastNormSolution {
   VectorX x;           // of all minimisers of |A x − b| the shortest
   MatrixX null_space;  // orthonormal columns, n × (n − rank)
   int rank = 0;
+  double least_pivot = 1;  // of the pivots that count, relative to the largest
 };
 
 // By complete orthogonal decomposition (Golub, Van Loan, section 5.4). A may be of any shape; finite.

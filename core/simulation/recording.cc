@@ -50,7 +50,7 @@ void RecordExtremes(const SimulationScene& scene, double time, const VectorX& x,
   report->energy_final = energy;
   const double error = std::abs(energy - x[dynamics->size() - 1] - report->energy_initial);
   report->max_energy_error = std::max(report->max_energy_error, error);
-  report->redundant = report->redundant || dynamics->solution().redundant;
+  report->redundant = report->redundant || !dynamics->solution().ForcesUnique();
   ContactDynamics& contacts = dynamics->contacts();
   MatrixX rows;
   VectorX rates;

@@ -85,7 +85,7 @@ struct SimulationReport {
   double max_friction_ratio = 0;
   double max_friction_ratio_time = 0;
   int max_friction_ratio_contact = -1;
-  bool redundant = false;               // at some instant the contacts' rows depended on each other
+  bool redundant = false;               // at some instant forces were not unique (ConstrainedSolution::ForcesUnique)
   std::vector<int> active_at_end;
   VectorX q, v;                         // at the end
 };

@@ -13,6 +13,7 @@
 #include "tests/support/contact_tree.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/standing_box.h"
+#include "tests/support/standing_plate.h"
 
 namespace rollgait {
 namespace {
@@ -145,6 +146,29 @@ TEST(ContactDynamics, RedundantContactsGiveTheRightAcceleration) {
   Vector3 sum = Vector3::Zero();
   for (int k = 0; k < 4; ++k) sum += dynamics.Force(k);
   EXPECT_TRUE(MatrixNear(sum, Vector3(-2, 0, 2 * 9.81), 1e-11));
+}
+
+// Three feet, the third δ off the line of the others, and a weight 0.3 m beside it: the forces are huge, and exact to what
+// `independence` says; where no digit is left of them, that is reported.
+TEST(ContactDynamics, NearlyRedundantContactsSayHowManyDigitsAreLeft) {
+  const double weight = 3 * 9.81, epsilon = 2.2e-16;
+  for (int e = 0; e >= -15; --e) {
+    const double delta = std::pow(10, e), off = 0.3;
+    testing::StandingPlate plate({{-1, off - delta / 3, 0}, {1, off - delta / 3, 0}, {0, off + 2 * delta / 3, 0}},
+                                 Grip::kFrictionless);
+    const ConstrainedSolution& solution =
+        plate.dynamics.Accelerate(plate.active, VectorX::Zero(6), Vector3(0, 0, -9.81), {});
+    EXPECT_EQ(solution.redundant, e <= -11) << e;
+    EXPECT_EQ(solution.ForcesUnique(), e > -8) << e;
+    if (e <= -11) continue;  // the body falls about the line, as it does for δ = 0
+    const double last = -weight * (off - delta / 3) / delta, others = (weight - last) / 2;
+    const double lost = 20 * epsilon / solution.independence;
+    EXPECT_LT(solution.acceleration.cwiseAbs().maxCoeff(), 9.81 * lost) << e;
+    EXPECT_TRUE(MatrixNear(solution.forces, Vector3(others, others, last),
+                           lost / solution.independence * std::abs(last))) << e;
+    EXPECT_GT(solution.independence, 0.5 * delta);
+    EXPECT_LT(solution.independence, 2 * delta);
+  }
 }
 
 // A rod of half length 1 that turns about its left end onto its right one. With I > m the left end would have to be held
