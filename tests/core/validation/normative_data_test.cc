@@ -5,16 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace rollgait {
 namespace {
 
-const NormativeDataset& Set(const std::string& name) {
+const NormativeDataset& Set(std::string_view name) {
   const auto& sets = NormativeDatasets();
   return *std::find_if(sets.begin(), sets.end(), [&](const NormativeDataset& set) { return set.name == name; });
 }
 
-const NormativeCurve& Curve(const NormativeDataset& set, NormativeQuantity quantity, const std::string& joint) {
+const NormativeCurve& Curve(const NormativeDataset& set, NormativeQuantity quantity, std::string_view joint) {
   return *std::find_if(set.curves.begin(), set.curves.end(), [&](const NormativeCurve& curve) {
     return curve.quantity == quantity && curve.joint == joint;
   });

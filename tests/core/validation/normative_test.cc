@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "core/contact/rolling_kinematics.h"
 #include "core/models/planar_human.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 const Vector3 kGravity(0, 0, -9.81);
 
-const CurveComparison& Of(const DatasetComparison& set, NormativeQuantity quantity, const std::string& joint) {
+const CurveComparison& Of(const DatasetComparison& set, NormativeQuantity quantity, std::string_view joint) {
   for (const CurveComparison& curve : set.curves) {
     if (curve.quantity == quantity && curve.joint == joint) return curve;
   }
