@@ -65,8 +65,8 @@ struct Case {
   std::unique_ptr<ContactSensitivitySolver> sensitivity;
   const std::vector<FrameMotion> ground{1};
   const std::vector<int> one{0}, two{0, 1};
-  VectorX q, v, a, lambda, tau;
-  MatrixX dq, dv, da, qq, qv, qa, vv;
+  VectorX q, v, a, lambda, tau, drift;
+  MatrixX jacobian, dq, dv, da, qq, qv, qa, vv;
   Vector3 gravity{0, 0, -9.81};
 };
 
@@ -103,6 +103,14 @@ void Roll(Case& c, const std::vector<int>& active) {
   c.contact->SetState(c.q, c.v, c.ground);
   c.contact->Accelerate(active, c.lambda, c.gravity, {});
 }
+// Jacobian and drift of the rows of rolling, with the kinematics of the tree.
+void Rows(Case& c, const std::vector<int>& active) {
+  c.contact->SetState(c.q, c.v, c.ground);
+  c.contact->AccelerationRows(active, {}, &c.jacobian, &c.drift);
+}
+void OneContactRows(Case& c) { Rows(c, c.one); }
+void TwoContactsRows(Case& c) { Rows(c, c.two); }
+
 void OneContact(Case& c) { Roll(c, c.one); }
 void TwoContacts(Case& c) { Roll(c, c.two); }
 
@@ -121,6 +129,8 @@ const std::map<std::string, void (*)(Case&)> kFunctions = {
     {"inverse_dynamics", InverseDynamics},
     {"mass_matrix", MassMatrix},
     {"forward_dynamics", ForwardDynamics},
+    {"one_contact_rows", OneContactRows},
+    {"two_contacts_rows", TwoContactsRows},
     {"one_contact", OneContact},
     {"one_contact_derivatives", OneContactDerivatives},
     {"two_contacts", TwoContacts},

@@ -80,7 +80,7 @@ void ContactDynamics::ForceRows(const std::vector<int>& active, const MatrixX& j
   int row = 0;
   for (int k : active) {
     if (sliding_[k]) {
-      SlipJacobian(k, &linear_, &angular_);
+      SlipJacobian(k, &linear_, nullptr);
       force_jacobian->row(row) -= sliding_[k]->friction * (SlidingDirection(k).transpose() * linear_);
     }
     row += Rows(k);
@@ -92,7 +92,10 @@ void ContactDynamics::SetState(const VectorX& q, const VectorX& v, const std::ve
   velocity_ = v;
   ground_ = ground;
   links_.resize(state_.size());
-  for (size_t i = 0; i < state_.size(); ++i) links_[i] = Classical(state_[i]);
+  for (const TreeContact& contact : contacts_) {
+    links_[contact.link] = Classical(state_[contact.link]);
+    if (contact.other_link >= 0) links_[contact.other_link] = Classical(state_[contact.other_link]);
+  }
   for (auto& kinematics : kinematics_) kinematics.reset();
   motion_known_ = mass_known_ = false;
 }
@@ -119,8 +122,8 @@ void ContactDynamics::SlipJacobian(int k, MatrixX* linear, MatrixX* angular) {
     const bool plane = std::holds_alternative<PlacedPlane>(contact.other);
     dynamics_.AddTwistJacobian(state_, contact.other_link, plane ? pair.p_1 : pair.p_2, -1, &twist_);
   }
-  *angular = twist_.topRows(3);
-  *linear = twist_.bottomRows(3);
+  *linear = twist_.bottomRows<3>();
+  if (angular != nullptr) *angular = twist_.topRows<3>();
 }
 
 MotionDerivatives& ContactDynamics::Motion() {
@@ -142,7 +145,7 @@ Vector3 ContactDynamics::Tangent(int k) {
 }
 
 int ContactDynamics::WriteRows(int k, int row, MatrixX* jacobian) {
-  SlipJacobian(k, &linear_, &angular_);
+  SlipJacobian(k, &linear_, contacts_[k].no_spin ? &angular_ : nullptr);
   const Vector3& n = Kinematics(k).normal;
   if (GripNow(k) == Grip::kRolling) {
     jacobian->middleRows(row, 3) = linear_;

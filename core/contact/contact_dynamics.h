@@ -51,7 +51,7 @@ class ContactDynamics {
   double Spin(int k);
   // The tangent direction of kRollingAlong: `along` in world axes, made tangent and of unit length.
   Vector3 Tangent(int k);
-  // ∂w/∂v (3 × nv), world axes, and ∂(relative angular velocity)/∂v.
+  // ∂w/∂v (3 × nv), world axes, and ∂(relative angular velocity)/∂v unless `angular` is null.
   void SlipJacobian(int k, MatrixX* linear, MatrixX* angular);
   // M at the state.
   const MatrixX& MassMatrix();

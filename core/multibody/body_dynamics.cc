@@ -229,6 +229,17 @@ void BodyDynamics::AddTwistJacobian(const State& state, int link, const Vector3&
   ROLLGAIT_CHECK(jacobian->rows() == 6 && jacobian->cols() == nv_);
   for (int j = link; j >= 0; j = joints_[j].parent) {
     const JointData& joint = joints_[j];
+    if (joint.columns == 1) {
+      const Vector3 axis = sign * (state[j].R_WL * joint.axis);
+      auto column = jacobian->col(joint.v_index);
+      if (joint.type == JointType::kPrismatic) {
+        column.tail<3>() += axis;
+      } else {
+        column.head<3>() += axis;
+        column.tail<3>() += axis.cross(point - state[j].p_WL);
+      }
+      continue;
+    }
     for (int c = 0; c < joint.columns; ++c) {
       const Motion column = Column(joint, c);
       const Vector3 angular = state[j].R_WL * column.angular;
