@@ -141,6 +141,24 @@ TEST(FrontalLdlt, AllocatesNothingTheSecondTime) {
   EXPECT_EQ(factor_and_solve(), 0);
 }
 
+// A diagonal entry too small beside its neighbour makes a pivot of order 2, also where the block is definite.
+TEST(FrontalLdlt, CountsEigenvaluesOfDefinitePivotsOfOrderTwo) {
+  for (const double sign : {1.0, -1.0}) {
+    for (const double last : {10.0, 30.0, 50.0}) {  // determinant −0.5, 0.5, 1.5
+      Sample sample(2);
+      sample.Add(0, 0, sign * 0.05);
+      sample.Add(1, 0, 1);
+      sample.Add(1, 1, sign * last);
+      FrontalLdlt factors(2, sample.pattern, sample.groups);
+      const auto inertia = factors.Factorise(sample.values.data(), 0.1);
+      const auto expected = EigenInertia(sample.dense);
+      EXPECT_EQ(inertia.negative, expected.negative) << sign << " " << last;
+      EXPECT_EQ(inertia.positive, expected.positive) << sign << " " << last;
+      EXPECT_LT(BackwardError(sample, &factors), 1e-15);
+    }
+  }
+}
+
 TEST(FrontalLdlt, SaysHowManyPivotsAreMissing) {
   Sample sample = Chain(4, 3, 2, 2, 11);
   const int repeated = 2 + 3, row = 3 + 2;  // the two rows of the first stage become one
