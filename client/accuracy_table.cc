@@ -54,7 +54,7 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
   const std::string tolerance = FormatNumber(report.integrator_tolerance(), 2);
   const v1::GroundContact& ground = solve.spec().ground_contact();
   const double friction = ground.has_friction_coefficient() ? ground.friction_coefficient() : 0.8;
-  return {
+  std::vector<AccuracyLine> lines = {
       {"largest position defect",
        report.max_position_defect(),
        "rad or m",
@@ -82,14 +82,16 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        "Tangential over normal force. It is held below the coefficient at the collocation points; sampled between them "
        "too.",
        {}},
-      {"least swing clearance",
-       report.min_swing_clearance_m() * 1e3,
-       "mm",
-       "",
-       "Height of the swing foot over the ground. It is zero at lift-off and touch-down; negative: the foot is in the "
-       "ground.",
-       {}},
-      EndLine(solve),
+  };
+  // The ball of a manoeuvre never swings.
+  if (!solve.spec().has_manoeuvre()) {
+    lines.push_back({"least swing clearance", report.min_swing_clearance_m() * 1e3, "mm", "",
+                     "Height of the swing foot over the ground. It is zero at lift-off and touch-down; negative: the foot is in "
+                     "the ground.",
+                     {}});
+  }
+  lines.push_back(EndLine(solve));
+  const std::vector<AccuracyLine> balances = {
       {"energy balance error",
        report.energy_balance_error_j(),
        "J",
@@ -111,6 +113,8 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        "Largest violation of any constraint of the discretised problem (scaled).",
        {}},
   };
+  lines.insert(lines.end(), balances.begin(), balances.end());
+  return lines;
 }
 
 }  // namespace rollgait::client

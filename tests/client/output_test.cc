@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "tests/client/sample_solve.h"
 
@@ -61,6 +62,22 @@ TEST(StoTest, HeaderIsWhatOpenSimReads) {
     before = std::stod(row[0]);
   }
   EXPECT_NEAR(before, 2 * kSampleSpan_s, 1e-11);
+}
+
+TEST(AccuracyLinesTest, ManoeuvresHaveNoSwing) {
+  const auto labels = [](const v1::Solve& solve) {
+    std::vector<std::string> all;
+    for (const AccuracyLine& line : AccuracyLines(solve)) all.push_back(line.name);
+    return all;
+  };
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  EXPECT_THAT(labels(solve), ::testing::Contains("least swing clearance"));
+  EXPECT_THAT(labels(solve), ::testing::Contains("periodicity error"));
+  const size_t lines = labels(solve).size();
+  solve.mutable_spec()->mutable_manoeuvre();
+  EXPECT_THAT(labels(solve), ::testing::Not(::testing::Contains("least swing clearance")));
+  EXPECT_THAT(labels(solve), ::testing::Contains("end error"));
+  EXPECT_EQ(labels(solve).size(), lines - 1);
 }
 
 TEST(OutputTest, RefusesWhatCannotBeWritten) {
