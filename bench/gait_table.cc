@@ -2,9 +2,10 @@
 //   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step 0.65]
 //              [--double 8]
 //              [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10]
-//              [--costs torque:1,work:1 | --preset human] [--starts 3] [--standard | --fine] [--verbose] [--normative]
+//              [--costs torque:1,work:1 | --preset human [--extra force-rate:1e-8]] [--touch-down plastic] [--starts 3] [--standard | --fine] [--verbose] [--normative]
 // --normative prints how far each gait is from people's (core/validation/normative.h).
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <numbers>
@@ -14,6 +15,8 @@
 #include <vector>
 
 #include "core/gait/optimizing_gait_solver.h"
+#include "core/gait/presets.h"
+#include "core/trajectory/sampling.h"
 
 namespace rollgait {
 namespace {
@@ -56,6 +59,7 @@ FootShape FeetOf(const std::string& name) {
 }
 
 decltype(GaitRequest::CostTerm::term) TermOf(const std::string& name) {
+  if (name == "force-rate") return GaitRequest::SquaredForceRate{};
   if (name == "rate") return GaitRequest::SquaredTorqueRate{};
   if (name == "work") return GaitRequest::MechanicalWork{};
   if (name == "time") return GaitRequest::Time{};
@@ -131,6 +135,28 @@ void PrintNormative(const NormativeComparison& people) {
   }
 }
 
+// Impacts, and where forces of the collocation polynomials dip below zero between its points.
+void PrintForces(const Trajectory& trajectory, const GaitSpec& spec) {
+  const double weight = spec.scene.model.total_mass() * spec.gravity.norm();
+  double least = 0;
+  for (size_t p = 0; p < trajectory.phases.size(); ++p) {
+    const TrajectoryPhase& phase = trajectory.phases[p];
+    for (int k = 0; k + 1 < static_cast<int>(phase.node_times.size()); ++k) {
+      for (int i = 0; i <= 10; ++i) {
+        const MotionSample sample = Sample(trajectory, static_cast<int>(p), k, 0.1 * i);
+        for (int row = 2; row < sample.forces.size(); row += 3) least = std::min(least, sample.forces(row));
+      }
+    }
+    if (phase.impulses.size() == 0) continue;
+    std::printf("    impact at %.3f s: %.2f J lost, normal impulses", phase.start, phase.impact_loss);
+    for (int row = 2; row < phase.impulses.size(); row += 3) {
+      std::printf(" %s %.2f", spec.scene.contacts[phase.contacts[row / 3]].name.c_str(), phase.impulses(row));
+    }
+    std::printf(" N s\n");
+  }
+  std::printf("    least normal force between points %.1f N = %.2f %%BW\n", least, 100 * least / weight);
+}
+
 int Main(int argc, char** argv) {
   std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
                            schemes = {"radau2", "radau3", "hermite-simpson"};
@@ -138,6 +164,7 @@ int Main(int argc, char** argv) {
   GaitRequest request;
   request.body.model = "planar";
   request.motion.speed = 1.3;
+  std::vector<GaitRequest::CostTerm> extra;  // on top of the preset's
   auto level = GaitRequest::AccuracyLevel::kDraft;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
@@ -157,6 +184,13 @@ int Main(int argc, char** argv) {
     if (flag == "--double") request.discretization.double_support_intervals = std::stoi(argv[++i]);
     if (flag == "--costs") request.costs = CostsOf(argv[++i]);
     if (flag == "--preset") request.preset = PresetOf(argv[++i]);
+    if (flag == "--extra") extra = CostsOf(argv[++i]);
+    if (flag == "--touch-down" && argv[++i] == std::string("plastic")) {
+      request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;
+    }
+    if (flag == "--sex") request.body.sex = argv[++i] == std::string("female") ? Sex::kFemale : Sex::kMale;
+    if (flag == "--stature") request.body.stature = std::stod(argv[++i]);
+    if (flag == "--mass") request.body.mass = std::stod(argv[++i]);
     if (flag == "--starts") request.starts = std::stoi(argv[++i]);
     if (flag == "--intervals") intervals = Split(argv[++i]);
     if (flag == "--slopes") slopes = Split(argv[++i]);
@@ -165,6 +199,13 @@ int Main(int argc, char** argv) {
   std::printf("%-16s %5s %4s | %-10s %4s %7s %7s | %9s %9s %6s | %9s %9s %8s %8s %8s | %5s %5s\n", "scheme", "slope",
               "N", "end", "iter", "cpu s", "eval s", "objective", "KKT", "step m", "gap m", "slip m/s", "defect q",
               "defect v", "energy", "minN", "fric");
+  if (!extra.empty() && request.preset) {
+    const Preset preset = *request.preset;
+    FillFromPreset(&request);
+    request.preset.reset();
+    request.costs = PresetCosts(preset, CheckRequest(request).value().scene);
+    request.costs.insert(request.costs.end(), extra.begin(), extra.end());
+  }
   bool all = true;
   for (const auto& scheme : schemes) {
     for (const auto& slope : slopes) {
@@ -200,6 +241,7 @@ int Main(int argc, char** argv) {
                         mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
           }
         }
+        if (s.trajectory) PrintForces(*s.trajectory, spec.value());
         if (normative && s.normative) PrintNormative(*s.normative);
         for (const auto& u : s.unmet_constraints) {
           std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());

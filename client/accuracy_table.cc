@@ -46,6 +46,18 @@ AccuracyLine EndLine(const v1::Solve& solve) {
           "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle).", {}};
 }
 
+std::vector<AccuracyLine> ImpactLines(const v1::AccuracyReport& report) {
+  return {
+      {"energy lost in impacts", report.impact_loss_j(), "J", "",
+       "Kinetic energy that touch-down takes away, in all that the motion spans.", {}},
+      {"least impulse", report.min_jump_impulse_n_s(), "N s", "", "Of a contact in an impact. Positive: the ground pushes.", {}},
+      {"impact, velocity error", report.jump_velocity_error(), "rad/s or m/s", "",
+       "Difference between the velocities after an impact and those that another method computes from those before it.", {}},
+      {"impact, impulse error", report.jump_impulse_error_n_s(), "N s", "",
+       "Change of momentum in an impact minus the impulses of the ground.", {}},
+  };
+}
+
 }  // namespace
 
 std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
@@ -114,6 +126,10 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        {}},
   };
   lines.insert(lines.end(), balances.begin(), balances.end());
+  if (solve.spec().ground_contact().touch_down() == v1::TOUCH_DOWN_PLASTIC) {
+    const std::vector<AccuracyLine> impacts = ImpactLines(report);
+    lines.insert(lines.end(), impacts.begin(), impacts.end());
+  }
   return lines;
 }
 

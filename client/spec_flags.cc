@@ -35,13 +35,14 @@ double ParseWeight(const std::string& cost, const std::string& text) {
 }
 
 v1::CostTerm ParseCost(const std::string& cost) {
-  enum class Term { kTorque, kTorqueRate, kWork, kTime, kEffort, kMuscleWork, kPassiveLoad, kAcceleration };
+  enum class Term { kTorque, kTorqueRate, kForceRate, kWork, kTime, kEffort, kMuscleWork, kPassiveLoad, kAcceleration };
   const size_t colon = cost.find(':');
   v1::CostTerm term;
   switch (Lookup<Term>(
       "--cost", cost.substr(0, colon),
       {{"torque", Term::kTorque},
        {"torque-rate", Term::kTorqueRate},
+       {"force-rate", Term::kForceRate},
        {"work", Term::kWork},
        {"time", Term::kTime},
        {"effort", Term::kEffort},
@@ -53,6 +54,9 @@ v1::CostTerm ParseCost(const std::string& cost) {
       break;
     case Term::kTorqueRate:
       term.mutable_squared_torque_rate();
+      break;
+    case Term::kForceRate:
+      term.mutable_squared_force_rate();
       break;
     case Term::kWork:
       term.mutable_mechanical_work();
@@ -112,6 +116,30 @@ std::vector<double> ParseNumbers(const std::string& flag, const std::string& tex
     if (good && numbers.size() == count && text.back() != ',') return numbers;
   }
   throw Failure(ExitCode::kUsage, flag + " " + text + ": must be " + form);
+}
+
+// "A" or "A,B": one value or the range between two.
+void ApplyRange(const std::string& flag, const std::string& text, v1::Range& range) {
+  const std::vector<double> numbers =
+      ParseNumbers(flag, text, "A or A,B along the surface, from -1 (heel) to 1 (toe)", {1, 2});
+  range.set_min(numbers.front());
+  range.set_max(numbers.back());
+}
+
+void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
+  if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
+  if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
+  if (flags.touch_down) {
+    spec.mutable_ground_contact()->set_touch_down(
+        Lookup<v1::TouchDown>("--touch-down", *flags.touch_down,
+                              {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
+  }
+  if (flags.touch_down_point) {
+    ApplyRange("--touch-down-point", *flags.touch_down_point, *spec.mutable_ground_contact()->mutable_touch_down_point());
+  }
+  if (flags.lift_off_point) {
+    ApplyRange("--lift-off-point", *flags.lift_off_point, *spec.mutable_ground_contact()->mutable_lift_off_point());
+  }
 }
 
 void SetVector(const std::vector<double>& numbers, size_t first, v1::Vector3& vector) {
@@ -227,11 +255,14 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
   add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
   add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");
+  add("--touch-down", flags.touch_down, "Motion", "How feet come down: smooth (at rest) or plastic (an impact stops them)");
+  add("--touch-down-point", flags.touch_down_point, "Motion", "Where a surface touches down: A or A,B from -1 (heel) to 1 (toe)");
+  add("--lift-off-point", flags.lift_off_point, "Motion", "Where a surface lifts off, likewise");
   add("--from", flags.from, "Manoeuvre", "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
   add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
   add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
-  add("--cost", flags.costs, "Cost", "torque, torque-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
+  add("--cost", flags.costs, "Cost", "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
   add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
@@ -291,8 +322,7 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   if (flags.cycle) {
     spec.set_cycle(Lookup<v1::Cycle>("--cycle", *flags.cycle, {{"half", v1::CYCLE_HALF}, {"full", v1::CYCLE_FULL}}));
   }
-  if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
-  if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
+  ApplyGround(flags, spec);
   // Either takes the place of what the file says; both at once are the server's to refuse.
   if (!flags.costs.empty() || flags.preset) {
     spec.clear_costs();

@@ -24,6 +24,7 @@ struct SpecFlags {
   std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;
   std::optional<std::string> from, to, semi_axes;  // "X,Y[,A,B,C]" in m and degrees, "A,B,C" in m
   std::optional<double> duration_s;
+  std::optional<std::string> touch_down, touch_down_point, lift_off_point;  // a word; "A" or "A,B" from heel -1 to toe 1
   std::optional<double> friction, clearance_m, tolerance, time_limit_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
   std::optional<std::string> feet, ranges;

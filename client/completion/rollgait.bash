@@ -7,6 +7,7 @@ _rollgait() {
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
   local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
+    --touch-down --touch-down-point --lift-off-point
     --from --to --duration --duty-factor
     --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
     --max-iterations --time-limit --output"
@@ -18,8 +19,9 @@ _rollgait() {
     --scheme) COMPREPLY=($(compgen -W "radau2 radau3 hermite-simpson" -- "$current")); return ;;
     --cycle) COMPREPLY=($(compgen -W "half full" -- "$current")); return ;;
     --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
-    --cost) COMPREPLY=($(compgen -W "torque torque-rate work time effort muscle-work passive-load acceleration" -- "$current")); return ;;
+    --cost) COMPREPLY=($(compgen -W "torque torque-rate force-rate work time effort muscle-work passive-load acceleration" -- "$current")); return ;;
     --feet) COMPREPLY=($(compgen -W "one two" -- "$current")); return ;;
+    --touch-down) COMPREPLY=($(compgen -W "smooth plastic" -- "$current")); return ;;
     --model) COMPREPLY=($(compgen -W "$(rollgait --timeout 1 models 2> /dev/null | awk 'NR > 1 { print $1 }')" -- "$current")); return ;;
     --ranges) COMPREPLY=($(compgen -W "anatomical walking" -- "$current")); return ;;
     --preset) COMPREPLY=($(compgen -W "torque transport human" -- "$current")); return ;;

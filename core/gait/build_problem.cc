@@ -59,6 +59,7 @@ struct TermDescription {
   Term operator()(const GaitRequest::SquaredTorqueRate& term) const {
     return EffortRateCost{JointWeights(problem.model, term.joint_weights), problem.effort_size()};
   }
+  Term operator()(const GaitRequest::SquaredForceRate&) const { return ForceRateCost{problem.force_size()}; }
   Term operator()(const GaitRequest::MechanicalWork& term) const {
     return std::make_unique<MechanicalWorkCost>(term.smoothing.value(), problem.model.actuated(), layout, power());
   }
@@ -156,6 +157,7 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   problem->swing_clearance = spec.swing_clearance;
   if (spec.touch_down_point) problem->touch_down_point = Scaled(1, *spec.touch_down_point);
   if (spec.lift_off_point) problem->lift_off_point = Scaled(1, *spec.lift_off_point);
+  problem->plastic_touch_down = spec.touch_down == GaitRequest::TouchDown::kPlastic;
   DescribeTravel(spec, problem.get());
   const TermDescription describe{spec.scene, *problem, problem->Layout(0)};
   for (const GaitSpec::CostTerm& term : spec.costs) {

@@ -42,6 +42,8 @@ struct TermCheck {
     term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 20, {0.01, 1000, "W"});
   }
 
+  void operator()(GaitRequest::SquaredForceRate&) const {}
+
   void operator()(GaitRequest::Time&) const {}
 
   void operator()(GaitRequest::Tracking& term) const {

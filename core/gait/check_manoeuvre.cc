@@ -67,6 +67,8 @@ void RefuseWalking(const GaitRequest& request, RequestCheck& check) {
   refuse(request.ground_contact.touch_down_point.has_value(), "ground_contact.touch_down_point",
          "nothing touches down");
   refuse(request.ground_contact.lift_off_point.has_value(), "ground_contact.lift_off_point", "nothing lifts off");
+  refuse(request.ground_contact.touch_down != GaitRequest::TouchDown::kSmooth, "ground_contact.touch_down",
+         "nothing touches down");
   refuse(request.discretization.double_support_intervals.has_value(), "discretization.double_support_intervals",
          "it has one phase, of single_support_intervals");
 }

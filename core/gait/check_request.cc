@@ -133,6 +133,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .swing_clearance = ground.swing_clearance,
                   .touch_down_point = request.ground_contact.touch_down_point,
                   .lift_off_point = request.ground_contact.lift_off_point,
+                  .touch_down = request.ground_contact.touch_down,
                   .scheme = request.discretization.scheme,
                   .kkt_tolerance = accuracy.kkt_tolerance,
                   .max_gap = accuracy.max_gap,

@@ -28,12 +28,9 @@ struct GaitRequest {
     std::optional<int> intervals;
     std::optional<double> min_duration, max_duration;  // s
   };
-  struct SquaredTorque {
-    std::map<std::string, double> joint_weights;
-  };
-  struct SquaredTorqueRate {
-    std::map<std::string, double> joint_weights;
-  };
+  struct SquaredTorque { std::map<std::string, double> joint_weights; };
+  struct SquaredTorqueRate { std::map<std::string, double> joint_weights; };
+  struct SquaredForceRate {};
   struct MechanicalWork {
     std::optional<double> smoothing;  // W
   };
@@ -47,12 +44,8 @@ struct GaitRequest {
     std::optional<double> smoothing;  // W
     std::map<std::string, double> joint_weights;
   };
-  struct PassiveLoad {
-    std::map<std::string, double> joint_weights;
-  };
-  struct SquaredAcceleration {
-    std::map<std::string, double> joint_weights;
-  };
+  struct PassiveLoad { std::map<std::string, double> joint_weights; };
+  struct SquaredAcceleration { std::map<std::string, double> joint_weights; };
   struct Tracking {
     struct Channel {
       std::string joint;
@@ -63,11 +56,12 @@ struct GaitRequest {
   };
   struct CostTerm {
     std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking, MuscleEffort, MuscleWork, PassiveLoad,
-                 SquaredAcceleration>
+                 SquaredAcceleration, SquaredForceRate>
         term;
     std::optional<double> weight;
   };
   enum class Normalization { kPerDistance, kPerTime, kNone };
+  enum class TouchDown { kSmooth, kPlastic };
   enum class AccuracyLevel { kDraft, kStandard, kFine };
 
   BodyRequest body;
@@ -86,6 +80,7 @@ struct GaitRequest {
   struct GroundContact {
     std::optional<double> friction_coefficient, min_normal_force_bw, swing_clearance;
     std::optional<Range> touch_down_point, lift_off_point;
+    TouchDown touch_down = TouchDown::kSmooth;
   } ground_contact;
   struct Limits {
     std::map<std::string, Range> joint_position;
@@ -134,6 +129,7 @@ struct GaitSpec {
   GaitRequest::Normalization normalization;
   double friction_coefficient, min_normal_force_bw, swing_clearance;
   std::optional<GaitRequest::Range> touch_down_point, lift_off_point;
+  GaitRequest::TouchDown touch_down;
   Scheme scheme;
   double kkt_tolerance, max_gap, max_slip;
   int max_refinements;

@@ -277,7 +277,10 @@ MotionGuess GuessFromTrajectory(const Trajectory& trajectory) {
   MotionGuess guess;
   guess.displacement = trajectory.displacement;
   guess.near_solution = true;
-  for (const TrajectoryPhase& phase : trajectory.phases) guess.durations.push_back(phase.duration);
+  for (const TrajectoryPhase& phase : trajectory.phases) {
+    guess.durations.push_back(phase.duration);
+    guess.impulses.push_back(phase.impulses);
+  }
   guess.motion = [trajectory](int phase, double fraction) {
     const std::vector<double>& nodes = trajectory.phases[phase].node_times;
     const double time = nodes.front() + fraction * (nodes.back() - nodes.front());

@@ -17,6 +17,12 @@ struct EffortRateCost {
   double effort_size = 1;  // N m
 };
 
+// ∫ Σ |df/dt|² dt, N²/s, of the forces of the ground. Along x it is the sum over the contacts of a link that counts (of two points
+// of one rigid body only that is determined). A contact that is not active has no force: taking one up and giving it up costs too.
+struct ForceRateCost {
+  double force_size = 1;  // N
+};
+
 // ∫ Σ w_j (q_j(t) − r_j(t/T))² dt, rad² s (m² s for a prismatic joint), T the duration of all phases together. It knows where
 // an instant is in the whole, so it depends on every duration.
 struct TrackingCost {
@@ -30,7 +36,7 @@ struct TrackingCost {
 
 // One cost term: an integrand that knows a single instant, or one of those that do not.
 struct CostDescription {
-  std::variant<std::unique_ptr<PointCost>, EffortRateCost, TrackingCost> term;
+  std::variant<std::unique_ptr<PointCost>, EffortRateCost, ForceRateCost, TrackingCost> term;
   double weight = 1;
 
   // The integrand if it knows a single instant, else null.

@@ -26,6 +26,13 @@ std::vector<int> OptimalControlProblem::PreviousActive(int phase) const {
   return previous;
 }
 
+bool OptimalControlProblem::Jumps(int phase) const {
+  if (!plastic_touch_down || (phase == 0 && ends)) return false;
+  const std::vector<int> previous = PreviousActive(phase);
+  const std::vector<int>& active = phases[phase].active;
+  return std::any_of(active.begin(), active.end(), [&](int contact) { return !Contains(previous, contact); });
+}
+
 int OptimalControlProblem::StandingFeet(int phase) const {
   int own = 0;
   bool left = false, right = false;
@@ -101,12 +108,17 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::EntryConstr
   layout.n = model.size();
   const std::vector<int> previous = PreviousActive(phase);
   const std::vector<ContactSurface> seen = PhaseContacts(phase);
+  const bool jumps = Jumps(phase);
   for (int contact : phases[phase].active) {
-    if (Contains(previous, contact)) continue;
-    constraints.push_back(
-        std::make_unique<GapConstraint>(model, contacts, contact, layout, GapConstraint::Kind::kTouching, 0));
-    constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact, layout));
-    if (touch_down_point) {
+    const bool stays = Contains(previous, contact);
+    if (!stays) {
+      constraints.push_back(
+          std::make_unique<GapConstraint>(model, contacts, contact, layout, GapConstraint::Kind::kTouching, 0));
+    }
+    if (!stays || jumps) {
+      constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact, layout));
+    }
+    if (!stays && touch_down_point) {
       constraints.push_back(std::make_unique<SurfacePointConstraint>(model, contacts, contact, layout,
                                                                      touch_down_point->min, touch_down_point->max));
     }
@@ -116,6 +128,26 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::EntryConstr
       constraints.push_back(std::make_unique<SurfacePointConstraint>(model, contacts, contact, layout,
                                                                      lift_off_point->min, lift_off_point->max));
     }
+  }
+  return constraints;
+}
+
+PointLayout OptimalControlProblem::JumpLayout(int phase) const {
+  PointLayout layout = Layout(phase);
+  layout.efforts = 0;
+  return layout;
+}
+
+std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::JumpConstraints(int phase) const {
+  std::vector<std::unique_ptr<PointConstraint>> constraints;
+  const PointLayout layout = JumpLayout(phase);
+  const auto active = ActiveContacts(phase);
+  constraints.push_back(
+      std::make_unique<DynamicsConstraint>(model, contacts, active, layout, impulse_size(), lever * impulse_size()));
+  for (const ActiveContact& contact : active) {
+    if (contact.directions.size() < 2) continue;
+    constraints.push_back(std::make_unique<FrictionConstraint>(contacts[contact.contact].name, contact, layout,
+                                                               friction_coefficient, impulse_size()));
   }
   return constraints;
 }

@@ -57,6 +57,9 @@ struct OptimalControlProblem {
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
   std::optional<Interval> touch_down_point, lift_off_point;
+  // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
+  // new phase. Else they arrive at rest.
+  bool plastic_touch_down = false;
 
   Interval displacement;         // m over all phases
   Interval duration;             // s over all phases
@@ -66,11 +69,15 @@ struct OptimalControlProblem {
 
   double force_size() const { return model.total_mass() * gravity.norm(); }
   double lever = 0.15;  // m
+  // N s: a tenth of a second of the weight.
+  double impulse_size() const { return 0.1 * force_size(); }
   double effort_size() const { return lever * force_size(); }  // N m: about 100 for an adult
 
   // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored; none
   // where there are ends.
   std::vector<int> PreviousActive(int phase) const;
+  // Whether velocities jump at the start of a phase: touch-down is plastic, and something touches down there.
+  bool Jumps(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;
   // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first
@@ -83,8 +90,14 @@ struct OptimalControlProblem {
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
   // (first point of a Lobatto scheme).
   std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node) const;
-  // Rows at the first node of a phase: new contacts touch and are at rest; prescribed contact points.
+  // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed contact
+  // points.
   std::vector<std::unique_ptr<PointConstraint>> EntryConstraints(int phase) const;
+  // The instant of a jump, z = (q, 0, v⁺ − v⁻, Λ): no efforts, and impulses in place of forces.
+  PointLayout JumpLayout(int phase) const;
+  // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the friction
+  // cone. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
+  std::vector<std::unique_ptr<PointConstraint>> JumpConstraints(int phase) const;
 };
 
 }  // namespace rollgait

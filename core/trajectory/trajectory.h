@@ -26,6 +26,10 @@ struct TrajectoryPhase {
   MatrixX point_accelerations;
   MatrixX point_efforts;       // n_actuated × N·s
   MatrixX point_forces;        // 3·n_contacts × N·s, N, world axes, on the body
+  // Where velocities jump at its start (from the last node of the phase before): impulses of its contacts, 3·n_contacts, N s,
+  // world axes, on the body, and the kinetic energy lost, J. Empty where they do not.
+  VectorX impulses;
+  double impact_loss = 0;
 };
 
 // An optimised motion over a half or a full cycle, or once. Within an interval of length h from node (q₀, v₀), with θ = (t − t_k)/h:

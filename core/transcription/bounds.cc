@@ -32,8 +32,22 @@ void CollocationNlp::SetStateBounds() {
     lower_(layout_.duration(p)) = problem_.phases[p].duration.min;
     upper_(layout_.duration(p)) = problem_.phases[p].duration.max;
   }
+  for (int p = 0; p < layout_.phases(); ++p) SetJumpBounds(p);
   lower_(layout_.displacement()) = problem_.displacement.min;
   upper_(layout_.displacement()) = problem_.displacement.max;
+}
+
+// Impulses push; velocities before the jump have the bounds of all. The positions there are those of the node after it.
+void CollocationNlp::SetJumpBounds(int p) {
+  if (!layout_.jumps(p)) return;
+  for (const ActiveContact& active : problem_.ActiveContacts(p)) {
+    lower_(layout_.impulse(p) + active.offset + static_cast<int>(active.directions.size()) - 1) = 0;
+  }
+  if (p == 0) return;
+  const int n = problem_.model.size(), node = layout_.node(layout_.first_interval(p)) + n;
+  const int before = layout_.end_node(layout_.first_interval(p) - 1) + n;
+  lower_.segment(before, n) = lower_.segment(node, n);
+  upper_.segment(before, n) = upper_.segment(node, n);
 }
 
 void CollocationNlp::TightenNode(int k, const EndBounds& bounds) {
@@ -60,7 +74,8 @@ void CollocationNlp::SetControlBounds() {
 
 void CollocationNlp::SetRowBounds() {
   for (int k = 0; k < layout_.intervals(); ++k) first_entry_row_ += blocks_[layout_.phase(k)]->rows();
-  first_linear_row_ = first_entry_row_ + entries_.size();
+  first_jump_row_ = first_entry_row_ + entries_.size();
+  first_linear_row_ = first_jump_row_ + jumps_.size();
   rows_ = first_linear_row_ + linear_.size();
   row_lower_ = row_upper_ = VectorX::Zero(rows_);
   int row = 0;
@@ -71,6 +86,7 @@ void CollocationNlp::SetRowBounds() {
     row += block.rows();
   }
   entries_.Bounds(row_lower_.data() + first_entry_row_, row_upper_.data() + first_entry_row_);
+  jumps_.Bounds(row_lower_.data() + first_jump_row_, row_upper_.data() + first_jump_row_);
   linear_.Bounds(row_lower_.data() + first_linear_row_, row_upper_.data() + first_linear_row_);
 }
 

@@ -30,7 +30,8 @@ CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme sche
       mesh_(mesh),
       layout_(problem, mesh, scheme_.points()),
       workspace_(problem, scheme_.tableau().starts_at_node()),
-      entries_(problem, layout_, &workspace_) {
+      entries_(problem, layout_, &workspace_),
+      jumps_(problem, layout_, &workspace_) {
   int largest = 0;
   for (size_t p = 0; p < problem.phases.size(); ++p) {
     blocks_.push_back(std::make_unique<IntervalBlock>(problem, static_cast<int>(p), scheme_, &workspace_));
@@ -44,8 +45,9 @@ CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme sche
   } else {
     AddPeriodicityRows(problem, layout_, &linear_);
   }
+  AddJumpPositionRows(problem, layout_, &linear_);
   AddTravelRows(problem, layout_, &linear_);
-  AddEffortContinuityRows(problem, layout_, scheme_, &linear_);
+  AddContinuityRows(problem, layout_, scheme_, &linear_);
   SetDenominator();
   SetStateBounds();
   SetControlBounds();
@@ -94,6 +96,7 @@ void CollocationNlp::BuildPatterns() {
     row0 += block.rows();
   }
   entries_.AddPatterns(first_entry_row_, &jacobian_pattern_, &hessian_pattern_);
+  jumps_.AddPatterns(first_jump_row_, &jacobian_pattern_, &hessian_pattern_);
   linear_.AddPattern(first_linear_row_, &jacobian_pattern_);
   for (const auto& term : coupling_) {
     if (!term) continue;
@@ -196,6 +199,7 @@ bool CollocationNlp::Constraints(const double* x, double* g) {
     row += block.rows();
   }
   entries_.Values(x, g + first_entry_row_);
+  jumps_.Values(x, g + first_jump_row_);
   linear_.Values(x, g + first_linear_row_);
   return Eigen::Map<const VectorX>(g, rows_).allFinite();
 }
@@ -230,12 +234,13 @@ bool CollocationNlp::Derivatives(const double* x, double sigma, const double* la
   double *j = jacobian, *h = hessian;
   IntervalDerivatives(x, lambda, &j, &h);
   if (jacobian != nullptr) {
-    j = entries_.Jacobian(x, j);
+    j = jumps_.Jacobian(x, entries_.Jacobian(x, j));
     linear_.Jacobian(j);
     if (!Eigen::Map<const VectorX>(jacobian, jacobian_pattern_.size()).allFinite()) return false;
   }
   if (hessian == nullptr) return true;
   h = entries_.Hessian(x, lambda + first_entry_row_, h);
+  h = jumps_.Hessian(x, lambda + first_jump_row_, h);
   for (size_t t = 0; t < coupling_.size(); ++t) {
     if (!coupling_[t]) continue;
     coupling_[t]->Hessian(x, weights_(static_cast<int>(t)), h);
@@ -269,6 +274,7 @@ double* CollocationNlp::DenominatorHessian(const double* x, double factor, doubl
 
 RowInfo CollocationNlp::Describe(const double* x, int row) const {
   if (row >= first_linear_row_) return linear_.Describe(row - first_linear_row_);
+  if (row >= first_jump_row_) return jumps_.Describe(x, row - first_jump_row_);
   if (row >= first_entry_row_) return entries_.Describe(x, row - first_entry_row_);
   double phase_start = 0;
   for (int k = 0; k < layout_.intervals(); ++k) {

@@ -13,22 +13,25 @@
 #include "core/transcription/coupling_term.h"
 #include "core/transcription/entry_rows.h"
 #include "core/transcription/interval_block.h"
+#include "core/transcription/jump_rows.h"
 #include "core/transcription/layout.h"
 #include "core/transcription/linear_rows.h"
 
 namespace rollgait {
 
-// Where a solve starts: durations, displacement and the motion at a fraction of a phase. Forces are 3 per active contact, world.
+// Where a solve starts: durations, displacement and the motion at a fraction of a phase. Forces are 3 per active contact, world;
+// impulses likewise, one vector a phase, empty for zero.
 struct MotionGuess {
   std::vector<double> durations;  // s, one a phase
   double displacement = 0;        // m
   std::function<MotionSample(int phase, double fraction)> motion;
+  std::vector<VectorX> impulses;  // N s; none: zero
   bool near_solution = false;     // of a problem like this one: the solver stays near it
 };
 
 // The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).
-//   rows: interval by interval the rows of its points; entry rows of the phases; periodicity or displacement; travel;
-//   continuous efforts
+//   rows: interval by interval the rows of its points; entry rows of the phases; jumps; periodicity or displacement; positions
+//   through jumps; travel; continuous efforts and forces
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
@@ -85,10 +88,13 @@ class CollocationNlp : public NlpProblem {
   int FirstRow(int interval) const;
   void TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const;
   void TransferNodes(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
+  void TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
+  void ExtractImpact(const double* x, int phase, TrajectoryPhase* extracted);
   void SetDenominator();
   void SetStateBounds();
   void TightenNode(int k, const EndBounds& bounds);
+  void SetJumpBounds(int phase);
   void SetControlBounds();
   void SetRowBounds();
   void BuildPatterns();
@@ -111,10 +117,11 @@ class CollocationNlp : public NlpProblem {
   std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase
   std::vector<std::unique_ptr<CouplingTerm>> coupling_;  // one a cost term, null for those with an integrand
   EntryRows entries_;
+  JumpRows jumps_;
   LinearRows linear_;
   std::vector<int> denominator_;    // unknowns whose sum divides the integrals; empty: nothing
   std::vector<int> cost_unknowns_;  // unknowns with a cost gradient, without the durations
-  int rows_ = 0, first_entry_row_ = 0, first_linear_row_ = 0;
+  int rows_ = 0, first_entry_row_ = 0, first_jump_row_ = 0, first_linear_row_ = 0;
   VectorX lower_, upper_, row_lower_, row_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
   double objective_scale_ = 1;

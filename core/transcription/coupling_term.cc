@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/transcription/effort_rate_term.h"
+#include "core/transcription/consecutive_points.h"
 #include "core/transcription/tracking_term.h"
 
 namespace rollgait {
@@ -22,7 +22,10 @@ std::unique_ptr<CouplingTerm> MakeCouplingTerm(const OptimalControlProblem& prob
     using Term = std::unique_ptr<CouplingTerm>;
     Term operator()(const std::unique_ptr<PointCost>&) const { return nullptr; }
     Term operator()(const EffortRateCost& rate) const {
-      return std::make_unique<EffortRateTerm>(problem, rate, layout, scheme);
+      return std::make_unique<RateTerm>(layout, RateChanges(rate, problem, layout, scheme.tableau().c));
+    }
+    Term operator()(const ForceRateCost& rate) const {
+      return std::make_unique<RateTerm>(layout, RateChanges(rate, problem, layout, scheme.tableau().c));
     }
     Term operator()(const TrackingCost& tracking) const {
       return std::make_unique<TrackingTerm>(tracking, layout, scheme);

@@ -14,7 +14,10 @@ EliminationGroups CollocationNlp::elimination_groups() const {
   groups.variables.assign(variables(), last);
   for (int k = 0; k < layout_.intervals(); ++k) {
     const int group = k * per_interval + scheme_.points();
-    std::fill(groups.variables.begin() + layout_.node(k), groups.variables.begin() + layout_.node(k + 1), group);
+    std::fill(groups.variables.begin() + layout_.node(k), groups.variables.begin() + layout_.end_node(k), group);
+    // What a jump has between the two goes with the node after it.
+    std::fill(groups.variables.begin() + layout_.end_node(k), groups.variables.begin() + layout_.node(k + 1),
+              group + per_interval);
     for (int i = 0; i < scheme_.points(); ++i) {
       std::fill_n(groups.variables.begin() + layout_.efforts(k, i), efforts, k * per_interval + i);
     }

@@ -9,28 +9,38 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
   VectorX x = VectorX::Zero(variables());
   for (int p = 0; p < layout_.phases(); ++p) x(layout_.duration(p)) = guess.durations[p];
   x(layout_.displacement()) = guess.displacement;
-  const auto set_node = [&](int k, const MotionSample& sample) {
-    x.segment(layout_.node(k), n) = sample.position;
-    x.segment(layout_.node(k) + n, n) = sample.velocity;
+  const auto set_node = [&](int node, const MotionSample& sample) {
+    x.segment(node, n) = sample.position;
+    x.segment(node + n, n) = sample.velocity;
   };
+  // From 3 per active contact to those of its directions.
+  const auto set_forces = [&](int p, const VectorX& forces, double size, int first) {
+    int index = 0;
+    for (const ActiveContact& active : problem_.ActiveContacts(p)) {
+      for (size_t d = 0; d < active.directions.size(); ++d) {
+        x(first + active.offset + static_cast<int>(d)) = forces(3 * index + active.directions[d]) / size;
+      }
+      ++index;
+    }
+  };
+  for (int p = 0; p < layout_.phases(); ++p) {
+    if (!layout_.jumps(p)) continue;
+    if (p > 0) set_node(layout_.end_node(layout_.first_interval(p) - 1), guess.motion(p - 1, 1));
+    if (!guess.impulses.empty() && guess.impulses[p].size() > 0) {
+      set_forces(p, guess.impulses[p], problem_.impulse_size(), layout_.impulse(p));
+    }
+  }
   for (int k = 0; k < layout_.intervals(); ++k) {
     const int p = layout_.phase(k);
-    set_node(k, guess.motion(p, layout_.start(k)));
+    set_node(layout_.node(k), guess.motion(p, layout_.start(k)));
     for (int i = 0; i < scheme_.points(); ++i) {
       const MotionSample sample = guess.motion(p, layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k));
       if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
-      int index = 0;
-      for (const ActiveContact& active : problem_.ActiveContacts(p)) {
-        for (size_t d = 0; d < active.directions.size(); ++d) {
-          x(layout_.forces(k, i) + active.offset + static_cast<int>(d)) =
-              sample.forces(3 * index + active.directions[d]) / problem_.force_size();
-        }
-        ++index;
-      }
+      set_forces(p, sample.forces, problem_.force_size(), layout_.forces(k, i));
     }
   }
-  set_node(layout_.intervals(), guess.motion(layout_.phases() - 1, 1));
+  set_node(layout_.node(layout_.intervals()), guess.motion(layout_.phases() - 1, 1));
   return x;
 }
 
@@ -69,8 +79,9 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
   phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
   for (int k = 0; k <= count; ++k) {
     phase.node_times.push_back(start + phase.duration * (k < count ? layout_.start(first + k) : 1));
-    phase.node_positions.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k), n);
-    phase.node_velocities.col(k) = Eigen::Map<const VectorX>(x + layout_.node(first + k) + n, n);
+    const double* node = x + (k < count ? layout_.node(first + k) : layout_.end_node(first + k - 1));
+    phase.node_positions.col(k) = Eigen::Map<const VectorX>(node, n);
+    phase.node_velocities.col(k) = Eigen::Map<const VectorX>(node + n, n);
   }
   for (int column = 0; column < count * s; ++column) {
     const int k = first + column / s, i = column % s;
@@ -88,7 +99,21 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
       }
     }
   }
+  if (layout_.jumps(p)) ExtractImpact(x, p, &phase);
   return phase;
+}
+
+void CollocationNlp::ExtractImpact(const double* x, int p, TrajectoryPhase* phase) {
+  phase->impulses = VectorX::Zero(3 * static_cast<int>(phase->contacts.size()));
+  int index = 0;
+  for (const ActiveContact& active : problem_.ActiveContacts(p)) {
+    for (size_t d = 0; d < active.directions.size(); ++d) {
+      phase->impulses(3 * index + active.directions[d]) =
+          problem_.impulse_size() * x[layout_.impulse(p) + active.offset + static_cast<int>(d)];
+    }
+    ++index;
+  }
+  phase->impact_loss = jumps_.EnergyLoss(x, p);
 }
 
 }  // namespace rollgait

@@ -21,6 +21,10 @@ DecisionLayout::DecisionLayout(const OptimalControlProblem& problem, const Mesh&
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
     const PointLayout layout = problem.Layout(static_cast<int>(p));
     per_point_.push_back(layout.efforts + layout.forces);
+    const bool jumps = problem.Jumps(static_cast<int>(p));
+    if (jumps && p > 0) offset += 2 * n_;  // the end of the phase before
+    impulse_.push_back(jumps ? offset : -1);
+    if (jumps) offset += layout.forces;
     double start = 0;
     for (double length : mesh.fractions[p]) {
       phase_of_.push_back(static_cast<int>(p));

@@ -16,11 +16,13 @@ struct Mesh {
   std::vector<int> Intervals() const;
 };
 
-// Unknown accelerations are in units of this, m/s² or rad/s²; efforts and forces in those of the problem's sizes.
+// Unknown accelerations are in units of this, m/s² or rad/s²; efforts, forces and impulses in those of the problem's sizes.
 inline constexpr double kAccelerationScale = 10;
 
 // The only place that knows where unknowns sit in the decision vector. Stage order:
 //   node 0, interior of interval 0, node 1, interior of interval 1, … , node N, durations T_0 … T_P−1, displacement D.
+// Before the first node of a phase at whose start velocities jump: the end node of the interval before (except before node 0),
+// which is otherwise the next node itself, and the impulses Λ.
 // A node is (q, v); the interior of an interval is the accelerations of its first s − 2 points, then (τ, f) point by point.
 class DecisionLayout {
  public:
@@ -39,13 +41,19 @@ class DecisionLayout {
   int intervals_in(int phase) const { return first_interval_[phase + 1] - first_interval_[phase]; }
 
   int node(int k) const { return node_[k]; }
+  // The node where an interval ends: node(interval + 1) unless velocities jump there.
+  int end_node(int interval) const { return interior(interval) + interior_size(phase_of_[interval]); }
+  bool jumps(int phase) const { return impulse_[phase] >= 0; }
+  // Impulses of a phase that starts with a jump.
+  int impulse(int phase) const { return impulse_[phase]; }
+  int impulse_size(int phase) const { return per_point_[phase] - efforts_; }
   int interior(int interval) const { return node_[interval] + 2 * n_; }
   int interior_size(int phase) const { return (points_ - 2) * n_ + points_ * per_point_[phase]; }
   int free_acceleration(int interval, int point) const { return interior(interval) + point * n_; }
   // First unknown of a source of EliminatedScheme: node states before and after, free accelerations; and its unit.
   int source(int interval, int source) const {
     if (source >= 4) return free_acceleration(interval, source - 4);
-    return node_[interval + source / 2] + source % 2 * n_;
+    return (source < 2 ? node_[interval] : end_node(interval)) + source % 2 * n_;
   }
   static double source_scale(int source) { return source >= 4 ? kAccelerationScale : 1; }
   int efforts(int interval, int point) const {
@@ -59,7 +67,7 @@ class DecisionLayout {
 
  private:
   int n_, efforts_, points_;
-  std::vector<int> phase_of_, first_interval_, per_point_, node_;
+  std::vector<int> phase_of_, first_interval_, per_point_, node_, impulse_;
   std::vector<double> start_, length_;
   int durations_, displacement_;
 };

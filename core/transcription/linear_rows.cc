@@ -1,6 +1,6 @@
 #include "core/transcription/linear_rows.h"
 
-#include "core/transcription/effort_rate_term.h"
+#include "core/transcription/consecutive_points.h"
 
 namespace rollgait {
 
@@ -34,7 +34,8 @@ void LinearRows::Jacobian(double* values) const {
 
 void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
   const int n = problem.model.size();
-  for (int block = 0; block < 2; ++block) {
+  const int blocks = layout.jumps(0) ? 1 : 2;  // the velocities at the start are what a jump makes of those at the end
+  for (int block = 0; block < blocks; ++block) {
     for (int j = 0; j < n; ++j) {
       const Joint& joint = problem.model.joint(j);
       const int source = problem.mirrored && joint.mirror_joint >= 0 ? joint.mirror_joint : j;
@@ -56,6 +57,18 @@ void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayo
   rows->Add({"displacement", "m", 0, 0,
              {{layout.node(layout.intervals()) + joint, 1.0}, {layout.node(0) + joint, -1.0}, {layout.displacement(), -1.0}},
              1});
+}
+
+void AddJumpPositionRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
+  for (int p = 1; p < layout.phases(); ++p) {
+    if (!layout.jumps(p)) continue;
+    for (int j = 0; j < problem.model.size(); ++j) {
+      const Joint& joint = problem.model.joint(j);
+      rows->Add({"position at touch-down " + joint.name, joint.type == JointType::kPrismatic ? "m" : "rad", 0, 0,
+                 {{layout.node(layout.first_interval(p)) + j, 1.0}, {layout.end_node(layout.first_interval(p) - 1) + j, -1.0}},
+                 1});
+    }
+  }
 }
 
 void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
@@ -96,19 +109,31 @@ void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& l
   }
 }
 
-void AddEffortContinuityRows(const OptimalControlProblem& problem, const DecisionLayout& layout,
-                             const EliminatedScheme& scheme, LinearRows* rows) {
-  bool rate_costs = false;
+void AddContinuityRows(const OptimalControlProblem& problem, const DecisionLayout& layout,
+                       const EliminatedScheme& scheme, LinearRows* rows) {
+  bool efforts = false, forces = false;
   for (const CostDescription& cost : problem.costs) {
-    rate_costs |= cost.weight > 0 && std::holds_alternative<EffortRateCost>(cost.term);
+    if (cost.weight <= 0) continue;
+    efforts |= std::holds_alternative<EffortRateCost>(cost.term);
+    forces |= std::holds_alternative<ForceRateCost>(cost.term);
   }
-  if (!rate_costs) return;
-  for (const EffortLink& link : ConsecutiveEfforts(problem, layout, scheme.tableau().c)) {
+  const auto add = [rows](const std::string& name, const char* unit, Change change, double size) {
+    for (auto& [unknown, coefficient] : change.terms) coefficient /= size;
+    rows->Add({name, unit, 0, 0, std::move(change.terms), size});
+  };
+  for (const PointLink& link : ConsecutivePoints(layout, scheme.tableau().c)) {
     if (link.ratio != 0) continue;
-    for (size_t j = 0; j < link.from.size(); ++j) {
-      const std::string& name = problem.model.joint(problem.model.actuated()[j]).name;
-      rows->Add({"continuous effort " + name, "N m", 0, 0, {{link.from[j], 1.0}, {link.to[j], -link.sign[j]}},
-                 problem.effort_size()});
+    if (efforts) {
+      const std::vector<Change> changes = EffortChanges(problem, layout, link);
+      for (size_t j = 0; j < changes.size(); ++j) {
+        add("continuous effort " + problem.model.joint(problem.model.actuated()[j]).name, "N m", changes[j],
+            problem.effort_size());
+      }
+    }
+    // Where contacts change, forces do.
+    if (!forces || link.wraps || layout.phase(link.from_interval) != link.phase) continue;
+    for (auto& [name, change] : ForceChanges(problem, layout, link)) {
+      add("continuous force " + name, "N", std::move(change), problem.force_size());
     }
   }
 }

@@ -47,7 +47,8 @@ void CollocationNlp::TransferMultipliers(const CollocationNlp& from, const NlpRe
     for (int i = 0; i < scheme_.points(); ++i) TransferPoint(from, of, p, i, start);
   }
   TransferNodes(from, of, start);
-  const int fixed = entries_.size() + std::min(linear_.size(), from.linear_.size());
+  for (int p = 0; p < layout_.phases(); ++p) TransferJump(from, of, p, start);
+  const int fixed = entries_.size() + jumps_.size() + std::min(linear_.size(), from.linear_.size());
   start->constraint_multipliers.segment(first_entry_row_, fixed) =
       of.constraint_multipliers.segment(from.first_entry_row_, fixed);
   const int tail = layout_.phases() + 1, end = variables() - tail, other_end = from.variables() - tail;
@@ -102,6 +103,15 @@ void CollocationNlp::TransferNodes(const CollocationNlp& from, const NlpResult& 
     start->upper_bound_multipliers.segment(layout_.node(k), size) =
         of.upper_bound_multipliers.segment(from.layout_.node(nearest), size);
   }
+}
+
+// Bounds of the impulses and of the state before a jump, which are there on every mesh.
+void CollocationNlp::TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const {
+  if (!layout_.jumps(p)) return;
+  const int states = p > 0 ? 2 * problem_.model.size() : 0, size = states + layout_.impulse_size(p);
+  const int to = layout_.impulse(p) - states, source = from.layout_.impulse(p) - states;
+  start->lower_bound_multipliers.segment(to, size) = of.lower_bound_multipliers.segment(source, size);
+  start->upper_bound_multipliers.segment(to, size) = of.upper_bound_multipliers.segment(source, size);
 }
 
 }  // namespace rollgait

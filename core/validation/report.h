@@ -28,6 +28,10 @@ struct AccuracyReport {
   double energy_balance_error_relative = 0;
   double momentum_balance_error = 0;
   double integrator_tolerance = 0;
+  double jump_velocity_error = 0;
+  double jump_impulse_error = 0;
+  double min_jump_impulse = 0;
+  double impact_loss = 0;
 };
 
 struct ValidationOptions {

@@ -7,6 +7,7 @@
 #include "core/base/check.h"
 #include "core/contact/rolling_kinematics.h"
 #include "core/trajectory/sampling.h"
+#include "core/validation/jumps.h"
 
 namespace rollgait {
 namespace {
@@ -108,6 +109,7 @@ double PeriodicityError(const Model& model, const Trajectory& trajectory) {
   double worst = 0;
   for (int j = 0; j < model.size(); ++j) {
     RaiseTo(std::abs(last.node_positions(j, Intervals(last)) - end.position[j]), &worst);
+    if (Jumps(trajectory.phases.front())) continue;
     RaiseTo(std::abs(last.node_velocities(j, Intervals(last)) - end.velocity[j]), &worst);
   }
   return worst;
@@ -142,6 +144,10 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
   BodyDynamics::State state;
   for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
     const TrajectoryPhase& phase = trajectory.phases[p];
+    if (p > 0 && Jumps(phase)) {
+      for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c) impulse += phase.impulses.segment<3>(3 * c);
+      work -= phase.impact_loss;
+    }
     for (int k = 0; k < Intervals(phase); ++k) {
       const IntervalPolynomials interval(trajectory, p, k);
       for (int i = 0; i < kGaussPoints; ++i) {

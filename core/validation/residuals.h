@@ -51,8 +51,8 @@ struct EndState {
 // value of mirror_joint) if it spans half a cycle, with the joint "base_x", if there is one, moved on by the displacement.
 EndState PeriodicEnd(const Model& model, const Trajectory& trajectory);
 
-// Largest difference between the last node and PeriodicEnd over positions and velocities: rad, m, rad/s, m/s. 0 for a motion
-// that is not periodic (Cycle::kOnce).
+// Largest difference between the last node and PeriodicEnd over positions and velocities: rad, m, rad/s, m/s; over positions alone
+// where velocities jump at the start (jumps.h). 0 for a motion that is not periodic (Cycle::kOnce).
 double PeriodicityError(const Model& model, const Trajectory& trajectory);
 
 // Largest difference between what the manoeuvre prescribes at its two ends and what the body that carries the first contact
@@ -62,11 +62,14 @@ double EndError(const Scene& scene, const BodyDynamics& dynamics, const Trajecto
                 const Manoeuvre& manoeuvre);
 
 struct BalanceErrors {
-  double energy = 0;  // J, |change of kinetic and potential energy between first and last node − work of the efforts|
+  // J, |change of kinetic and potential energy between first and last node − work of the efforts + losses that the trajectory
+  // states for jumps between its phases|
+  double energy = 0;
   // energy / max(positive work, |negative work|). If the efforts do no work: relative to the largest kinetic energy at
   // the nodes (0 if that is zero and the error is too, else infinite).
   double energy_relative = 0;
-  double momentum = 0;  // N s, |∫ (contact forces + weight) dt − change of linear momentum|, all three world axes
+  // N s, |∫ (contact forces + weight) dt + impulses between phases − change of linear momentum|, all three world axes
+  double momentum = 0;
 };
 
 // Integrals along the returned trajectory by Gauss quadrature, exact for its polynomials. The momentum balance supposes

@@ -6,6 +6,7 @@
 #include "core/contact/constrained_dynamics.h"
 #include "core/trajectory/sampling.h"
 #include "core/math/integrator.h"
+#include "core/validation/jumps.h"
 
 namespace rollgait {
 namespace {
@@ -101,10 +102,10 @@ Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const 
       if (k + 1 < intervals) continue;
       if (p + 1 < trajectory.phases.size()) {
         const TrajectoryPhase& next = trajectory.phases[p + 1];
-        compare(next.node_positions.col(0), next.node_velocities.col(0));
+        compare(next.node_positions.col(0), Jumps(next) ? VectorX(x.tail(n)) : VectorX(next.node_velocities.col(0)));
       } else if (trajectory.cycle != Cycle::kOnce) {
         const EndState end = PeriodicEnd(scene.model, trajectory);
-        compare(end.position, end.velocity);
+        compare(end.position, Jumps(trajectory.phases.front()) ? VectorX(x.tail(n)) : end.velocity);
       }
     }
   }

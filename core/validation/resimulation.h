@@ -26,7 +26,7 @@ struct Resimulation {
 
 // Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held rolling
 // at acceleration level, and compares the end with the next node; at the end of a phase also with the first node of the
-// next phase, and at the end of a periodic trajectory also with PeriodicEnd. Adds the contact forces at every accepted
+// next phase, and at the end of a periodic trajectory also with PeriodicEnd; with positions alone where velocities jump (jumps.h). Adds the contact forces at every accepted
 // step to `forces`. `tolerance` > 0 is relative and absolute.
 Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
                         const Vector3& gravity, double tolerance, ForceExtremes* forces);

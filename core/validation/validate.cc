@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "core/base/check.h"
 #include "core/multibody/body_dynamics.h"
+#include "core/validation/jumps.h"
 #include "core/validation/report.h"
 #include "core/validation/residuals.h"
 #include "core/validation/resimulation.h"
@@ -20,6 +23,7 @@ void CheckShapes(const Scene& scene, const Trajectory& trajectory) {
     ROLLGAIT_CHECK(phase.point_accelerations.rows() == n && phase.point_accelerations.cols() == (nodes - 1) * s);
     ROLLGAIT_CHECK(phase.point_efforts.rows() == static_cast<int>(scene.model.actuated().size()));
     ROLLGAIT_CHECK(phase.point_forces.rows() == 3 * static_cast<int>(phase.contacts.size()));
+    ROLLGAIT_CHECK(phase.impulses.size() == 0 || phase.impulses.size() == phase.point_forces.rows());
     for (int k = 0; k + 1 < nodes; ++k) ROLLGAIT_CHECK(phase.node_times[k] < phase.node_times[k + 1]);
     for (int c : phase.contacts) ROLLGAIT_CHECK(c >= 0 && c < static_cast<int>(scene.contacts.size()));
   }
@@ -37,6 +41,10 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
       MeasureContacts(scene, dynamics, trajectory, options.samples_per_interval, &forces);
   const BalanceErrors balance = MeasureBalances(dynamics, scene.model, trajectory, options.gravity);
 
+  // Impulses as forces of a tenth of a second.
+  ForceExtremes impulses(0.1 * dynamics.total_mass() * options.gravity.norm());
+  const JumpErrors jumps = MeasureJumps(scene, dynamics, trajectory, &impulses);
+
   AccuracyReport report;
   report.max_position_defect = motion.position.value;
   report.max_position_defect_joint = motion.position.joint;
@@ -47,13 +55,17 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.max_gap = contacts.max_gap;
   report.max_slip = contacts.max_slip;
   report.min_normal_force = forces.min_normal();
-  report.max_friction_ratio = forces.max_friction_ratio();
+  report.max_friction_ratio = std::max(forces.max_friction_ratio(), impulses.max_friction_ratio());
   report.min_swing_clearance = contacts.min_swing_clearance;
   report.periodicity_error = PeriodicityError(scene.model, trajectory);
   if (options.manoeuvre) report.end_error = EndError(scene, dynamics, trajectory, *options.manoeuvre);
   report.energy_balance_error = balance.energy;
   report.energy_balance_error_relative = balance.energy_relative;
   report.momentum_balance_error = balance.momentum;
+  report.jump_velocity_error = jumps.velocity;
+  report.jump_impulse_error = jumps.impulse;
+  report.min_jump_impulse = impulses.min_normal();
+  report.impact_loss = jumps.loss;
   report.integrator_tolerance = options.integrator_tolerance;
   return report;
 }

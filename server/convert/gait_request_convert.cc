@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "server/convert/cost_convert.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -24,7 +26,7 @@ class RequestDecoder {
   std::optional<Preset> DecodePreset(v1::Preset preset);
   Scheme DecodeScheme(v1::Discretization::Scheme scheme);
   GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
-  GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& cost);
+  GaitRequest::TouchDown DecodeTouchDown(v1::TouchDown touch_down);
 };
 
 GaitRequest::Range DecodeRange(const v1::Range& range) { return {range.min(), range.max()}; }
@@ -44,21 +46,6 @@ GaitRequest::Phase DecodePhase(const v1::Phase& phase) {
           ROLLGAIT_OPTIONAL(phase, intervals),
           ROLLGAIT_OPTIONAL(phase, min_duration_s),
           ROLLGAIT_OPTIONAL(phase, max_duration_s)};
-}
-
-GaitRequest::Tracking DecodeTracking(const v1::CostTerm::Tracking& tracking) {
-  GaitRequest::Tracking decoded;
-  for (const v1::CostTerm::Tracking::Channel& channel : tracking.channels()) {
-    decoded.channels.push_back({channel.joint(),
-                                {channel.positions().begin(), channel.positions().end()},
-                                ROLLGAIT_OPTIONAL(channel, weight)});
-  }
-  return decoded;
-}
-
-GaitRequest::MuscleWork DecodeMuscleWork(const v1::CostTerm::MuscleWork& work) {
-  return {ROLLGAIT_OPTIONAL(work, positive_efficiency), ROLLGAIT_OPTIONAL(work, negative_efficiency),
-          ROLLGAIT_OPTIONAL(work, smoothing_w), DecodeNumbers(work.joint_weights())};
 }
 
 GaitRequest::GroundContact DecodeGround(const v1::GroundContact& ground) {
@@ -190,6 +177,19 @@ std::optional<Preset> RequestDecoder::DecodePreset(v1::Preset preset) {
   }
 }
 
+GaitRequest::TouchDown RequestDecoder::DecodeTouchDown(v1::TouchDown touch_down) {
+  switch (touch_down) {
+    case v1::TOUCH_DOWN_UNSPECIFIED:
+    case v1::TOUCH_DOWN_SMOOTH:
+      return GaitRequest::TouchDown::kSmooth;
+    case v1::TOUCH_DOWN_PLASTIC:
+      return GaitRequest::TouchDown::kPlastic;
+    default:
+      RefuseEnum("ground_contact.touch_down", touch_down);
+      return GaitRequest::TouchDown::kSmooth;
+  }
+}
+
 Scheme RequestDecoder::DecodeScheme(v1::Discretization::Scheme scheme) {
   switch (scheme) {
     case v1::Discretization::SCHEME_UNSPECIFIED:
@@ -220,44 +220,6 @@ GaitRequest::AccuracyLevel RequestDecoder::DecodeLevel(v1::Accuracy::Level level
   }
 }
 
-GaitRequest::CostTerm RequestDecoder::DecodeCost(const std::string& field, const v1::CostTerm& cost) {
-  GaitRequest::CostTerm decoded;
-  decoded.weight = ROLLGAIT_OPTIONAL(cost, weight);
-  switch (cost.term_case()) {
-    case v1::CostTerm::kSquaredTorque:
-      decoded.term = GaitRequest::SquaredTorque{DecodeNumbers(cost.squared_torque().joint_weights())};
-      break;
-    case v1::CostTerm::kSquaredTorqueRate:
-      decoded.term = GaitRequest::SquaredTorqueRate{DecodeNumbers(cost.squared_torque_rate().joint_weights())};
-      break;
-    case v1::CostTerm::kMechanicalWork:
-      decoded.term = GaitRequest::MechanicalWork{ROLLGAIT_OPTIONAL(cost.mechanical_work(), smoothing_w)};
-      break;
-    case v1::CostTerm::kTime:
-      decoded.term = GaitRequest::Time{};
-      break;
-    case v1::CostTerm::kTracking:
-      decoded.term = DecodeTracking(cost.tracking());
-      break;
-    case v1::CostTerm::kMuscleEffort:
-      decoded.term = GaitRequest::MuscleEffort{ROLLGAIT_OPTIONAL(cost.muscle_effort(), exponent),
-                                               DecodeNumbers(cost.muscle_effort().joint_weights())};
-      break;
-    case v1::CostTerm::kMuscleWork:
-      decoded.term = DecodeMuscleWork(cost.muscle_work());
-      break;
-    case v1::CostTerm::kPassiveLoad:
-      decoded.term = GaitRequest::PassiveLoad{DecodeNumbers(cost.passive_load().joint_weights())};
-      break;
-    case v1::CostTerm::kSquaredAcceleration:
-      decoded.term = GaitRequest::SquaredAcceleration{DecodeNumbers(cost.squared_acceleration().joint_weights())};
-      break;
-    case v1::CostTerm::TERM_NOT_SET:
-      violations.push_back({field, "no term; set one, for example squared_torque"});
-  }
-  return decoded;
-}
-
 GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   GaitRequest request;
   request.body = DecodeSelection("model.", spec.model());
@@ -279,10 +241,11 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.preset = DecodePreset(spec.preset());
   request.starts = ROLLGAIT_OPTIONAL(spec, starts);
   for (int i = 0; i < spec.costs_size(); ++i) {
-    request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i)));
+    request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i), &violations));
   }
   request.normalization = DecodeNormalization(spec.cost_normalization(), spec.has_manoeuvre());
   request.ground_contact = DecodeGround(spec.ground_contact());
+  request.ground_contact.touch_down = DecodeTouchDown(spec.ground_contact().touch_down());
   request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
                     DecodeRanges(spec.limits().joint_effort())};
   request.discretization = {DecodeScheme(spec.discretization().scheme()),

@@ -70,6 +70,8 @@ void EncodePhase(const TrajectoryPhase& phase, const Scene& scene, v1::Trajector
   EncodeTimes(phase.point_accelerations, encoded->mutable_point_accelerations());
   EncodeTimes(phase.point_efforts, encoded->mutable_point_efforts());
   EncodeTimes(phase.point_forces, encoded->mutable_point_forces());
+  encoded->mutable_impulses_n_s()->Add(phase.impulses.begin(), phase.impulses.end());
+  encoded->set_impact_loss_j(phase.impact_loss);
 }
 
 v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSolution& solution, const Model& model) {
@@ -93,6 +95,10 @@ v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSoluti
   encoded.set_energy_balance_error_j(report.energy_balance_error);
   encoded.set_energy_balance_error_relative(report.energy_balance_error_relative);
   encoded.set_momentum_balance_error_n_s(report.momentum_balance_error);
+  encoded.set_jump_velocity_error(report.jump_velocity_error);
+  encoded.set_jump_impulse_error_n_s(report.jump_impulse_error);
+  encoded.set_min_jump_impulse_n_s(report.min_jump_impulse);
+  encoded.set_impact_loss_j(report.impact_loss);
   encoded.set_integrator_tolerance(report.integrator_tolerance);
   encoded.set_kkt_error(solution.kkt_error);
   encoded.set_constraint_violation(solution.constraint_violation);

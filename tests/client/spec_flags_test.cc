@@ -32,7 +32,7 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "--cycle full --friction 0.5 --clearance 0.02 --cost torque:2 --cost work:0.001 --cost torque-rate --cost time "
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
       "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 --cost effort --cost muscle-work --cost passive-load "
-      "--cost acceleration:1e-5");
+      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7");
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_EQ(spec.model().stature_m(), 1.7);
@@ -47,7 +47,13 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
   EXPECT_EQ(spec.motion().duty_factor().min(), 0.61);
   EXPECT_EQ(spec.motion().duty_factor().max(), 0.61);
   EXPECT_EQ(spec.starts(), 4);
-  ASSERT_EQ(spec.costs_size(), 8);
+  EXPECT_EQ(spec.ground_contact().touch_down(), v1::TOUCH_DOWN_PLASTIC);
+  EXPECT_EQ(spec.ground_contact().touch_down_point().min(), -0.9);
+  EXPECT_EQ(spec.ground_contact().touch_down_point().max(), -0.8);
+  EXPECT_EQ(spec.ground_contact().lift_off_point().min(), 0.7);
+  EXPECT_EQ(spec.ground_contact().lift_off_point().max(), 0.7);
+  ASSERT_EQ(spec.costs_size(), 9);
+  EXPECT_TRUE(spec.costs(8).has_squared_force_rate());
   EXPECT_TRUE(spec.costs(4).has_muscle_effort());
   EXPECT_TRUE(spec.costs(5).has_muscle_work());
   EXPECT_TRUE(spec.costs(6).has_passive_load());

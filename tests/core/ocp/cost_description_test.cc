@@ -25,6 +25,15 @@ TEST(CostDescription, EffortRateHasNoIntegrand) {
   EXPECT_DOUBLE_EQ(cost.Typical(), 3 * 300.0 * 300.0);
 }
 
+TEST(CostDescription, ForceRateHasNoIntegrand) {
+  CostDescription cost;
+  cost.term = ForceRateCost{700.0};
+  EXPECT_EQ(cost.integrand(), nullptr);
+  EXPECT_EQ(cost.Name(), "squared force rate");
+  EXPECT_EQ(cost.Unit(), "N²/s");
+  EXPECT_DOUBLE_EQ(cost.Typical(), 3500.0 * 3500.0);
+}
+
 TEST(CostDescription, TrackingSumsTheWeightsOfItsChannels) {
   CostDescription cost;
   cost.term = TrackingCost{{{0, 2.0, CubicSpline({0, 1})}, {1, 3.0, CubicSpline({0, 1})}}};

@@ -14,15 +14,17 @@ namespace rollgait {
 namespace {
 
 using Normalization = GaitRequest::Normalization;
-using Case = std::tuple<Scheme, Normalization, Cycle>;
+using TouchDown = GaitRequest::TouchDown;
+using Case = std::tuple<Scheme, Normalization, Cycle, TouchDown>;
 
 class CollocationNlpTest : public ::testing::TestWithParam<Case> {
  protected:
   CollocationNlpTest() {
     GaitRequest request = PlanarRequestWithEveryTerm();
-    const auto [scheme, normalization, cycle] = GetParam();
+    const auto [scheme, normalization, cycle, touch_down] = GetParam();
     request.normalization = normalization;
     request.cycle = cycle;
+    request.ground_contact.touch_down = touch_down;
     request.discretization.scheme = scheme;
     spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
     problem_ = BuildProblem(*spec_);
@@ -37,6 +39,7 @@ class CollocationNlpTest : public ::testing::TestWithParam<Case> {
     std::uniform_real_distribution<double> noise(-0.05, 0.05);
     for (double& value : x_) value += noise(random);
   }
+  static bool Plastic() { return std::get<3>(GetParam()) == TouchDown::kPlastic; }
   MatrixX DenseJacobian(const VectorX& x) {
     VectorX values(nlp_->jacobian_pattern().size());
     EXPECT_TRUE(nlp_->Jacobian(x.data(), values.data()));
@@ -133,7 +136,8 @@ TEST_P(CollocationNlpTest, EliminationFollowsTheStages) {
   ASSERT_EQ(static_cast<int>(groups.constraints.size()), nlp_->constraints());
   const int last = groups.variables.back();
   const long in_last = std::count(groups.variables.begin(), groups.variables.end(), last);
-  EXPECT_EQ(in_last, 18 + nlp_->layout().phases() + 1);
+  const int impulses = Plastic() ? nlp_->layout().impulse_size(0) : 0;  // of the first node
+  EXPECT_EQ(in_last, 18 + nlp_->layout().phases() + 1 + impulses);
   for (int k = 1; k <= nlp_->layout().intervals(); ++k) {
     EXPECT_LT(groups.variables[nlp_->layout().efforts(k - 1, 0)], groups.variables[nlp_->layout().node(k)]);
     EXPECT_LT(groups.variables[nlp_->layout().node(k)], last);
@@ -142,10 +146,10 @@ TEST_P(CollocationNlpTest, EliminationFollowsTheStages) {
 
 TEST_P(CollocationNlpTest, ObjectiveIsTheSumOfTheTermsThatAreReported) {
   const VectorX integrals = nlp_->CostIntegrals(x_.data());
-  ASSERT_EQ(integrals.size(), 9);
+  ASSERT_EQ(integrals.size(), 10);
   EXPECT_GT(integrals.minCoeff(), 0);
   double sum = 0, objective;
-  for (int t = 0; t < 9; ++t) sum += problem_->costs[t].weight * integrals(t);
+  for (int t = 0; t < 10; ++t) sum += problem_->costs[t].weight * integrals(t);
   ASSERT_TRUE(nlp_->Objective(x_.data(), &objective));
   EXPECT_NEAR(objective, nlp_->objective_scale() * sum / nlp_->Denominator(x_.data()), 1e-12 * objective);
   EXPECT_NEAR(integrals(3), nlp_->duration(x_.data()), 1e-12);  // the time
@@ -168,23 +172,35 @@ TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
   const int points = nlp_->layout().intervals() * nlp_->layout().points();
   EXPECT_NEAR(time, nlp_->duration(x_.data()), 1e-12);
   EXPECT_EQ(kinds["dynamics"], 9 * points);
-  EXPECT_EQ(kinds["periodicity"], 18);
+  EXPECT_EQ(kinds["periodicity"], Plastic() ? 9 : 18);
   EXPECT_EQ(kinds["touch-down"], problem_->mirrored ? 1 : 2);
   EXPECT_EQ(kinds["speed"], 1);
   const bool shared_instants = std::get<0>(GetParam()) == Scheme::kHermiteSimpson;
-  EXPECT_EQ(kinds["continuous"], shared_instants ? 6 * nlp_->layout().intervals() : 0);
+  // Six efforts at every instant; of forces x and z of a foot at those within a phase: the only such phase stands on one foot.
+  const int within = nlp_->layout().intervals() - nlp_->layout().phases();
+  EXPECT_EQ(kinds["continuous"], shared_instants ? 6 * nlp_->layout().intervals() + 2 * within : 0);
+  // Nine of the dynamics and two of each of two cones for every foot that comes down, in a half cycle one.
+  const int feet = problem_->mirrored ? 1 : 2;
+  EXPECT_EQ(kinds["impact,"], Plastic() ? 13 * feet : 0);
+  EXPECT_EQ(kinds["position"], Plastic() ? 9 * (feet - 1) : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     HalfCycle, CollocationNlpTest,
     ::testing::Combine(::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson),
                        ::testing::Values(Normalization::kPerDistance, Normalization::kPerTime, Normalization::kNone),
-                       ::testing::Values(Cycle::kHalf)));
+                       ::testing::Values(Cycle::kHalf), ::testing::Values(TouchDown::kSmooth)));
 // Twice as many unknowns: every scheme and every normalization once.
 INSTANTIATE_TEST_SUITE_P(FullCycle, CollocationNlpTest,
-                         ::testing::Values(Case{Scheme::kRadau2, Normalization::kNone, Cycle::kFull},
-                                           Case{Scheme::kRadau3, Normalization::kPerTime, Cycle::kFull},
-                                           Case{Scheme::kHermiteSimpson, Normalization::kPerDistance, Cycle::kFull}));
+                         ::testing::Values(Case{Scheme::kRadau2, Normalization::kNone, Cycle::kFull, TouchDown::kSmooth},
+                                           Case{Scheme::kRadau3, Normalization::kPerTime, Cycle::kFull, TouchDown::kSmooth},
+                                           Case{Scheme::kHermiteSimpson, Normalization::kPerDistance, Cycle::kFull,
+                                                TouchDown::kSmooth}));
+INSTANTIATE_TEST_SUITE_P(
+    Plastic, CollocationNlpTest,
+    ::testing::Values(Case{Scheme::kRadau2, Normalization::kPerDistance, Cycle::kHalf, TouchDown::kPlastic},
+                      Case{Scheme::kRadau3, Normalization::kPerDistance, Cycle::kFull, TouchDown::kPlastic},
+                      Case{Scheme::kHermiteSimpson, Normalization::kPerTime, Cycle::kHalf, TouchDown::kPlastic}));
 
 }  // namespace
 }  // namespace rollgait

@@ -55,6 +55,36 @@ TEST_F(LayoutTest, ThreePointsHaveAFreeAcceleration) {
   EXPECT_EQ(layout.size(), 159 + 18 + 2 + 1);
 }
 
+// Before the first node the impulses of the first phase; nothing touches down in the second. In a full cycle something does in
+// the third: a node and 4 impulses more.
+TEST_F(LayoutTest, JumpsHaveImpulsesAndAStateBefore) {
+  const auto problem = Problem();
+  problem->plastic_touch_down = true;
+  const DecisionLayout half(*problem, mesh_, 2);
+  EXPECT_TRUE(half.jumps(0));
+  EXPECT_FALSE(half.jumps(1));
+  EXPECT_EQ(half.impulse(0), 0);
+  EXPECT_EQ(half.impulse_size(0), 4);
+  EXPECT_EQ(half.node(0), 4);
+  EXPECT_EQ(half.end_node(0), 42);
+  EXPECT_EQ(half.node(1), 42);
+  EXPECT_EQ(half.size(), 131);
+
+  GaitRequest request;
+  request.body.model = "planar";
+  request.cycle = Cycle::kFull;
+  request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;
+  const auto both = BuildProblem(CheckRequest(request).value());
+  const DecisionLayout full(*both, {{{1.0}, {1.0}, {1.0}, {1.0}}}, 2);
+  EXPECT_TRUE(full.jumps(2));
+  EXPECT_EQ(full.node(1), 42);
+  EXPECT_EQ(full.end_node(1), 42 + 34);
+  EXPECT_EQ(full.source(1, 2), 42 + 34);
+  EXPECT_EQ(full.impulse(2), 42 + 34 + 18);
+  EXPECT_EQ(full.node(2), 42 + 34 + 18 + 4);
+  EXPECT_EQ(full.end_node(3), full.node(4));
+}
+
 TEST_F(LayoutTest, SourcesAreTheNodesAndTheFreeAccelerations) {
   const DecisionLayout layout(*problem_, mesh_, 3);
   const int expected[] = {57, 66, 108, 117, 75};

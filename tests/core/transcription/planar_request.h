@@ -24,6 +24,7 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
   request.costs.push_back({GaitRequest::MuscleWork{{}, {}, 5.0, {}}, 10.0});
   request.costs.push_back({GaitRequest::PassiveLoad{}, 1e4});
   request.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", 0.5}}}, 0.1});
+  request.costs.push_back({GaitRequest::SquaredForceRate{}, 1e-3});
   return request;
 }
 

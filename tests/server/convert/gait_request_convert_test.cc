@@ -42,6 +42,7 @@ TEST(DecodeRequest, UnsetFieldsStayUnset) {
   EXPECT_EQ(request.normalization, GaitRequest::Normalization::kPerDistance);
   EXPECT_FALSE(request.ground_contact.friction_coefficient);
   EXPECT_FALSE(request.ground_contact.touch_down_point);
+  EXPECT_EQ(request.ground_contact.touch_down, GaitRequest::TouchDown::kSmooth);
   EXPECT_EQ(request.discretization.scheme, Scheme::kRadau2);
   EXPECT_FALSE(request.discretization.single_support_intervals);
   EXPECT_EQ(request.accuracy.level, GaitRequest::AccuracyLevel::kStandard);
@@ -61,7 +62,8 @@ TEST(DecodeRequest, EveryFieldArrives) {
                phases { contacts: 'c' } }
       cost_normalization: COST_NORMALIZATION_PER_TIME
       ground_contact { friction_coefficient: 0.71 min_normal_force_bw: 0.05 swing_clearance_m: 0.02
-                       touch_down_point { min: -0.9 max: -0.8 } lift_off_point { min: 0.7 max: 0.75 } }
+                       touch_down_point { min: -0.9 max: -0.8 } lift_off_point { min: 0.7 max: 0.75 }
+                       touch_down: TOUCH_DOWN_PLASTIC }
       limits { joint_position { key: 'k' value { min: -1 max: 2 } } joint_velocity { key: 'v' value: 3 }
                joint_effort { key: 'e' value { min: -4 max: 5 } } }
       discretization { scheme: SCHEME_HERMITE_SIMPSON single_support_intervals: 21 double_support_intervals: 11 }
@@ -91,6 +93,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.ground_contact.touch_down_point->min, -0.9);
   EXPECT_EQ(request.ground_contact.touch_down_point->max, -0.8);
   EXPECT_EQ(request.ground_contact.lift_off_point->min, 0.7);
+  EXPECT_EQ(request.ground_contact.touch_down, GaitRequest::TouchDown::kPlastic);
   EXPECT_EQ(request.limits.joint_position.at("k").max, 2);
   EXPECT_EQ(request.limits.joint_velocity.at("v"), 3);
   EXPECT_EQ(request.limits.joint_effort.at("e").min, -4);
@@ -118,9 +121,12 @@ TEST(DecodeRequest, EveryCostTermArrives) {
       costs { muscle_work { positive_efficiency: 0.2 negative_efficiency: 1.1 smoothing_w: 7
                             joint_weights { key: 'e' value: 10 } } }
       costs { passive_load { joint_weights { key: 'f' value: 11 } } }
-      costs { squared_acceleration { joint_weights { key: 'g' value: 12 } } })"))
+      costs { squared_acceleration { joint_weights { key: 'g' value: 12 } } }
+      costs { squared_force_rate {} weight: 13 })"))
                                   .value();
-  ASSERT_EQ(request.costs.size(), 9u);
+  ASSERT_EQ(request.costs.size(), 10u);
+  EXPECT_TRUE(std::holds_alternative<GaitRequest::SquaredForceRate>(request.costs[9].term));
+  EXPECT_EQ(request.costs[9].weight, 13);
   const auto& effort = std::get<GaitRequest::MuscleEffort>(request.costs[5].term);
   EXPECT_EQ(effort.exponent, 3);
   EXPECT_THAT(effort.joint_weights, ElementsAre(Pair("d", 9)));

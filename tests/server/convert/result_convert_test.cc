@@ -37,6 +37,8 @@ TrajectoryPhase Phase() {
   phase.point_accelerations = Numbered(9, 4, 5000);
   phase.point_efforts = Numbered(6, 4, 6000);
   phase.point_forces = Numbered(6, 4, 7000);
+  phase.impulses = VectorX::LinSpaced(6, 8000, 8005);
+  phase.impact_loss = 9000;
   return phase;
 }
 
@@ -84,6 +86,9 @@ TEST(EncodeTrajectory, RowsAreTimesAndColumnsAreJoints) {
   ExpectRowsAreTimes(phase.point_accelerations(), trajectory.phases[0].point_accelerations);
   ExpectRowsAreTimes(phase.point_efforts(), trajectory.phases[0].point_efforts);
   ExpectRowsAreTimes(phase.point_forces(), trajectory.phases[0].point_forces);
+  ASSERT_EQ(phase.impulses_n_s_size(), 6);
+  EXPECT_EQ(phase.impulses_n_s(1), 8001);
+  EXPECT_EQ(phase.impact_loss_j(), 9000);
 }
 
 GaitSolution Solution() {
@@ -106,6 +111,10 @@ GaitSolution Solution() {
   solution.accuracy->energy_balance_error_relative = 10;
   solution.accuracy->momentum_balance_error = 11;
   solution.accuracy->integrator_tolerance = 12;
+  solution.accuracy->jump_velocity_error = 41;
+  solution.accuracy->jump_impulse_error = 42;
+  solution.accuracy->min_jump_impulse = 43;
+  solution.accuracy->impact_loss = 44;
   solution.within_requested_accuracy = true;
   solution.kkt_error = 13;
   solution.constraint_violation = 14;
@@ -140,6 +149,10 @@ TEST(EncodeResult, EveryFigureArrives) {
   EXPECT_EQ(accuracy.energy_balance_error_relative(), 10);
   EXPECT_EQ(accuracy.momentum_balance_error_n_s(), 11);
   EXPECT_EQ(accuracy.integrator_tolerance(), 12);
+  EXPECT_EQ(accuracy.jump_velocity_error(), 41);
+  EXPECT_EQ(accuracy.jump_impulse_error_n_s(), 42);
+  EXPECT_EQ(accuracy.min_jump_impulse_n_s(), 43);
+  EXPECT_EQ(accuracy.impact_loss_j(), 44);
   EXPECT_TRUE(accuracy.within_requested_accuracy());
   EXPECT_EQ(accuracy.kkt_error(), 13);
   EXPECT_EQ(accuracy.constraint_violation(), 14);

@@ -1,0 +1,145 @@
+// The rows of a jump determine it: solved for the velocities after it and the impulses they give what the judge's plastic impact
+// gives, in the plane and in space, at a border of phases and through the mirror at the start of a half cycle.
+#include "core/transcription/jump_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/initial_guess.h"
+#include "core/transcription/collocation_nlp.h"
+#include "core/validation/jumps.h"
+
+namespace rollgait {
+namespace {
+
+struct Case {
+  const char* model;
+  Cycle cycle;
+};
+
+class JumpRowsTest : public ::testing::TestWithParam<Case> {
+ protected:
+  JumpRowsTest() {
+    GaitRequest request;
+    request.body.model = GetParam().model;
+    request.body.feet = FootShape::kTwoEllipsoids;
+    request.cycle = GetParam().cycle;
+    request.slope = 0.1;
+    request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;
+    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
+    problem_ = BuildProblem(*spec_);
+    nlp_ = std::make_unique<CollocationNlp>(*problem_, Scheme::kRadau2,
+                                            Mesh::Uniform(std::vector<int>(problem_->phases.size(), 1)));
+    x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> noise(-0.3, 0.3);
+    n_ = problem_->model.size();
+    for (int k = 0; k < nlp_->layout().intervals(); ++k) {
+      for (int j = 0; j < n_; ++j) x_(nlp_->layout().end_node(k) + n_ + j) += noise(random);
+    }
+  }
+
+  // Rows that hold a phase's velocities after its jump and its impulses, both of which they contain linearly.
+  std::vector<int> RowsOf(int phase) const {
+    std::vector<int> rows;
+    bool entries = false;
+    for (int row = 0; row < nlp_->constraints(); ++row) {
+      const RowInfo info = nlp_->Describe(x_.data(), row);
+      entries |= info.name.starts_with("touch-down");
+      if (!entries || info.phase != phase) continue;
+      if (info.name.starts_with("rolling") || info.name.starts_with("impact, dynamics")) rows.push_back(row);
+    }
+    return rows;
+  }
+
+  void SolveJump(int phase) {
+    const DecisionLayout& layout = nlp_->layout();
+    std::vector<int> unknowns;
+    for (int j = 0; j < n_; ++j) unknowns.push_back(layout.node(layout.first_interval(phase)) + n_ + j);
+    for (int i = 0; i < layout.impulse_size(phase); ++i) unknowns.push_back(layout.impulse(phase) + i);
+    const std::vector<int> rows = RowsOf(phase);
+    ASSERT_EQ(rows.size(), unknowns.size());
+    VectorX values(nlp_->jacobian_pattern().size()), g(nlp_->constraints());
+    ASSERT_TRUE(nlp_->Jacobian(x_.data(), values.data()));
+    ASSERT_TRUE(nlp_->Constraints(x_.data(), g.data()));
+    MatrixX jacobian = MatrixX::Zero(nlp_->constraints(), nlp_->variables());
+    for (int e = 0; e < values.size(); ++e) {
+      jacobian(nlp_->jacobian_pattern().rows[e], nlp_->jacobian_pattern().columns[e]) += values(e);
+    }
+    const VectorX step = jacobian(rows, unknowns).fullPivLu().solve(-g(rows));
+    x_(unknowns) += step;
+  }
+
+  void SolveJumps() {
+    for (int p = 0; p < nlp_->layout().phases(); ++p) {
+      if (nlp_->layout().jumps(p)) SolveJump(p);
+    }
+  }
+
+  JumpErrors Judge(const Trajectory& trajectory) const {
+    ForceExtremes impulses(1);
+    return MeasureJumps(spec_->scene, BodyDynamics(spec_->scene.model), trajectory, &impulses);
+  }
+
+  int n_ = 0;
+  std::unique_ptr<GaitSpec> spec_;
+  std::unique_ptr<OptimalControlProblem> problem_;
+  std::unique_ptr<CollocationNlp> nlp_;
+  VectorX x_;
+};
+
+// Velocities are of size 1 to 10, impulses of size 100.
+TEST_P(JumpRowsTest, SolvedTheyGiveThePlasticImpact) {
+  SolveJumps();
+  const Trajectory trajectory = nlp_->Extract(x_.data());
+  const JumpErrors errors = Judge(trajectory);
+  EXPECT_LT(errors.velocity, 1e-10);
+  EXPECT_LT(errors.impulse, 1e-10);
+  int jumps = 0;
+  double loss = 0;
+  for (const TrajectoryPhase& phase : trajectory.phases) {
+    if (!Jumps(phase)) continue;
+    ++jumps;
+    loss += phase.impact_loss;
+    EXPECT_GT(phase.impact_loss, 0.1);  // a projection in the metric of the mass matrix: energy never rises
+    EXPECT_GT(phase.impulses.norm(), 0.1);
+  }
+  EXPECT_EQ(jumps, GetParam().cycle == Cycle::kHalf ? 2 : 4);  // heel and forefoot
+  EXPECT_NEAR(loss, errors.loss, 1e-9 * loss);
+}
+
+// Impulses are proportional to the velocities that they stop; without any there are none.
+TEST_P(JumpRowsTest, NothingToStopIsNoImpulse) {
+  SolveJumps();
+  const Trajectory first = nlp_->Extract(x_.data());
+  const DecisionLayout& layout = nlp_->layout();
+  for (const double share : {0.5, 0.0}) {
+    VectorX x = x_;
+    for (int p = 1; p < layout.phases(); ++p) {
+      if (!layout.jumps(p)) continue;
+      const int before = layout.end_node(layout.first_interval(p) - 1) + n_;
+      const auto after = x_.segment(layout.node(layout.first_interval(p)) + n_, n_);
+      x.segment(before, n_) = after + share * (x_.segment(before, n_) - after);
+    }
+    const VectorX kept = x_;
+    x_ = x;
+    SolveJumps();
+    const Trajectory scaled = nlp_->Extract(x_.data());
+    x_ = kept;
+    for (size_t p = 1; p < first.phases.size(); ++p) {
+      if (!Jumps(first.phases[p])) continue;
+      EXPECT_LT((scaled.phases[p].impulses - share * first.phases[p].impulses).norm(), 1e-9 * first.phases[p].impulses.norm());
+      EXPECT_NEAR(scaled.phases[p].impact_loss, share * share * first.phases[p].impact_loss, 1e-9 * first.phases[p].impact_loss);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, JumpRowsTest,
+                         ::testing::Values(Case{"planar", Cycle::kHalf}, Case{"planar", Cycle::kFull},
+                                           Case{"human29", Cycle::kHalf}, Case{"human29", Cycle::kFull}));
+
+}  // namespace
+}  // namespace rollgait
