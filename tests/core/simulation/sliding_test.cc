@@ -10,35 +10,14 @@
 
 #include <Eigen/Geometry>
 
-#include "core/multibody/configuration.h"
 #include "core/simulation/simulation.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/sliding_ball.h"
 
 namespace rollgait {
 namespace {
 
-constexpr double kG = 9.81, kRadius = 0.11, kMass = 2.3;
-
-// A homogeneous ball on the plane z = 0 under `gravity`, that may slide; velocity and angular velocity at the start.
-SimulationScene Ball(double friction, const Vector3& gravity, const Vector3& v, const Vector3& omega) {
-  Joint joint;
-  joint.name = "ball", joint.type = JointType::kFree, joint.mass = kMass;
-  joint.inertia = 0.4 * kMass * kRadius * kRadius * Matrix3::Identity();
-  SceneContact contact;
-  contact.contact.name = "ground";
-  contact.contact.surface.surface = Sphere(kRadius);
-  contact.active = true;
-  contact.friction = friction;
-  contact.friction_loss = FrictionLoss::kSlide;
-  SimulationScene scene{"ball", Model::Create({joint}).value(), {JointForce{}}, {GroundMotion{}}, {contact}, gravity,
-                        {}, {}, {}, -1, {}};
-  scene.q = NeutralConfiguration(scene.model);
-  scene.q[6] = kRadius;
-  scene.v.resize(6);
-  scene.v << omega, v;
-  scene.options.tolerance = 1e-12;
-  return scene;
-}
+using testing::kG, testing::kMass, testing::kRadius;
 
 struct Outcome {
   SimulationReport report;
@@ -69,7 +48,7 @@ Vector3 WorldVelocity(const SimulationReport& report) {
 
 TEST(Sliding, BallBowledOnTheFlatBeginsToRoll) {
   const double mu = 0.23, v0 = 3.1, begin = 2 * v0 / (7 * mu * kG);
-  SimulationScene scene = Ball(mu, {0, 0, -kG}, {v0, 0, 0}, Vector3::Zero());
+  SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, {v0, 0, 0}, Vector3::Zero());
   scene.options.duration = 2 * begin;
   scene.options.output_step = begin / 7;
   const Outcome outcome = Simulated(scene);
@@ -94,7 +73,7 @@ TEST(Sliding, BallBowledUpAnIncline) {
   const double mu = 0.31, slope = 0.4, v0 = 2.4;
   const double along = kG * std::sin(slope), normal = kG * std::cos(slope);
   const double begin = v0 / (along + 3.5 * mu * normal);
-  SimulationScene scene = Ball(mu, {-along, 0, -normal}, {v0, 0, 0}, Vector3::Zero());
+  SimulationScene scene = testing::Ball(mu, {-along, 0, -normal}, {v0, 0, 0}, Vector3::Zero());
   scene.options.duration = 1;
   const Outcome outcome = Simulated(scene);
   ASSERT_EQ(outcome.events.size(), 1u);
@@ -106,7 +85,7 @@ TEST(Sliding, BallBowledUpAnIncline) {
 // On a slope of tan > 7/2 μ it slides from the start and for ever.
 TEST(Sliding, SteepSlopeNeverLetsItRoll) {
   const double mu = 0.1, slope = 0.6, along = kG * std::sin(slope), normal = kG * std::cos(slope);
-  const Outcome outcome = Simulated(Ball(mu, {along, 0, -normal}, Vector3::Zero(), Vector3::Zero()));
+  const Outcome outcome = Simulated(testing::Ball(mu, {along, 0, -normal}, Vector3::Zero(), Vector3::Zero()));
   ASSERT_EQ(outcome.events.size(), 1u);
   EXPECT_EQ(outcome.events[0].kind, SimulationEventKind::kFrictionLoss);
   EXPECT_EQ(outcome.events[0].time, 0);
@@ -118,7 +97,7 @@ TEST(Sliding, SteepSlopeNeverLetsItRoll) {
 TEST(Sliding, SlipThatTurns) {
   const double mu = 0.2, slope = 0.3, along = kG * std::sin(slope), normal = kG * std::cos(slope);
   const Vector3 v0(0.4, 1.6, 0), omega0(-3, 6, 2);
-  SimulationScene scene = Ball(mu, {along, 0, -normal}, v0, omega0);
+  SimulationScene scene = testing::Ball(mu, {along, 0, -normal}, v0, omega0);
   const auto slope_of = [&](const Eigen::Vector2d& w) {
     return Eigen::Vector2d(Eigen::Vector2d(along, 0) - 3.5 * mu * normal * w.normalized());
   };
@@ -147,7 +126,7 @@ TEST(Sliding, SlipThatTurns) {
 // A box on four feet: rows that depend on each other. It slides to rest and stays.
 TEST(Sliding, BoxOnFourFeetStops) {
   const double mu = 0.4, v0 = 1.7, stop = v0 / (mu * kG);
-  SimulationScene scene = Ball(mu, {0, 0, -kG}, {v0, 0, 0}, Vector3::Zero());
+  SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, {v0, 0, 0}, Vector3::Zero());
   scene.contacts.resize(4, scene.contacts[0]);
   for (int k = 0; k < 4; ++k) {
     PlacedSurface& foot = scene.contacts[static_cast<size_t>(k)].contact.surface;
@@ -172,7 +151,7 @@ TEST(Sliding, BlockOnAShakenPlaneSticksAndSlips) {
   joints[1].name = "z", joints[1].type = JointType::kPrismatic, joints[1].axis = Vector3::UnitZ();
   joints[1].parent = 0, joints[1].mass = kMass, joints[1].inertia = Matrix3::Identity();
   const double mu = 0.3, amplitude = 0.1, frequency = 1.3, rate = 2 * M_PI * frequency;
-  SimulationScene scene = Ball(mu, {0, 0, -kG}, Vector3::Zero(), Vector3::Zero());
+  SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, Vector3::Zero(), Vector3::Zero());
   scene.model = Model::Create(joints).value();
   scene.forces.resize(2);
   scene.q = Eigen::Vector2d(0, kRadius);
@@ -209,7 +188,7 @@ TEST(Sliding, JammingIsRefused) {
   Joint joint;
   joint.name = "rod", joint.type = JointType::kFree, joint.mass = 1;
   joint.inertia = Vector3(1.0 / 3, 1.0 / 3, 1e-3).asDiagonal();
-  SimulationScene scene = Ball(3, {0, 0, -kG}, {-1, 0, 0}, Vector3::Zero());
+  SimulationScene scene = testing::Ball(3, {0, 0, -kG}, {-1, 0, 0}, Vector3::Zero());
   scene.model = Model::Create({joint}).value();
   scene.contacts[0].contact.surface = {Sphere(1e-3), Vector3(0, 0, -1), Matrix3::Identity()};
   const double lean = 0.7;
@@ -224,7 +203,7 @@ TEST(Sliding, JammingIsRefused) {
 // Lands at an angle: with much friction the impact sticks, with little it slides on with an impulse on the cone.
 TEST(Sliding, ImpactsKeepTheirSlipBeyondTheCone) {
   for (const double mu : {2.0, 0.1}) {
-    SimulationScene scene = Ball(mu, {0, 0, -kG}, {2, 0, -1}, Vector3::Zero());
+    SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, {2, 0, -1}, Vector3::Zero());
     scene.contacts[0].active = false;
     scene.q[6] = kRadius + 0.2;
     scene.options.duration = 0.2;
@@ -239,7 +218,7 @@ TEST(Sliding, ImpactsKeepTheirSlipBeyondTheCone) {
 }
 
 TEST(Sliding, RefusesWhatHasNoMeaning) {
-  SimulationScene scene = Ball(0.3, {0, 0, -kG}, Vector3::Zero(), Vector3::Zero());
+  SimulationScene scene = testing::Ball(0.3, {0, 0, -kG}, Vector3::Zero(), Vector3::Zero());
   SceneContact& contact = scene.contacts[0];
   const auto refused = [&] {
     const Violations violations = CheckScene(scene);
