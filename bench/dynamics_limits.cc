@@ -43,7 +43,13 @@ struct Errors {
 };
 
 // Force of a rolling ellipsoid from  K f = −g − ω × ṙ + (I⁻¹ (ω × I ω)) × r,  K = 1/m − [r] I⁻¹ [r].
-void AddCase(double mass, double ratio, double speed, double gravity, SeededRandom* random, Errors* errors) {
+struct Extreme {
+  double mass = 1, ratio = 2, speed = 5, gravity = 9.81;
+  double distance = 0;  // m, from the origin of the world
+};
+
+void AddCase(const Extreme& extreme, SeededRandom* random, Errors* errors) {
+  const auto [mass, ratio, speed, gravity, distance] = extreme;
   const Vector3 axes(0.1, 0.1 / ratio, 0.1 * (1 + random->Uniform(0, 1)) / (2 * ratio));
   const Vector3 squares = axes.cwiseAbs2();
   Joint joint;
@@ -55,6 +61,7 @@ void AddCase(double mass, double ratio, double speed, double gravity, SeededRand
   ContactDynamics dynamics(BodyDynamics(model), {contact});
   VectorX q = NeutralConfiguration(model), v = VectorX::Zero(6);
   q.head<4>() = random->VectorOf(4, -1, 1).normalized();
+  q[4] = distance;
   const Vector3 omega_body = speed * random->Unit(), g(0.1 * gravity, 0, -gravity);
   v.head<3>() = omega_body;
   dynamics.SetState(q, v, {FrameMotion{}});
@@ -90,17 +97,17 @@ void PrintErrors(const char* plot, double x, const Errors& errors) {
 }
 
 void Bodies(SeededRandom* random) {
-  const auto worst = [&](double mass, double ratio, double speed, double gravity) {
+  const auto worst = [&](const Extreme& extreme) {
     Errors errors;
-    for (int i = 0; i < kCases; ++i) AddCase(mass, ratio, speed, gravity, random, &errors);
+    for (int i = 0; i < kCases; ++i) AddCase(extreme, random, &errors);
     return errors;
   };
-  for (int e = -3; e <= 6; ++e) PrintErrors("body_mass", std::pow(10, e), worst(std::pow(10, e), 2, 5, 9.81));
-  for (int e = -1; e <= 6; ++e) PrintErrors("body_speed", std::pow(10, e), worst(1, 2, std::pow(10, e), 9.81));
-  for (int e = -1; e <= 6; ++e) PrintErrors("body_weightless", std::pow(10, e), worst(1, 2, std::pow(10, e), 0));
-  for (double e = 0; e <= 3.01; e += 0.5) {
-    PrintErrors("body_ratio", std::pow(10, e), worst(1, std::pow(10, e), 5, 9.81));
-  }
+  const auto power = [](double e) { return std::pow(10, e); };
+  for (int e = -3; e <= 6; ++e) PrintErrors("body_mass", power(e), worst({.mass = power(e)}));
+  for (int e = -1; e <= 6; ++e) PrintErrors("body_speed", power(e), worst({.speed = power(e)}));
+  for (int e = -1; e <= 6; ++e) PrintErrors("body_weightless", power(e), worst({.speed = power(e), .gravity = 0}));
+  for (double e = 0; e <= 3.01; e += 0.5) PrintErrors("body_ratio", power(e), worst({.ratio = power(e)}));
+  for (int e = 0; e <= 6; ++e) PrintErrors("body_place", power(e), worst({.distance = power(e)}));
 }
 
 // Two links that slide along one line, the second on the first:  a_1 = (τ_1 − τ_2)/m_1,  a_2 = τ_2/m_2 − a_1.
@@ -141,7 +148,7 @@ void NearlyDependent(const char* plot, double off) {
     Print(plot, solution.ForcesUnique() ? "force" : "force (reported as not unique)", delta, error);
     Print(plot, solution.redundant ? "acceleration / g (rank 2)" : "acceleration / g", delta,
           solution.acceleration.norm() / 9.81);
-    Print(plot, "independence", delta, solution.independence);
+    Print(plot, "epsilon / independence", delta, 2.2e-16 / solution.independence);
     Print(plot, "epsilon / independence squared", delta, 2.2e-16 / (solution.independence * solution.independence));
   }
 }

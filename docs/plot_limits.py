@@ -24,6 +24,7 @@ PLOTS.update({
     "body_speed": ("Rolling ellipsoid: error against angular speed", "angular speed (rad/s)", True),
     "mass_ratio": ("Two links: error against mass of the second over the first", "mass ratio", True),
     "feet_in_line": ("Three feet, one off the line of the others", "distance from the line (m)", True),
+    "feet_off_balance": ("Three feet, one off the line of the others, weight beside it", "distance from the line (m)", True),
     "long_energy": ("Long runs, tolerance 1e-12: energy drift (relative)", "revolutions", True),
     "long_gap": ("Long runs, tolerance 1e-12: gap (m)", "revolutions", True),
 })

@@ -25,5 +25,20 @@ TEST(Equation3_2, SpatialAccelerationIsTheRateOfTheTwistInLinkAxes) {
   EXPECT_GT(bias.linear.norm(), 0.1);
 }
 
+// The first three components are the rate of the angular velocity, in any axes; the last three are that of the components of
+// v(C) in link axes, which is not the acceleration of C.
+TEST(Equation3_1, AngularFirstThenLinear) {
+  RollingTree tree;
+  tree.a.setZero();
+  const BodyDynamics::Link link = tree.StateAt(0).back();
+  const Vector3 omega_rate = Derivative([&](double t) { return tree.Omega(t); });
+  EXPECT_TRUE(MatrixNear(link.R_WL * link.bias.angular, omega_rate, kDerivativeTolerance));
+  const Vector3 component_rate = Derivative(
+      [&](double t) { return Vector3(tree.StateAt(t).back().R_WL.transpose() * tree.VelocityOfC(t)); });
+  EXPECT_TRUE(MatrixNear(link.bias.linear, component_rate, kDerivativeTolerance));
+  const Vector3 acceleration = Derivative([&](double t) { return tree.VelocityOfC(t); });
+  EXPECT_GT((link.R_WL * link.bias.linear - acceleration).norm(), 0.1);
+}
+
 }  // namespace
 }  // namespace rollgait

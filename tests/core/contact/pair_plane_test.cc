@@ -9,6 +9,7 @@
 #include "core/contact/pair_kinematics.h"
 #include "tests/support/extreme_contacts.h"
 #include "tests/support/high_order_difference.h"
+#include "tests/support/mapped_motion.h"
 #include "tests/support/matrix_near.h"
 
 namespace rollgait {
@@ -40,35 +41,6 @@ Case Draw(ExtremeContacts* extremes) {
 }
 
 PairKinematics Compute(const Case& at) { return ComputePlaneContact(at.surface, at.body, at.plane, at.ground); }
-
-FrameMotion Mapped(const FrameMotion& body, const Matrix3& Q, double axial, double length, double rate) {
-  FrameMotion mapped;
-  mapped.R_WB = Q * body.R_WB * (axial < 0 ? Q.transpose() : Matrix3(Matrix3::Identity()));
-  mapped.p_WB = length * (Q * body.p_WB);
-  mapped.w_WB = rate * axial * (Q * body.w_WB);
-  mapped.v_WB = rate * length * (Q * body.v_WB);
-  mapped.alpha_WB = rate * rate * axial * (Q * body.alpha_WB);
-  mapped.a_WB = rate * rate * length * (Q * body.a_WB);
-  return mapped;
-}
-
-// Everything mapped by Q in space, stretched by `length` and sped up by `rate`: the same bits.
-void ExpectMapped(const PairKinematics& one, const PairKinematics& other, const Matrix3& Q, double length,
-                  double rate) {
-  ASSERT_EQ(one.regular, other.regular);
-  EXPECT_EQ(other.p_1, length * (Q * one.p_1));
-  EXPECT_EQ(other.p_2, length * (Q * one.p_2));
-  EXPECT_EQ(other.normal, Q * one.normal);
-  EXPECT_EQ(other.gap, length * one.gap);
-  EXPECT_EQ(other.gap_rate, rate * length * one.gap_rate);
-  EXPECT_EQ(other.slip, rate * length * (Q * one.slip));
-  if (!one.regular) return;
-  EXPECT_EQ(other.p_dot_1, rate * length * (Q * one.p_dot_1));
-  EXPECT_EQ(other.p_dot_2, rate * length * (Q * one.p_dot_2));
-  EXPECT_EQ(other.normal_dot, rate * (Q * one.normal_dot));
-  EXPECT_EQ(other.drift, rate * rate * length * (Q * one.drift));
-  EXPECT_EQ(other.gap_acceleration, rate * rate * length * one.gap_acceleration);
-}
 
 bool NoNaN(const PairKinematics& at) {
   return !at.p_1.hasNaN() && !at.p_2.hasNaN() && !at.normal.hasNaN() && !std::isnan(at.gap) && !at.slip.hasNaN() &&
