@@ -26,11 +26,14 @@ void Report::Add(const std::string& family, const std::string& field, const std:
   }
 }
 
-bool Report::passed() const {
+bool Report::passed() const { return Exceeded().empty(); }
+
+std::set<std::string> Report::Exceeded() const {
+  std::set<std::string> fields;
   for (const Row& row : rows_) {
-    if (!(row.worst_ratio <= 1)) return false;
+    if (!(row.worst_ratio <= 1)) fields.insert(row.field);
   }
-  return true;
+  return fields;
 }
 
 void Report::Print(std::ostream& out) const {

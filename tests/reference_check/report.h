@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Report {
 
   bool empty() const { return rows_.empty(); }
   bool passed() const;
+  // Fields whose worst error exceeds the tolerance.
+  std::set<std::string> Exceeded() const;
   // One line per family and field: cases, worst error, worst error relative to the tolerance and the case that has it.
   void Print(std::ostream& out) const;
 
