@@ -242,6 +242,9 @@ int Main(int argc, char** argv) {
           }
         }
         if (s.trajectory) PrintForces(*s.trajectory, spec.value());
+        if (a.impact_loss != 0) {
+          std::printf("    impacts off by %.1e rad/s or m/s, %.1e N s\n", a.jump_velocity_error, a.jump_impulse_error);
+        }
         if (normative && s.normative) PrintNormative(*s.normative);
         for (const auto& u : s.unmet_constraints) {
           std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());

@@ -169,7 +169,7 @@ class Walk {
     }
     q(problem_.forward_joint) = displacement_ * time / total_;
     if (const int pitch = model.Find("base_pitch"); pitch >= 0) q(pitch) = style_.lean;
-    LowerOntoGround(problem_.phases[phase].active, &q);
+    LowerOntoGround(&q);
     return q;
   }
 
@@ -184,16 +184,17 @@ class Walk {
     const std::vector<int>& active = problem_.phases[phase].active;
     const std::vector<int> previous = problem_.PreviousActive(phase);
     sample.forces = VectorX::Zero(3 * static_cast<int>(active.size()));
+    constexpr double kLeastShare = 0.2;  // away from the bound that every normal force has
     double sum = 0;
     std::vector<double> shares;
     for (int contact : active) {
       // Contacts that were there hand over to those that are new.
       const bool hands_over = active.size() > 1 && Contains(previous, contact);
-      shares.push_back(active.size() == 1 ? 1 : (hands_over ? 1 - fraction : fraction));
+      shares.push_back(active.size() == 1 ? 1 : kLeastShare + (hands_over ? 1 - fraction : fraction));
       sum += shares.back();
     }
     for (size_t c = 0; c < active.size(); ++c) {
-      const double share = sum > 0 ? shares[c] / sum : 1.0 / static_cast<double>(active.size());
+      const double share = shares[c] / sum;
       sample.forces(3 * static_cast<int>(c) + 2) = share * problem_.force_size();
     }
     return sample;
@@ -208,20 +209,25 @@ class Walk {
     if (elbow >= 0) (*q)(elbow) = kElbow;
   }
 
-  // Moves the vertical base joint so that the mean gap of the active contacts is zero.
-  void LowerOntoGround(const std::vector<int>& active, VectorX* q) const {
+  // Moves the vertical base joint so that the lowest surfaces touch the ground: the soft minimum of all gaps is zero, whatever the
+  // phase, so that the body's height has no step and no kink where contacts change.
+  void LowerOntoGround(VectorX* q) const {
+    constexpr double kSoftness = 0.005;  // m
     const int vertical = problem_.model.Find("base_z");
     ROLLGAIT_CHECK(vertical >= 0);
     TreeDynamics tree(problem_.model);
     const VectorX zero = VectorX::Zero(problem_.model.size());
     tree.UpdateKinematics(q->data(), zero.data());
-    double gap = 0;
-    for (int c : active) {
-      ContactDerivatives<double> contact(problem_.model, problem_.contacts[c]);
+    std::vector<double> gaps;
+    for (const ContactSurface& surface : problem_.contacts) {
+      ContactDerivatives<double> contact(problem_.model, surface);
       contact.Update(tree);
-      gap += contact.point().z() / static_cast<double>(active.size());
+      gaps.push_back(contact.point().z());
     }
-    (*q)(vertical) -= gap;
+    const double least = *std::min_element(gaps.begin(), gaps.end());
+    double sum = 0;
+    for (const double gap : gaps) sum += std::exp((least - gap) / kSoftness);
+    (*q)(vertical) -= least - kSoftness * std::log(sum);
   }
 
   const OptimalControlProblem& problem_;

@@ -69,7 +69,6 @@ void FillFromPreset(GaitRequest* request) {
   if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
   if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.003;
-  if (!request->starts) request->starts = 3;
 }
 
 std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene) {

@@ -54,9 +54,8 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
                                                               Scheme::kHermiteSimpson)));
 
 // The drift trap: with contact on acceleration level alone the feet of the optimum sink by centimetres. Here gap and slip stay
-// within the standard bounds between the nodes too, and downhill costs more torque than uphill, as the paper found.
-TEST(StandardAccuracy, HoldsOnAllSlopesAndDownhillCostsMost) {
-  double cost[2];
+// within the standard bounds between the nodes too.
+TEST(StandardAccuracy, HoldsOnAllSlopes) {
   for (int slope : {-10, 0, 10}) {
     GaitRequest request = Planar(slope);
     request.discretization.scheme = Scheme::kHermiteSimpson;
@@ -69,9 +68,7 @@ TEST(StandardAccuracy, HoldsOnAllSlopesAndDownhillCostsMost) {
     EXPECT_LT(solution.accuracy->periodicity_error, 1e-7);
     // Re-integration with the optimal torques: a hundredth of a radian is far above what these meshes leave (5e-4).
     EXPECT_LT(solution.accuracy->max_position_defect, 1e-2);
-    if (slope != 0) cost[slope > 0] = solution.objective;
   }
-  EXPECT_GT(cost[0], cost[1]);
 }
 
 // Without passive torques the net moments of the comparison with people, found from motion and forces, are the torques that

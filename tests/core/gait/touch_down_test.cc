@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tuple>
+#include <vector>
 
+#include "core/contact/rolling_kinematics.h"
 #include "core/gait/optimizing_gait_solver.h"
 #include "core/validation/jumps.h"
 
@@ -58,7 +61,7 @@ TEST(PlasticTouchDownJudge, SeesWhatIsWrongAtItsSize) {
   for (const TrajectoryPhase& phase : solution.trajectory->phases) loss += phase.impact_loss;
   EXPECT_NEAR(good.impact_loss, loss, 1e-6 * loss);
   EXPECT_GT(loss, 10);
-  EXPECT_LT(good.max_position_defect, 0.05);  // re-integration across the jump; of this coarse mesh
+  EXPECT_LT(good.max_position_defect, 0.1);  // of this coarse mesh; a jump that was integrated over would be 1 and more
 
   Trajectory wrong = *solution.trajectory;
   wrong.phases[2].impulses(2) += 3;
@@ -78,6 +81,38 @@ TEST(PlasticTouchDownJudge, SeesWhatIsWrongAtItsSize) {
     EXPECT_NEAR(Validate(spec.scene, wrong, options).jump_velocity_error, 0.2, 1e-3);
   }
 }
+
+// Where a surface touches the ground along its first axis, -1 (heel) to 1 (toe), by the judge's kinematics.
+double ContactPoint(const Scene& scene, const TrajectoryPhase& phase, const char* contact) {
+  const ContactSurface& surface = scene.contacts[scene.FindContact(contact)];
+  BodyDynamics::State state;
+  BodyDynamics(scene.model).ComputeState(phase.node_positions.col(0), phase.node_velocities.col(0), &state);
+  const Vector3 p_L = state[surface.joint].R_WL.transpose() *
+                      (ComputeRollingContact(surface, state).p_WP - state[surface.joint].p_WL);
+  return (surface.R_LE.transpose() * (p_L - surface.p_LE)).x() / surface.surface.ellipsoid()->semi_axes().x();
+}
+
+// Equation (4.3) of the paper: heel strike and toe-off at prescribed points, on all its slopes, with either touch-down.
+class ContactPoints : public ::testing::TestWithParam<std::tuple<int, GaitRequest::TouchDown>> {};
+
+TEST_P(ContactPoints, AreWhereTheRequestPutsThem) {
+  GaitRequest request = Request(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  request.ground_contact.touch_down_point = GaitRequest::Range{-0.6, -0.6};
+  request.ground_contact.lift_off_point = GaitRequest::Range{0.5, 0.7};
+  const GaitSpec spec = CheckRequest(request).value();
+  const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  const std::vector<TrajectoryPhase>& phases = solution.trajectory->phases;
+  EXPECT_NEAR(ContactPoint(spec.scene, phases[0], "left_foot"), -0.6, 1e-6);
+  const double lift_off = ContactPoint(spec.scene, phases[1], "right_foot");
+  EXPECT_GE(lift_off, 0.5 - 1e-6);
+  EXPECT_LE(lift_off, 0.7 + 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Slopes, ContactPoints,
+                         ::testing::Combine(::testing::Values(-10, 0, 10),
+                                            ::testing::Values(GaitRequest::TouchDown::kSmooth,
+                                                              GaitRequest::TouchDown::kPlastic)));
 
 }  // namespace
 }  // namespace rollgait

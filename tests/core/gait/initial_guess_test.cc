@@ -1,0 +1,75 @@
+#include "core/gait/initial_guess.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/gait/build_problem.h"
+
+namespace rollgait {
+namespace {
+
+struct Case {
+  const char* model;
+  FootShape feet;
+  Cycle cycle;
+};
+
+class WalkingGuessTest : public ::testing::TestWithParam<Case> {
+ protected:
+  WalkingGuessTest() {
+    GaitRequest request;
+    request.body.model = GetParam().model;
+    request.body.feet = GetParam().feet;
+    request.cycle = GetParam().cycle;
+    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
+    problem_ = BuildProblem(*spec_);
+  }
+  std::unique_ptr<GaitSpec> spec_;
+  std::unique_ptr<OptimalControlProblem> problem_;
+};
+
+// A step in the position where contacts change is an acceleration of a step over the square of an interval: 1 cm in 20 ms is 25 m/s².
+// Solves that started so ended in restorations.
+TEST_P(WalkingGuessTest, PositionsAreContinuousThroughThePhases) {
+  for (const int variant : {0, 1, 2}) {
+    const MotionGuess guess = WalkingGuess(*spec_, *problem_, variant);
+    const int phases = static_cast<int>(problem_->phases.size());
+    for (int p = 0; p + 1 < phases; ++p) {
+      const VectorX step = guess.motion(p + 1, 0).position - guess.motion(p, 1).position;
+      EXPECT_LT(step.cwiseAbs().maxCoeff(), 1e-12) << "phase " << p;
+    }
+    // The end is the start, mirrored in a half cycle, and moved on. Legs alone know left from right here.
+    const VectorX start = guess.motion(0, 0).position, end = guess.motion(phases - 1, 1).position;
+    for (int j = 0; j < problem_->model.size(); ++j) {
+      const Joint& joint = problem_->model.joint(j);
+      const int source = problem_->mirrored && joint.mirror_joint >= 0 ? joint.mirror_joint : j;
+      const double moved = j == problem_->forward_joint ? guess.displacement : 0;
+      EXPECT_NEAR(end(j), start(source) + moved, 1e-12) << joint.name;
+    }
+  }
+}
+
+// A force that starts on its bound cuts the first steps short.
+TEST_P(WalkingGuessTest, EveryContactCarriesAndTogetherTheyCarryTheWeight) {
+  const MotionGuess guess = WalkingGuess(*spec_, *problem_);
+  for (int p = 0; p < static_cast<int>(problem_->phases.size()); ++p) {
+    for (const double fraction : {0.0, 0.5, 1.0}) {
+      const VectorX forces = guess.motion(p, fraction).forces;
+      double sum = 0;
+      for (int row = 2; row < forces.size(); row += 3) {
+        EXPECT_GT(forces(row), 0.05 * problem_->force_size());
+        sum += forces(row);
+      }
+      EXPECT_NEAR(sum, problem_->force_size(), 1e-9);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, WalkingGuessTest,
+                         ::testing::Values(Case{"planar", FootShape::kOneEllipsoid, Cycle::kHalf},
+                                           Case{"planar", FootShape::kTwoEllipsoids, Cycle::kFull},
+                                           Case{"human29", FootShape::kTwoEllipsoids, Cycle::kHalf}));
+
+}  // namespace
+}  // namespace rollgait
