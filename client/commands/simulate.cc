@@ -89,15 +89,18 @@ std::string EventText(const v1::SimulationEvent& event) {
     default:
       return text + "has an event that this client does not know";
   }
+  std::string released;
   for (const auto& impulse : event.impulses()) {
     if (impulse.released()) {
-      text += "; " + impulse.contact() + " released at " + FormatNumber(impulse.gap_rate_after_m_s()) + " m/s";
+      released += "; " + impulse.contact() + " released at " + FormatNumber(impulse.gap_rate_after_m_s()) + " m/s";
     } else {
       const v1::Vector3& j = impulse.impulse_n_s();
       text += "; impulse on " + impulse.contact() + " (" + FormatNumber(j.x()) + ", " + FormatNumber(j.y()) + ", " +
               FormatNumber(j.z()) + ") N s";
     }
   }
+  text += released;
+  if (event.redundant()) text += "; the impulses are not unique";
   if (!event.consistent()) text += "; no set of contacts pushes and separates: the impact is not physical";
   return text;
 }
