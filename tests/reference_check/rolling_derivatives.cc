@@ -2,15 +2,17 @@
 // exp([θ]), angular velocity and torque about the centre of mass in body axes.
 //
 // All of θ enters through ν(θ) = exp(−[θ]) ν and the gravity in body axes; x(ν), S(ν) are expanded with the library's
-// S, T and Q, the rest is algebra on numbers that carry two derivatives. The reference folder's README gives no double
-// tolerance for this family. Used here, relative to the norm of the value, of the Jacobian and of the Hessian: 100 ε k,
-// or what the README gives for ω̇, 1e-15 k², if that is more.
+// S, T and Q, the rest is algebra on numbers that carry two derivatives. The bias is compared once more from
+// PairHessians. The reference folder's README gives no double tolerance for this family. Used here, relative to the norm
+// of the value, of the Jacobian and of the Hessian: 100 ε k, or what the README gives for ω̇, 1e-15 k², if that is more.
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
+#include "core/contact/pair_hessians.h"
 #include "core/geometry/surface.h"
+#include "core/multibody/spatial.h"
 #include "tests/reference_check/families.h"
 #include "tests/reference_check/jet.h"
 
@@ -92,6 +94,34 @@ Outputs Evaluate(const Input& input) {
           Number(-1) * h};
 }
 
+// The bias once more, from the Hessians of pairs on a plane at rest. Their variables are a turn and an angular velocity in
+// world axes:  θ_W = R θ,  ω_W = R exp([θ]) (ω_b + δ) = R (ω + θ × ω + δ + ½ θ × (θ × ω) + θ × δ + …).
+Number3 BiasOfPairs(const Input& input) {
+  const Matrix3 R = input.R.cast<double>();
+  FrameMotion body;
+  body.R_WB = R;
+  body.w_WB = R * input.omega;
+  const PlacedSurface placed{input.surface, -input.com, Matrix3::Identity()};
+  const PairHessians at = PairHessians::OnPlane(placed, body, {Vector3::Zero(), -(R * input.nu)}, FrameMotion{});
+  Eigen::Matrix<double, 24, kVariables> map = Eigen::Matrix<double, 24, kVariables>::Zero();
+  map.block<3, 3>(3, 0) = R;
+  map.block<3, 3>(15, 0) = -R * Skew(input.omega);
+  map.block<3, 3>(15, 3) = R;
+  Number3 bias(at.kinematics().drift);
+  for (int i = 0; i < 3; ++i) {
+    const RowVector24 gradient = at.DriftDerivative().row(i);
+    const Vector3 g = R.transpose() * gradient.segment<3>(15).transpose();
+    bias[i].d = (gradient * map).transpose();
+    bias[i].dd = map.transpose() * at.Drift(Vector3::Unit(i)) * map;
+    const Matrix3 outer = g * input.omega.transpose();
+    bias[i].dd.topLeftCorner<3, 3>() +=
+        0.5 * (outer + outer.transpose()) - g.dot(input.omega) * Matrix3::Identity();
+    bias[i].dd.block<3, 3>(0, 3) -= Skew(g);
+    bias[i].dd.block<3, 3>(3, 0) += Skew(g);
+  }
+  return bias;
+}
+
 Input ReadInput(Fields* item, double* k) {
   const auto vector = [&](const char* name) { return Vector3(item->Vector3(name).cast<double>()); };
   Input input;
@@ -160,13 +190,16 @@ void Compare(const std::string& name, const Number* numbers, int count, Fields e
 void CheckCase(Fields item, Report* all) {
   CaseReport report(all, "rolling_derivatives", item.Text("family") + " " + item.Get("id").dump());
   double k = 1;
-  const Outputs outputs = Evaluate(ReadInput(&item, &k));
+  const Input input = ReadInput(&item, &k);
+  const Outputs outputs = Evaluate(input);
+  const Number3 of_pairs = BiasOfPairs(input);
   const double relative = std::max(100 * kEpsilon * k, 1e-15 * k * k);
   Fields expect = item.Object("expect");
   Compare("omega_dot", outputs.omega_dot_body.e.data(), 3, expect.Object("omega_dot_body"), relative, &report);
   Compare("contact_force", outputs.contact_force_world.e.data(), 3, expect.Object("contact_force_world"), relative,
           &report);
   Compare("bias", outputs.bias_world.e.data(), 3, expect.Object("bias_world"), relative, &report);
+  Compare("bias_of_pairs", of_pairs.e.data(), 3, expect.Object("bias_world"), relative, &report);
   Compare("r", outputs.r_world.e.data(), 3, expect.Object("r_center_to_contact_world"), relative, &report);
   Compare("minus_support", &outputs.minus_support, 1, expect.Object("minus_support"), relative, &report);
   expect.Finish();
