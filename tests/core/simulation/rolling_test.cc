@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "core/simulation/simulation.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/rolling_scenes.h"
+#include "tests/support/standing_plate.h"
 
 namespace rollgait {
 namespace {
@@ -160,6 +162,32 @@ TEST(RollingSimulation, RattlebackReversesWhenItShould) {
     b = c, at_b = SpinAt(c);
   }
   EXPECT_NEAR(b, 2.761109153800631, 1e-9);
+}
+
+// A plate on three frictionless feet, one almost on the line of the others: forces that have no digit left are reported.
+TEST(Standing, NearlyRedundantContactsAreReported) {
+  for (const double delta : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    SimulationScene scene{"plate", testing::StandingPlate::MakeModel(), {JointForce{}}, {GroundMotion{}}, {},
+                          {0, 0, -9.81}, {}, {}, {}, -1, {}};
+    for (TreeContact& contact : testing::StandingPlate::Contacts({{-1, 0.3, 0}, {1, 0.3, 0}, {0, 0.3 + delta, 0}},
+                                                                Grip::kFrictionless)) {
+      SceneContact touching;
+      touching.contact = contact;
+      touching.contact.name = std::to_string(scene.contacts.size());
+      touching.active = touching.bilateral = true;
+      scene.contacts.push_back(touching);
+    }
+    scene.q = NeutralConfiguration(scene.model);
+    scene.q[6] = 0.5;
+    scene.v = VectorX::Zero(6);
+    scene.options.duration = 0.1;
+    ASSERT_TRUE(CheckScene(scene).empty());
+    const SimulationReport report = Simulate(scene, {}).value();
+    EXPECT_EQ(report.end, SimulationEnd::kDuration);
+    EXPECT_EQ(report.redundant, delta < 1e-8) << delta;
+    // At rest but where the third foot counts as one on the line; then the plate falls about it.
+    EXPECT_EQ(report.v.norm() > 1e-6, delta < 1e-10) << delta;
+  }
 }
 
 }  // namespace
