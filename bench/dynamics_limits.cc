@@ -148,6 +148,7 @@ void NearlyDependent(const char* plot, double off) {
     Print(plot, solution.ForcesUnique() ? "force" : "force (reported as not unique)", delta, error);
     Print(plot, solution.redundant ? "acceleration / g (rank 2)" : "acceleration / g", delta,
           solution.acceleration.norm() / 9.81);
+    if (solution.redundant) continue;
     Print(plot, "epsilon / independence", delta, 2.2e-16 / solution.independence);
     Print(plot, "epsilon / independence squared", delta, 2.2e-16 / (solution.independence * solution.independence));
   }

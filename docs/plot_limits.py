@@ -56,12 +56,19 @@ def draw(title, label, logarithmic, series):
         text = f"1e{round(math.log10(x))}" if logarithmic else f"{x:g}"
         out.append(f'<text x="{to_x(x):.1f}" y="{HEIGHT - BOTTOM + 18}" text-anchor="middle">{text}</text>')
     out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle">{label}</text>')
+    # The legend stands on the side where fewer points are behind it.
+    behind = [0, 0]
+    for x, y in (point for points in series.values() for point in points):
+        if to_y(y) < TOP + 16 * (len(series) + 1):
+            behind[to_x(x) > (LEFT + WIDTH - RIGHT) / 2] += 1
+    legend_x, anchor = (LEFT + 10, "start") if behind[0] <= behind[1] else (WIDTH - RIGHT - 10, "end")
     for index, (name, points) in enumerate(series.items()):
         colour = COLOURS[index % len(COLOURS)]
         path = " ".join(f"{to_x(x):.1f},{to_y(y):.1f}" for x, y in points)
         text = name.replace("<", "&lt;")
         out.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>'
-                   f'<text x="{LEFT + 10}" y="{TOP + 14 + 16 * index}" fill="{colour}">{text}</text>')
+                   f'<text x="{legend_x}" y="{TOP + 14 + 16 * index}" text-anchor="{anchor}" '
+                   f'fill="{colour}">{text}</text>')
     out.append("</svg>")
     return "\n".join(out) + "\n"
 
