@@ -213,8 +213,7 @@ Statement EntryPoints(const Gaits& gaits) {
                        contact.touch_down_point().min() == contact.touch_down_point().max();
   s.agreement = Judge(imposed);
   s.ours = imposed ? "imposed at " + FormatNumber(contact.touch_down_point().min(), 3) + " of the semi-axis" : "left free";
-  s.why = imposed ? "As the request asks." : "The paper does not say which points. A request file (--spec) with "
-                                             "groundContact.touchDownPoint imposes them.";
+  s.why = imposed ? "As the request asks." : "The paper does not say which points; --touch-down-point imposes them.";
   return s;
 }
 
