@@ -80,6 +80,17 @@ TEST(AccuracyLinesTest, ManoeuvresHaveNoSwing) {
   EXPECT_EQ(labels(solve).size(), lines - 1);
 }
 
+TEST(AccuracyLinesTest, ImpactsAreShownWhereTouchDownIsPlastic) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  solve.mutable_result()->mutable_accuracy()->set_impact_loss_j(12);
+  const size_t lines = AccuracyLines(solve).size();
+  solve.mutable_spec()->mutable_ground_contact()->set_touch_down(v1::TOUCH_DOWN_PLASTIC);
+  const std::vector<AccuracyLine> with = AccuracyLines(solve);
+  ASSERT_EQ(with.size(), lines + 4);
+  EXPECT_EQ(with[lines].name, "energy lost in impacts");
+  EXPECT_EQ(with[lines].value, 12);
+}
+
 TEST(OutputTest, RefusesWhatCannotBeWritten) {
   EXPECT_THROW(RequireOutputPath("a.txt"), Failure);
   EXPECT_THROW(RequireOutputPath("a"), Failure);
