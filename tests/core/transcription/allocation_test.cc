@@ -25,6 +25,7 @@ class AllocationTest : public ::testing::TestWithParam<Scheme> {};
 TEST_P(AllocationTest, EvaluationsAllocateNothing) {
   GaitRequest request = PlanarRequestWithEveryTerm();
   request.discretization.scheme = GetParam();
+  request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;  // every row there is
   const auto spec = CheckRequest(request);
   ASSERT_TRUE(spec.ok());
   const auto problem = BuildProblem(spec.value());
