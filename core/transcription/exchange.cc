@@ -4,6 +4,14 @@
 
 namespace rollgait {
 
+namespace {
+
+// A point at the end of an interval is one of this interval, not of the neighbour, whose efforts and forces there are others: it
+// is looked for by this part of a half interval further in.
+constexpr double kInside = 1e-9;
+
+}  // namespace
+
 VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
   const int n = problem_.model.size();
   VectorX x = VectorX::Zero(variables());
@@ -34,7 +42,8 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
     const int p = layout_.phase(k);
     set_node(layout_.node(k), guess.motion(p, layout_.start(k)));
     for (int i = 0; i < scheme_.points(); ++i) {
-      const MotionSample sample = guess.motion(p, layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k));
+      const double c = scheme_.tableau().c(i) + kInside * (0.5 - scheme_.tableau().c(i));
+      const MotionSample sample = guess.motion(p, layout_.start(k) + c * layout_.length(k));
       if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
       set_forces(p, sample.forces, problem_.force_size(), layout_.forces(k, i));
