@@ -13,6 +13,7 @@ FrontalLdlt::FrontalLdlt(int size, const SparsityPattern& pattern, const std::ve
   ROLLGAIT_CHECK(static_cast<int>(groups.size()) == size);
   AnalyseFronts(pattern, groups);
   AssignEntries(pattern);
+  AssignBlocks();
 }
 
 void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups) {
@@ -47,6 +48,7 @@ void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vecto
     }
     std::sort(front.update.begin(), front.update.end(), earlier);
     front.update.erase(std::unique(front.update.begin(), front.update.end()), front.update.end());
+    front.update.shrink_to_fit();
     if (front.update.empty()) continue;
     front.is_root = false;
     fronts_[front_of_[front.update.front()]].children.push_back(f);
@@ -68,6 +70,7 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
   for (size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     place(front);
+    front.entries.reserve(entries[f].size());
     for (int e : entries[f]) {
       int row = row_in[pattern.rows[e]], column = row_in[pattern.columns[e]];
       if (row < column) std::swap(row, column);
@@ -76,11 +79,27 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
     for (int child : front.children) {
       for (int i : fronts_[child].update) fronts_[child].parent_row.push_back(row_in[i]);
     }
-    front.schur.resize(front.update.size() * front.update.size());
     most = std::max(most, front.own.size() + front.update.size());
   }
   map_.reserve(most);
   gathered_.resize(size_);
+}
+
+// A chain needs a handful of Schur complements at once, and its fronts find them in the cache.
+void FrontalLdlt::AssignBlocks() {
+  std::vector<int> free;
+  for (Front& front : fronts_) {
+    if (free.empty()) {
+      free.push_back(static_cast<int>(blocks_.size()));
+      blocks_.emplace_back();
+    }
+    front.block = free.back();
+    free.pop_back();
+    const size_t size = front.update.size() * front.update.size();
+    if (blocks_[front.block].size() < size) blocks_[front.block].resize(size);
+    for (int child : front.children) free.push_back(fronts_[child].block);
+    if (front.is_root) free.push_back(front.block);
+  }
 }
 
 FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double threshold) {
@@ -113,7 +132,7 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   front->panel.assign(static_cast<size_t>(front->rows) * front->columns, 0.0);
   const int order = front->rows - front->columns;
   for (int j = 0; j < order; ++j) {
-    double* diagonal = front->schur.data() + static_cast<size_t>(j) * order + j;
+    double* diagonal = Schur(*front) + static_cast<size_t>(j) * order + j;
     std::fill(diagonal, diagonal + order - j, 0.0);
   }
   const int shift = front->columns - own;
@@ -153,9 +172,9 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
   // The map is ascending, so the lower triangle stays one.
   const int order = front->rows - front->columns;
   for (int j = 0; j < update; ++j) {
-    const double* column = child.schur.data() + static_cast<size_t>(j) * update;
+    const double* column = Schur(child) + static_cast<size_t>(j) * update;
     if (map_[j] >= front->columns) {
-      double* target = front->schur.data() + static_cast<size_t>(map_[j] - front->columns) * order - front->columns;
+      double* target = Schur(*front) + static_cast<size_t>(map_[j] - front->columns) * order - front->columns;
       for (int i = j; i < update; ++i) target[map_[i]] += column[i];
       continue;
     }
@@ -189,7 +208,7 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 void FrontalLdlt::UpdateSchur(Front* front) {
   const int order = front->rows - front->columns;
   SubtractProductTriangle(front->panel.data() + front->columns, front->rows, scaled_.data() + front->columns, front->rows,
-                          front->pivots, order, front->schur.data(), order);
+                          front->pivots, order, Schur(*front), order);
 }
 
 void FrontalLdlt::Solve(double* x) {

@@ -53,11 +53,13 @@ class FrontalLdlt {
     std::vector<int> unknowns;    // of every row
     std::vector<double> panel;    // rows × columns, L in the first `pivots` columns
     std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
-    std::vector<double> schur;    // update × update, lower triangle
+    int block = 0;                // of blocks_, with the Schur complement: update × update, lower triangle
   };
 
   void AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups);
   void AssignEntries(const SparsityPattern& pattern);
+  void AssignBlocks();
+  double* Schur(const Front& front) { return blocks_[front.block].data(); }
   void Assemble(const double* values, Front* front);
   void AddChild(const Front& child, int first_slot, Front* front);
   void FactorPanel(Front* front, double threshold);
@@ -65,6 +67,7 @@ class FrontalLdlt {
 
   int size_;
   std::vector<Front> fronts_;
+  std::vector<std::vector<double>> blocks_;  // as many as are in use at once, until the parent has taken them up
   std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
   std::vector<int> map_, updated_;
   std::vector<double> scaled_;        // L D of the front in work

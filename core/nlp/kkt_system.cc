@@ -21,8 +21,13 @@ constexpr double kStagnation = 0.5;
 
 SparsityPattern KktSystem::MakePattern(const NlpProblem& problem) {
   const int n = problem.variables();
-  SparsityPattern pattern = problem.hessian_pattern();
   const SparsityPattern& jacobian = problem.jacobian_pattern();
+  SparsityPattern pattern;
+  for (std::vector<int>* indices : {&pattern.rows, &pattern.columns}) {
+    indices->reserve(problem.hessian_pattern().size() + jacobian.size() + n + problem.constraints());
+  }
+  pattern.rows = problem.hessian_pattern().rows;
+  pattern.columns = problem.hessian_pattern().columns;
   for (int e = 0; e < jacobian.size(); ++e) pattern.Add(n + jacobian.rows[e], jacobian.columns[e]);
   for (int i = 0; i < n + problem.constraints(); ++i) pattern.Add(i, i);
   return pattern;
