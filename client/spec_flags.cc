@@ -41,10 +41,8 @@ v1::CostTerm ParseCost(const std::string& cost) {
   switch (Lookup<Term>(
       "--cost", cost.substr(0, colon),
       {{"torque", Term::kTorque},
-       {"torque-rate", Term::kTorqueRate},
-       {"force-rate", Term::kForceRate},
-       {"work", Term::kWork},
-       {"time", Term::kTime},
+       {"torque-rate", Term::kTorqueRate}, {"force-rate", Term::kForceRate},
+       {"work", Term::kWork}, {"time", Term::kTime},
        {"effort", Term::kEffort},
        {"muscle-work", Term::kMuscleWork},
        {"passive-load", Term::kPassiveLoad},
@@ -265,6 +263,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--cost", flags.costs, "Cost", "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
+  add("--warm-start", flags.warm_start, "Numerics", "Start from a stored solve, solves/ID, or from the nearest one: nearest");
   add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
@@ -336,6 +335,7 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
                                         {"human", v1::PRESET_HUMAN}}));
   }
   if (flags.starts) spec.set_starts(*flags.starts);
+  if (flags.warm_start) spec.set_warm_start(*flags.warm_start);
   if (flags.normalization) {
     spec.set_cost_normalization(Lookup<v1::CostNormalization>("--normalize", *flags.normalization,
                                                               {{"distance", v1::COST_NORMALIZATION_PER_DISTANCE},

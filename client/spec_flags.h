@@ -18,7 +18,7 @@ namespace rollgait::client {
 struct SpecFlags {
   std::string file;
   std::optional<std::string> model, sex, scheme, cycle, accuracy, normalization;
-  std::optional<std::string> preset;
+  std::optional<std::string> preset, warm_start;
   std::optional<double> duty_factor;
   std::optional<int> starts;
   std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;

@@ -92,6 +92,14 @@ Rows UnmetRows(const v1::SolveResult& result) {
   return rows;
 }
 
+std::string StartNote(const v1::SolveResult& result) {
+  if (!result.has_warm_started_from()) return "";
+  const v1::WarmStartSource& source = result.warm_started_from();
+  return "; started from " + source.name() + ", " + FormatNumber(source.slope_difference_rad() * 180 / kPi) + "° and " +
+         FormatNumber(source.speed_difference_m_s()) + " m/s away" +
+         (source.used_multipliers() ? "" : ", without its multipliers");
+}
+
 std::string EffortLine(const v1::Solve& solve) {
   const v1::SolveResult& result = solve.result();
   int iterations = 0;
@@ -100,6 +108,7 @@ std::string EffortLine(const v1::Solve& solve) {
          (result.meshes_size() == 1 ? " mesh, " : " meshes, ") + FormatDuration(result.wall_time_s()) + " wall, " +
          FormatDuration(result.cpu_time_s()) + " CPU, " +
          FormatNumber(static_cast<double>(result.peak_memory_bytes()) / 1048576.0, 3) + " MiB" +
+         StartNote(result) +
          (solve.from_cache() ? "; answered from an earlier, equal request" : "") + "\n";
 }
 

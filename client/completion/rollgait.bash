@@ -9,7 +9,7 @@ _rollgait() {
   local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
     --touch-down --touch-down-point --lift-off-point
     --from --to --duration --duty-factor
-    --preset --cost --normalize --starts --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
+    --preset --cost --normalize --starts --warm-start --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
     --max-iterations --time-limit --output"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     if [[ " $commands " == *" $word "* ]]; then command=$word; break; fi

@@ -60,6 +60,7 @@ void RefuseWalking(const GaitRequest& request, RequestCheck& check) {
   refuse(request.cycle != Cycle::kOnce, "cycle", "nothing is repeated");
   refuse(request.preset.has_value(), "preset", "presets are costs of walking");
   refuse(request.starts.has_value(), "starts", "its starts are its own");
+  refuse(request.warm_start, "warm_start", "its starts are its own");
   refuse(request.phases.has_value(), "phases", "it has one phase, on the contact \"surface\"");
   refuse(request.normalization != GaitRequest::Normalization::kNone, "cost_normalization",
          "its distance may be zero and its cost is not divided");

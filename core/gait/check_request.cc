@@ -107,6 +107,9 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   const double max_wall_time =
       check.Number("solver_limits.max_wall_time_s", request.solver_limits.max_wall_time, 600, {0.01, 86400, "s"});
   const int starts = check.Integer("starts", request.starts, 1, 1, 32);
+  if (request.warm_start && given.starts.value_or(1) > 1) {
+    check.Add("starts", "is " + std::to_string(*given.starts) + "; a warm start is the only one: leave one of the two out");
+  }
   if (!check.ok()) return check.Take();
 
   Result<Model> model = Model::Create(std::move(joints));
@@ -141,7 +144,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .max_refinements = accuracy.max_refinements,
                   .max_iterations = max_iterations,
                   .max_wall_time = max_wall_time,
-                  .starts = starts};
+                  .starts = request.warm_start ? 1 : starts,
+                  .warm_start = std::nullopt};
 }
 
 }  // namespace rollgait

@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gait/manoeuvre_request.h"
+#include "core/gait/warm_start.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
 
@@ -101,11 +102,12 @@ struct GaitRequest {
     std::optional<double> max_wall_time;  // s
   } solver_limits;
   std::optional<int> starts;
+  bool warm_start = false;  // that one is wanted; GaitSpec::warm_start is filled where solutions are stored
   std::optional<double> gravity;  // m/s²
 };
 
 // A request that has been checked and completed: every default filled in, every name resolved, the scene built.
-// Made only by CheckRequest. Immutable value.
+// Made only by CheckRequest, without a warm start. Immutable value.
 struct GaitSpec {
   struct Phase {
     std::vector<int> contacts;  // indices into scene.contacts
@@ -136,6 +138,7 @@ struct GaitSpec {
   int max_iterations;
   double max_wall_time;
   int starts;
+  std::optional<WarmStart> warm_start;  // passes CheckWarmStart
 };
 
 // Checks every field before any work starts. Violations name the fields as in the proto, relative to the spec.

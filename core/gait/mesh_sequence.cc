@@ -88,6 +88,8 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->kkt_error = result.kkt_error;
   solution->constraint_violation = result.constraint_violation;
   solution->trajectory = nlp.Extract(x);
+  solution->multipliers = {result.constraint_multipliers / nlp.objective_scale(),
+                           (result.lower_bound_multipliers - result.upper_bound_multipliers) / nlp.objective_scale()};
   solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
   solution->costs = ReportCosts(problem, nlp, x);
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
@@ -142,12 +144,9 @@ bool SolveBudget::Left() const {
   return iterations_left_ > 0 && elapsed() < max_wall_time_ && (control_.stop == nullptr || !control_.stop->requested());
 }
 
-NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, double tolerance, double initial_barrier) {
-  NlpOptions options;
-  options.tolerance = tolerance;
-  options.initial_barrier = initial_barrier;
+NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
   options.mesh = programs_++;
-  options.max_iterations = std::max(1, iterations_left_);
+  options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
   options.max_wall_time_s = max_wall_time_ - elapsed();
   NlpResult result = SolveNlp(nlp, start, options, Unscaled(control_, nlp.objective_scale()));
   iterations_left_ -= result.iterations;
@@ -160,21 +159,47 @@ Mesh RequestedMesh(const GaitSpec& spec) {
   return Mesh::Uniform(intervals);
 }
 
-GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& first_guess,
-                           Mesh mesh, SolveBudget* budget) {
+namespace {
+
+// The program whose solution the next one starts from, and that solution's multipliers.
+struct Predecessor {
+  std::unique_ptr<CollocationNlp> nlp;  // null: none
+  NlpResult result;
+};
+
+// The solution of this problem on another mesh is near, and so are its active bounds.
+constexpr double kBarrierNearSolution = 1e-3;
+
+NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
+  NlpOptions options;
+  options.tolerance = spec.kkt_tolerance;
+  options.max_iterations = spec.max_iterations;
+  if (guess.near_solution) options.initial_barrier = kBarrierNearSolution;
+  return options;
+}
+
+// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
+// Chosen by trial on human29 (docs/optimizer.md).
+NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
+  NlpOptions options;
+  options.tolerance = spec.kkt_tolerance;
+  options.initial_barrier = 3e-3;
+  options.warm_push = 1e-2;
+  options.barrier_tolerance = 1000;
+  options.max_iterations = 200;  // cold starts take fewer
+  return options;
+}
+
+GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess, NlpOptions options,
+                       Predecessor previous, Mesh mesh, SolveBudget* budget) {
   GaitSolution solution;
-  MotionGuess guess = first_guess;
-  constexpr double kBarrierNearSolution = 1e-3;
-  double initial_barrier = guess.near_solution ? kBarrierNearSolution : NlpOptions().initial_barrier;
-  std::unique_ptr<CollocationNlp> previous;  // the coarser mesh, if this one starts from its solution
-  NlpResult previous_result;
 
   for (int level = 0; level <= spec.max_refinements; ++level) {
     auto current = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
     CollocationNlp& nlp = *current;
     NlpStart start{nlp.MakeStart(guess), {}, {}, {}};
-    if (previous) nlp.TransferMultipliers(*previous, previous_result, &start);
-    const NlpResult result = budget->Run(nlp, start, spec.kkt_tolerance, initial_barrier);
+    if (previous.nlp) nlp.TransferMultipliers(*previous.nlp, previous.result, &start);
+    const NlpResult result = budget->Run(nlp, start, options);
 
     MeshStatistics statistics = Describe(nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
@@ -198,19 +223,73 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
     if (IsArtefact(spec, solution)) {
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
-      previous = nullptr;
+      previous.nlp = nullptr;
       continue;
     }
     guess = GuessFromTrajectory(*solution.trajectory);
     mesh = RefineMesh(mesh, spec, *solution.trajectory);
-    initial_barrier = kBarrierNearSolution;
-    previous = std::move(current);
-    previous_result = result;
+    options = OptionsFor(spec, guess);
+    previous = {std::move(current), result};
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
   if (bounded && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
   solution.wall_time = budget->elapsed();
+  return solution;
+}
+
+Mesh MeshOf(const Trajectory& trajectory) {
+  Mesh mesh;
+  for (const TrajectoryPhase& phase : trajectory.phases) {
+    std::vector<double>& fractions = mesh.fractions.emplace_back();
+    const double length = phase.node_times.back() - phase.node_times.front();
+    for (size_t k = 1; k < phase.node_times.size(); ++k) {
+      fractions.push_back((phase.node_times[k] - phase.node_times[k - 1]) / length);
+    }
+  }
+  return mesh;
+}
+
+bool IsAtLeastAsFine(const Mesh& mesh, const Mesh& other) {
+  for (size_t p = 0; p < mesh.fractions.size(); ++p) {
+    if (mesh.fractions[p].size() < other.fractions[p].size()) return false;
+  }
+  return true;
+}
+
+// The program that the warm start solved, as if this problem had been: its rows and unknowns mean the same. None without
+// multipliers, and where their numbers tell that it had other rows.
+Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem) {
+  Predecessor previous;
+  if (!spec.warm_start->multipliers) return previous;
+  const SolutionMultipliers& multipliers = *spec.warm_start->multipliers;
+  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, MeshOf(spec.warm_start->trajectory));
+  if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
+  previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
+  previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
+  previous.result.upper_bound_multipliers = -nlp->objective_scale() * multipliers.bounds.cwiseMin(0);
+  previous.nlp = std::move(nlp);
+  return previous;
+}
+
+}  // namespace
+
+GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
+                           SolveBudget* budget) {
+  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget);
+}
+
+GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget) {
+  const Trajectory& trajectory = spec.warm_start->trajectory;
+  const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
+  Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
+  if (bounded && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
+  Predecessor previous = PredecessorOf(spec, problem);
+  const bool used_multipliers = previous.nlp != nullptr;
+  GaitSolution solution = SolveFrom(spec, problem, GuessFromTrajectory(trajectory), OptionsForNeighbour(spec),
+                                    std::move(previous), std::move(mesh), budget);
+  solution.warm_started = true;
+  solution.used_multipliers = used_multipliers;
   return solution;
 }
 

@@ -15,8 +15,8 @@ class SolveBudget {
  public:
   SolveBudget(const GaitSpec& spec, const SolveControl& control);
 
-  // Solves the next program from `start`, as far as the budget goes; `initial_barrier` as in NlpOptions.
-  NlpResult Run(CollocationNlp& nlp, const NlpStart& start, double tolerance, double initial_barrier);
+  // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
+  NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
   double elapsed() const;  // s
   // False once the iterations or the time are used up, or the stop flag is set: what runs then ends at once.
   bool Left() const;
@@ -39,6 +39,10 @@ bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 // between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget);
+
+// The same from the warm start of the spec. The first mesh is that of its trajectory, where gap and slip are bounded and it is
+// nowhere coarser than what the request asks for.
+GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget);
 
 // The mesh that the request asks for.
 Mesh RequestedMesh(const GaitSpec& spec);

@@ -25,8 +25,12 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   return UnmetConstraint{"friction, mean over the motion", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
+void PutBefore(const GaitSolution& earlier, GaitSolution* solution) {
+  solution->meshes.insert(solution->meshes.begin(), earlier.meshes.begin(), earlier.meshes.end());
+}
+
 // From the requested starts, and on a slope that these do not reach by continuation.
-GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   const auto problem = BuildProblem(spec);
   GaitSolution solution = spec.starts > 1
                               ? SolveFromStarts(spec, *problem, budget)
@@ -34,8 +38,19 @@ GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   if (Converged(solution.termination) || spec.slope == 0 || !budget->Left()) return solution;
   std::optional<GaitSolution> continued = SolveByContinuation(spec, budget);
   if (!continued) return solution;
-  continued->meshes.insert(continued->meshes.begin(), solution.meshes.begin(), solution.meshes.end());
+  PutBefore(solution, &*continued);
   return std::move(*continued);
+}
+
+// From the warm start, if there is one, and without it where that does not converge.
+GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
+  if (!spec.warm_start) return SearchCold(spec, budget);
+  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), budget);
+  if (Converged(warm.termination) || !budget->Left()) return warm;
+  GaitSolution cold = SearchCold(spec, budget);
+  PutBefore(warm, &cold);
+  cold.message += " Started afresh, since the warm start did not converge (" + warm.message + ")";
+  return cold;
 }
 
 }  // namespace

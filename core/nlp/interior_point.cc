@@ -17,9 +17,9 @@ using Clock = std::chrono::steady_clock;
 using Point = BarrierProblem::Point;
 
 // Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
-constexpr double kTauMin = 0.99, kKappaSigma = 1e10, kKappaEpsilon = 10, kKappaMu = 0.2, kThetaMu = 1.5;
+constexpr double kTauMin = 0.99, kKappaSigma = 1e10, kKappaMu = 0.2, kThetaMu = 1.5;
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
-constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kMostMultiplier = 1000;
+constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10, kMostMultiplier = 1000;
 constexpr int kMostCorrections = 4;
 constexpr double kEpsilon = 2.2e-16;
 
@@ -52,7 +52,8 @@ class Solver {
     mu_ = options_.initial_barrier;
     tau_ = std::max(kTauMin, 1 - mu_);
     const bool warm = start_.constraint_multipliers.size() > 0;
-    if (!barrier_.MakeInterior(start_.x, warm ? std::min(kPush, mu_) : kPush, &point_)) return false;
+    const double warm_push = std::min(kPush, options_.warm_push > 0 ? options_.warm_push : mu_);
+    if (!barrier_.MakeInterior(start_.x, warm ? warm_push : kPush, &point_)) return false;
     gradient_.resize(barrier_.variables());
     StartMultipliers(warm);
     if (!barrier_.Gradient(point_, &gradient_)) return false;
@@ -142,10 +143,10 @@ class Solver {
   }
 
   void ReduceBarrier(bool stuck) {
-    const double least = options_.tolerance / (kKappaEpsilon + 1);
+    const double least = options_.tolerance / (kKappaEnd + 1);
     while (mu_ > least &&
            (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
-                         kKappaEpsilon * mu_)) {
+                         options_.barrier_tolerance * mu_)) {
       mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, kThetaMu)));
       tau_ = std::max(kTauMin, 1 - mu_);
       filter_.Reset(theta_max_);

@@ -154,6 +154,7 @@ void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const NlpOp
   // Moving a solution onto a bound that was relaxed by 1e-8 would break the dynamics by that times 1/h².
   o.SetStringValue("honor_original_bounds", "no");
   o.SetNumericValue("mu_init", options.initial_barrier);
+  o.SetNumericValue("barrier_tol_factor", options.barrier_tolerance);
   if (start.constraint_multipliers.size() > 0) {
     o.SetStringValue("warm_start_init_point", "yes");
     for (const char* name : {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push",

@@ -18,6 +18,9 @@ struct NlpOptions {
   int max_iterations = 1000;
   double max_wall_time_s = 600;
   double initial_barrier = 0.1;  // μ₀; small for a warm start
+  double barrier_tolerance = 10;  // κ_ε: μ falls once its problem is solved to an error of κ_ε μ
+  // How far from its bounds a warm start begins, relative to their size or distance, at most 0.01; 0: μ₀.
+  double warm_push = 0;
   int mesh = 0;                  // passed on with every iteration
 };
 

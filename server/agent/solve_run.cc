@@ -21,12 +21,8 @@ constexpr size_t kMaxPending = 5000;      // events held for a store that takes 
 constexpr double kDefaultWallTime = 600;  // s, of SolverLimits
 constexpr double kMaxWallTime = 86400;
 
-milliseconds WallTime(const std::string& encoded_spec) {
-  v1::SolveSpec spec;
-  double seconds = kDefaultWallTime;
-  if (spec.ParseFromString(encoded_spec) && spec.solver_limits().has_max_wall_time_s()) {
-    seconds = spec.solver_limits().max_wall_time_s();
-  }
+milliseconds WallTime(const v1::SolveSpec& spec) {
+  double seconds = spec.solver_limits().has_max_wall_time_s() ? spec.solver_limits().max_wall_time_s() : kDefaultWallTime;
   if (!(seconds >= 0)) seconds = 0;  // NaN too; the solver refuses it
   return milliseconds(std::llround(1000 * std::min(seconds, kMaxWallTime)));
 }
@@ -36,8 +32,11 @@ milliseconds WallTime(const std::string& encoded_spec) {
 SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
     : context_(context), lease_(std::move(claimed.lease)), process_(std::move(process)) {
   renew_at_ = now + kLeaseRenewal;
-  wall_end_ = now + WallTime(claimed.record.spec) + context_.wall_grace;
+  v1::SolveSpec spec;  // one that cannot be read is the solver's to refuse
+  if (!spec.ParseFromString(claimed.record.spec)) spec.Clear();
+  wall_end_ = now + WallTime(spec) + context_.wall_grace;
   process_.Send(claimed.record.spec);
+  if (!spec.warm_start().empty()) process_.Send(claimed.warm_start);
   spdlog::info("solves/{}: attempt {} in process {}", id(), claimed.record.attempts, process_.pid());
   if (claimed.record.cancel_requested) Cancel(now);
 }

@@ -240,6 +240,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   }
   request.preset = DecodePreset(spec.preset());
   request.starts = ROLLGAIT_OPTIONAL(spec, starts);
+  request.warm_start = !spec.warm_start().empty();
   for (int i = 0; i < spec.costs_size(); ++i) {
     request.costs.push_back(DecodeCost("costs[" + std::to_string(i) + "]", spec.costs(i), &violations));
   }

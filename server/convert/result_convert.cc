@@ -178,6 +178,11 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   result.set_termination(EncodeTermination(solution.termination));
   result.set_message(solution.message);
   if (solution.trajectory) *result.mutable_trajectory() = EncodeTrajectory(*solution.trajectory, scene);
+  if (solution.multipliers) {
+    const auto [rows, bounds] = *solution.multipliers;
+    result.mutable_multipliers()->mutable_rows()->Add(rows.begin(), rows.end());
+    result.mutable_multipliers()->mutable_bounds()->Add(bounds.begin(), bounds.end());
+  }
   if (solution.accuracy) {
     *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model);
   }

@@ -2,6 +2,7 @@
 
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/model_convert.h"
+#include "server/convert/warm_start_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -13,6 +14,13 @@ Result<v1::Model> CheckSpec(const v1::SolveSpec& message) {
   const Result<GaitSpec> spec = DecodeSpec(message);
   if (!spec.ok()) return spec.violations();
   return EncodeModel(spec.value().scene, spec.value().gravity.norm());
+}
+
+Violations CheckWarmStart(const v1::SolveSpec& message, const v1::SolveResult& result) {
+  const Result<GaitSpec> spec = DecodeSpec(message);
+  if (!spec.ok()) return spec.violations();
+  const Result<WarmStart> start = DecodeWarmStart(result.trajectory(), result.multipliers(), spec.value());
+  return start.ok() ? Violations() : start.violations();
 }
 
 v1::ListModelsResponse ListModels() {
@@ -31,6 +39,6 @@ Result<v1::Model> GetModel(const v1::ModelSelection& selection) {
 
 }  // namespace
 
-GaitKnowledge MakeCoreKnowledge() { return {CheckSpec, ListModels, GetModel}; }
+GaitKnowledge MakeCoreKnowledge() { return {CheckSpec, CheckWarmStart, ListModels, GetModel}; }
 
 }  // namespace rollgait::server

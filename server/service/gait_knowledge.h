@@ -12,6 +12,8 @@ namespace rollgait::server {
 struct GaitKnowledge {
   // The model that would walk; violations name fields relative to the spec.
   std::function<Result<v1::Model>(const v1::SolveSpec&)> check_spec;
+  // What keeps a good spec from starting at the trajectory of a result; violations have the field "warm_start".
+  std::function<Violations(const v1::SolveSpec&, const v1::SolveResult&)> check_warm_start;
   std::function<v1::ListModelsResponse()> list_models;
   // The scaled model; violations name fields relative to the selection.
   std::function<Result<v1::Model>(const v1::ModelSelection&)> get_model;

@@ -25,8 +25,10 @@ std::string CanonicalBytes(const google::protobuf::Message& message) {
   return bytes;
 }
 
-std::string SolveKey(const v1::SolveSpec& spec, const v1::Model& model, const std::string& solver_build) {
-  return Sha256Hex(Part(CanonicalBytes(spec)) + Part(CanonicalBytes(model)) + Part(solver_build));
+std::string SolveKey(const v1::SolveSpec& spec, const v1::Model& model, const std::string& solver_build,
+                     const std::string& start) {
+  return Sha256Hex(Part(CanonicalBytes(spec)) + Part(CanonicalBytes(model)) + Part(solver_build) +
+                   (start.empty() ? "" : Part(start)));
 }
 
 }  // namespace rollgait::server

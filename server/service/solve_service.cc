@@ -29,7 +29,7 @@ SolveService::SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOp
                            std::function<void(const std::string& id)> announce)
     : store_(store), knowledge_(std::move(knowledge)), options_(std::move(options)), announce_(std::move(announce)) {}
 
-Outcome<std::string> SolveService::CheckSpec(const v1::SolveSpec& spec, bool has_spec) {
+Outcome<SolveService::Checked> SolveService::CheckSpec(const v1::SolveSpec& spec, bool has_spec) {
   if (!has_spec) return InvalidArgument({{"spec", "is missing; set at least spec.model.name"}});
   const Result<v1::Model> model = knowledge_.check_spec(spec);
   if (!model.ok()) {
@@ -37,23 +37,31 @@ Outcome<std::string> SolveService::CheckSpec(const v1::SolveSpec& spec, bool has
     AddPrefix("spec.", violations);
     return InvalidArgument(std::move(violations));
   }
-  if (!options_.reuse_results) return std::string();
-  return SolveKey(spec, model.value(), options_.solver_build + " " + options_.solver_fingerprint);
+  Outcome<std::optional<FoundWarmStart>> start = FindWarmStart(store_, knowledge_, spec);
+  if (!start.ok()) return start.error();
+  Checked checked{std::move(start).value(), ""};
+  if (!options_.reuse_results) return checked;
+  // Minima are local: what is found depends on the start, whichever way the request named it.
+  v1::SolveSpec question = spec;
+  question.clear_warm_start();
+  checked.key = SolveKey(question, model.value(), options_.solver_build + " " + options_.solver_fingerprint,
+                         checked.warm_start ? checked.warm_start->identity : "");
+  return checked;
 }
 
 Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckRequestId(request.request_id());
   if (!violations.empty()) return InvalidArgument(std::move(violations));
-  Outcome<std::string> key = CheckSpec(request.spec(), request.has_spec());
-  if (!key.ok()) return key.error();
+  Outcome<Checked> checked = CheckSpec(request.spec(), request.has_spec());
+  if (!checked.ok()) return checked.error();
   if (request.validate_only()) {
     v1::Solve solve;
     *solve.mutable_spec() = request.spec();
     return solve;
   }
-  const NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), std::move(key).value(),
-                       options_.max_queued};
+  NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key, options_.max_queued};
+  if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
   const Outcome<CreatedSolve> created = store_.Create(solve);
   if (!created.ok()) return created.error();
   const SolveRecord& record = created.value().record;

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "rollgait/v1/gait_service.pb.h"
 #include "server/base/outcome.h"
 #include "server/service/gait_knowledge.h"
+#include "server/service/warm_start_search.h"
 #include "server/store/solve_store.h"
 
 namespace rollgait::server {
@@ -41,8 +43,12 @@ class SolveService {
   Outcome<v1::ServerInfo> GetServerInfo(const v1::GetServerInfoRequest& request);
 
  private:
-  // The key of a good spec, empty if results are not reused.
-  Outcome<std::string> CheckSpec(const v1::SolveSpec& spec, bool has_spec);
+  // What a good spec starts from, and its key, which is empty if results are not reused.
+  struct Checked {
+    std::optional<FoundWarmStart> warm_start;
+    std::string key;
+  };
+  Outcome<Checked> CheckSpec(const v1::SolveSpec& spec, bool has_spec);
 
   SolveStore& store_;
   const GaitKnowledge knowledge_;

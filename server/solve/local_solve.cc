@@ -37,6 +37,11 @@ LocalExit SolveLocally(const std::string& json, GaitSolver& solver, const StopFl
     progress << "not a SolveSpec in proto3 JSON: " << parsed.ToString() << "\n";
     return kLocalBadRequest;
   }
+  if (!request.warm_start().empty()) {
+    progress << "warm_start: is \"" << request.warm_start()
+             << "\"; only a server has stored solves: ask one with `rollgait solve`\n";
+    return kLocalBadRequest;
+  }
   const Result<GaitSpec> spec = DecodeSpec(request);
   if (!spec.ok()) {
     for (const Violation& violation : spec.violations())

@@ -5,13 +5,16 @@
 #include <cerrno>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "server/base/framing.h"
 #include "server/base/solver_build.h"
 #include "server/base/wire.pb.h"
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/result_convert.h"
+#include "server/convert/warm_start_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -30,7 +33,26 @@ WorkerExit SendError(int fd, v1::SolveError::Kind kind, const std::string& messa
   return WriteFrame(fd, EncodeError(kind, message)) == FrameStatus::kOk ? kWorkerDone : kWorkerNoReader;
 }
 
-WorkerExit SolveAndSend(int fd, const GaitSpec& spec, GaitSolver& solver, StopFlag& stop) {
+// The second frame of a request with a warm start. Not read: an error, which was sent.
+std::optional<wire::WarmStart> ReadWarmStart(int fd, GaitSpec* spec) {
+  std::string payload;
+  wire::WarmStart sent;
+  if (ReadFrame(fd, &payload) != FrameStatus::kOk || !sent.ParseFromString(payload)) {
+    SendError(fd, v1::SolveError::KIND_INTERNAL, "the request is not followed by its warm start");
+    return std::nullopt;
+  }
+  if (!sent.has_trajectory()) return sent;
+  Result<WarmStart> start = DecodeWarmStart(sent.trajectory(), sent.multipliers(), *spec);
+  if (!start.ok()) {
+    const Violation& first = start.violations().front();
+    SendError(fd, v1::SolveError::KIND_INTERNAL, "this solver refuses the start: " + first.field + ": " + first.message);
+    return std::nullopt;
+  }
+  spec->warm_start = std::move(start).value();
+  return sent;
+}
+
+WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, GaitSolver& solver, StopFlag& stop) {
   SolveControl control;
   control.stop = &stop;
   control.observer = [&](const IterationInfo& iteration) {
@@ -39,7 +61,12 @@ WorkerExit SolveAndSend(int fd, const GaitSpec& spec, GaitSolver& solver, StopFl
     if (WriteFrame(fd, message.SerializeAsString()) != FrameStatus::kOk) stop.Request();
   };
   wire::SolverMessage message;
-  *message.mutable_result() = EncodeResult(solver.Solve(spec, control), spec);
+  const GaitSolution solution = solver.Solve(spec, control);
+  *message.mutable_result() = EncodeResult(solution, spec);
+  if (solution.warm_started) {
+    *message.mutable_result()->mutable_warm_started_from() = source;
+    message.mutable_result()->mutable_warm_started_from()->set_used_multipliers(solution.used_multipliers);
+  }
   message.mutable_result()->set_solver_build(SolverBuild());
   const std::string encoded = message.SerializeAsString();
   if (encoded.size() > kMaxFrameBytes) {
@@ -92,14 +119,21 @@ WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
                 status == FrameStatus::kOk ? "the request is not a SolveSpec" : Describe(status));
       return kWorkerNoRequest;
     }
-    const Result<GaitSpec> spec = DecodeSpec(request);
+    Result<GaitSpec> spec = DecodeSpec(request);
     if (!spec.ok()) {
       const Violation& first = spec.violations().front();
       return SendError(fd, v1::SolveError::KIND_INTERNAL,
                        "this solver refuses the request: " + first.field + ": " + first.message);
     }
-    on_request(spec.value());
-    return SolveAndSend(fd, spec.value(), solver, stop);
+    GaitSpec checked = std::move(spec).value();
+    wire::WarmStart start;
+    if (!request.warm_start().empty()) {
+      const std::optional<wire::WarmStart> sent = ReadWarmStart(fd, &checked);
+      if (!sent) return kWorkerNoRequest;
+      start = *sent;
+    }
+    on_request(checked);
+    return SolveAndSend(fd, checked, start.source(), solver, stop);
   } catch (const std::bad_alloc&) {
     return SendError(fd, v1::SolveError::KIND_MEMORY_LIMIT, kMemoryMessage);
   } catch (const std::exception& exception) {

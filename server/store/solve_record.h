@@ -36,7 +36,8 @@ struct NewSolve {
   std::string request_id;  // empty: none
   std::string spec;
   std::string solve_key;
-  int max_queued = 1000;  // refuse with kResourceExhausted if so many are queued already
+  int max_queued = 1000;       // refuse with kResourceExhausted if so many are queued already
+  std::string warm_start = {};  // wire::WarmStart, kept until the solve ends; empty: none
 };
 
 struct CreatedSolve {
@@ -84,6 +85,7 @@ struct Lease {
 struct ClaimedSolve {
   Lease lease;
   SolveRecord record;
+  std::string warm_start;  // as in NewSolve
 };
 
 struct LeaseState {

@@ -86,6 +86,7 @@ void EndSolve(SqliteConnection& connection, SolveRow& row, SolveState state, int
   row.record.error = error;
   row.result_id = result_id;
   DropLease(row);
+  Query(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number).Run();
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
   SaveSolve(connection, row);
 }

@@ -58,6 +58,9 @@ void InsertSolve(SqliteConnection& connection, const NewSolve& solve, SolveRow& 
         row.record.create_time_us)
       .Run();
   row.number = connection.last_row();
+  if (!solve.warm_start.empty()) {
+    Query(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start}).Run();
+  }
   row.record.id = solve.id;
   row.record.spec = solve.spec;
   row.record.solve_key = solve.solve_key;

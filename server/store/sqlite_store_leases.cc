@@ -85,7 +85,9 @@ Outcome<std::optional<ClaimedSolve>> SqliteStore::ClaimNext(const std::string& o
     row.lease_end_ns = LeaseEnd(duration);
     ChangeState(connection, row, SolveState::kRunning, "", now_us);
     SaveSolve(connection, row);
-    return std::optional<ClaimedSolve>(ClaimedSolve{{row.record.id, owner, row.epoch}, row.record});
+    Query start(connection, "SELECT payload FROM warm_starts WHERE solve = ?", row.number);
+    const std::string warm_start = start.Step() ? start.Bytes(0) : "";
+    return std::optional<ClaimedSolve>(ClaimedSolve{{row.record.id, owner, row.epoch}, row.record, warm_start});
   });
 }
 

@@ -31,7 +31,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "0.6 "
       "--cycle full --friction 0.5 --clearance 0.02 --cost torque:2 --cost work:0.001 --cost torque-rate --cost time "
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
-      "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 --cost effort --cost muscle-work --cost passive-load "
+      "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 "
+      "--warm-start nearest --cost effort --cost muscle-work --cost passive-load "
       "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7");
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
@@ -47,6 +48,7 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
   EXPECT_EQ(spec.motion().duty_factor().min(), 0.61);
   EXPECT_EQ(spec.motion().duty_factor().max(), 0.61);
   EXPECT_EQ(spec.starts(), 4);
+  EXPECT_EQ(spec.warm_start(), "nearest");
   EXPECT_EQ(spec.ground_contact().touch_down(), v1::TOUCH_DOWN_PLASTIC);
   EXPECT_EQ(spec.ground_contact().touch_down_point().min(), -0.9);
   EXPECT_EQ(spec.ground_contact().touch_down_point().max(), -0.8);

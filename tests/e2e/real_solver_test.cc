@@ -78,5 +78,44 @@ TEST(RealSolverTest, AGaitComesBackWithItsAccuracy) {
   EXPECT_EQ(again.solve.result().termination(), v1::TERMINATION_OPTIMAL);
 }
 
+TEST(RealSolverTest, ANeighbourStartsFromAStoredSolve) {
+  const TemporaryDirectory directory;
+  Daemon::Options options;
+  options.data_dir = directory.path() + "/data";
+  const Daemon daemon(options);
+  ASSERT_NE(daemon.address(), "");
+  const auto stub = daemon.NewStub();
+  const v1::Solve level = RunSolve(*stub, Request(0)).solve;
+  ASSERT_EQ(level.result().termination(), v1::TERMINATION_OPTIMAL);
+  v1::RunSolveRequest neighbour = Request(0.01);
+  const Answer cold = RunSolve(*stub, neighbour);
+  neighbour.mutable_spec()->set_warm_start(level.name());
+  const Answer named = RunSolve(*stub, neighbour);
+  EXPECT_FALSE(named.solve.from_cache());  // the cold result is no answer to it
+  ASSERT_EQ(named.solve.result().termination(), v1::TERMINATION_OPTIMAL) << named.solve.error().message();
+  EXPECT_LT(named.iterations, cold.iterations);
+  EXPECT_EQ(named.solve.result().warm_started_from().name(), level.name());
+  EXPECT_NEAR(named.solve.result().warm_started_from().slope_difference_rad(), 0.01, 1e-12);
+  EXPECT_TRUE(named.solve.result().warm_started_from().used_multipliers());
+  EXPECT_FALSE(cold.solve.result().has_warm_started_from());
+
+  neighbour.mutable_spec()->set_warm_start("nearest");
+  neighbour.mutable_spec()->set_slope_rad(-0.012);
+  const Answer nearest = RunSolve(*stub, neighbour);
+  ASSERT_EQ(nearest.solve.result().termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_EQ(nearest.solve.result().warm_started_from().name(), level.name());
+  EXPECT_TRUE(RunSolve(*stub, [&] {
+    v1::RunSolveRequest again = neighbour;
+    again.mutable_spec()->set_warm_start(level.name());
+    return again;
+  }()).solve.from_cache());  // the same start by its name
+
+  neighbour.mutable_spec()->mutable_model()->set_name("human29");
+  neighbour.mutable_spec()->set_warm_start(level.name());
+  const Answer refused = RunSolve(*stub, neighbour);
+  EXPECT_EQ(refused.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_NE(refused.status.error_message().find("other joints"), std::string::npos) << refused.status.error_message();
+}
+
 }  // namespace
 }  // namespace rollgait::server

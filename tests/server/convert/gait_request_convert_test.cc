@@ -152,9 +152,11 @@ TEST(DecodeRequest, EveryCostTermArrives) {
 
 TEST(DecodeRequest, PresetStartsAndDutyFactorArrive) {
   const GaitRequest request =
-      DecodeRequest(Parse("preset: PRESET_TRANSPORT starts: 5 motion { duty_factor { min: 0.6 max: 0.62 } }")).value();
+      DecodeRequest(Parse("preset: PRESET_TRANSPORT starts: 5 warm_start: \"nearest\" "
+                          "motion { duty_factor { min: 0.6 max: 0.62 } }")).value();
   EXPECT_EQ(request.preset, Preset::kTransport);
   EXPECT_EQ(request.starts, 5);
+  EXPECT_TRUE(request.warm_start);
   EXPECT_EQ(request.motion.duty_factor->min, 0.6);
   EXPECT_EQ(request.motion.duty_factor->max, 0.62);
   EXPECT_EQ(DecodeRequest(Parse("preset: PRESET_HUMAN")).value().preset, Preset::kHuman);

@@ -27,6 +27,9 @@ inline GaitKnowledge SmallKnowledge() {
     model.mutable_summary()->set_name("planar");
     return model;
   };
+  knowledge.check_warm_start = [](const v1::SolveSpec& spec, const v1::SolveResult& result) {
+    return spec.slope_rad() < result.objective() ? Violations() : Violations{{"warm_start", "its solution is of another world"}};
+  };
   knowledge.list_models = [] {
     v1::ListModelsResponse response;
     response.add_models()->set_name("planar");

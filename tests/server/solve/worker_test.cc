@@ -100,6 +100,40 @@ TEST_F(WorkerTest, AFrameThatIsNoSpecIsNoRequest) {
   EXPECT_THAT(Receive().error().message(), HasSubstr("not a SolveSpec"));
 }
 
+v1::SolveSpec AskingForAStart() {
+  v1::SolveSpec spec;
+  spec.mutable_model()->set_name("planar");
+  spec.set_warm_start("nearest");
+  return spec;
+}
+
+TEST_F(WorkerTest, AnEmptyStartIsAColdOne) {
+  ASSERT_EQ(WriteFrame(parent(), AskingForAStart().SerializeAsString()), FrameStatus::kOk);
+  ASSERT_EQ(WriteFrame(parent(), ""), FrameStatus::kOk);
+  EXPECT_EQ(Serve([](const GaitSpec& spec, const SolveControl&) {
+              EXPECT_FALSE(spec.warm_start);
+              return EndedWith(Termination::kOptimal);
+            }),
+            kWorkerDone);
+  EXPECT_FALSE(Receive().result().has_warm_started_from());
+}
+
+TEST_F(WorkerTest, ARequestWithoutItsStartIsNone) {
+  ASSERT_EQ(WriteFrame(parent(), AskingForAStart().SerializeAsString()), FrameStatus::kOk);
+  shutdown(parent(), SHUT_WR);
+  EXPECT_EQ(Serve(Optimal), kWorkerNoRequest);
+  EXPECT_THAT(Receive().error().message(), HasSubstr("not followed by its warm start"));
+}
+
+TEST_F(WorkerTest, AStartOfAnotherBodyIsRefused) {
+  wire::WarmStart start;
+  start.mutable_trajectory()->add_joint_names("tail");
+  ASSERT_EQ(WriteFrame(parent(), AskingForAStart().SerializeAsString()), FrameStatus::kOk);
+  ASSERT_EQ(WriteFrame(parent(), start.SerializeAsString()), FrameStatus::kOk);
+  EXPECT_EQ(Serve(Optimal), kWorkerNoRequest);
+  EXPECT_THAT(Receive().error().message(), HasSubstr("warm_start: its solution has other joints"));
+}
+
 TEST_F(WorkerTest, ARefusedRequestNamesItsField) {
   SendRequest("horse");
   EXPECT_EQ(Serve(Optimal), kWorkerDone);

@@ -36,6 +36,23 @@ TEST_P(SolveStoreConformance, RequestIdMakesARetrySafe) {
   EXPECT_EQ(bench.store().Counts().value().queued, 1);
 }
 
+TEST_P(SolveStoreConformance, AWarmStartIsHandedToEveryAttemptUntilTheEnd) {
+  StoreBench bench(GetParam());
+  const std::string start("from\0there", 10);
+  ASSERT_TRUE(bench.store().Create({"a", "", "s", "", 9, start}).ok());
+  ASSERT_TRUE(bench.store().Create({"b", "", "s", ""}).ok());
+  const ClaimedSolve first = bench.store().ClaimNext("agent", kLeaseDuration).value().value();
+  EXPECT_EQ(first.warm_start, start);
+  ASSERT_TRUE(bench.store().GiveBack(first.lease, GiveBackReason::kStopping, "").ok());
+  bench.Restart();
+  const ClaimedSolve second = bench.store().ClaimNext("agent", kLeaseDuration).value().value();
+  EXPECT_EQ(second.lease.solve_id, "a");
+  EXPECT_EQ(second.warm_start, start);
+  EXPECT_EQ(bench.store().ClaimNext("agent", kLeaseDuration).value().value().warm_start, "");
+  EXPECT_TRUE(bench.store().Finish(second.lease, {}, {SolveState::kSucceeded, "result", "", true}).ok());
+  EXPECT_TRUE(bench.store().Delete("a").ok());
+}
+
 TEST_P(SolveStoreConformance, FullQueueIsRefusedWithATimeToTryAgain) {
   StoreBench bench(GetParam());
   ASSERT_TRUE(bench.store().Create({"a", "", "s", "", 2}).ok());

@@ -41,6 +41,18 @@ TEST(SqliteStoreTest, AnotherSchemaVersionIsRefused) {
   EXPECT_NE(newer.error().message.find("99"), std::string::npos) << newer.error().message;
 }
 
+TEST(SqliteStoreTest, AFileFromBeforeWarmStartsGetsTheirTable) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  ASSERT_TRUE(SqliteStore::Open(path, clock).ok());
+  SqliteConnection(path).Execute("DROP TABLE warm_starts");
+  const auto store = SqliteStore::Open(path, clock);
+  ASSERT_TRUE(store.ok());
+  ASSERT_TRUE(store.value()->Create({"a", "", "s", "", 9, "start"}).ok());
+  EXPECT_EQ(store.value()->ClaimNext("agent", kLeaseDuration).value().value().warm_start, "start");
+}
+
 TEST(SqliteStoreTest, CommitsAreSynchronisedToDisk) {
   const TemporaryDirectory directory;
   SqliteConnection connection(directory.path() + "/rollgait.db");
