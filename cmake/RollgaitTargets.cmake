@@ -12,6 +12,8 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 
+include(X8664V3)
+
 add_library(rollgait_options INTERFACE)
 target_compile_options(rollgait_options INTERFACE -Wall -Wextra -Wshadow -Werror)
 # g++ 12 sees overlapping memory in "literal" + std::string where there is none (GCC bug 105651, fixed in 13).
@@ -45,14 +47,18 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
 endif()
 
 # rollgait_library(NAME base SOURCES a.cc DEPS rollgait::math PRIVATE_DEPS ipopt)
-# declares the static library rollgait_<NAME> with the alias rollgait::<NAME>.
+# declares the static library rollgait_<NAME> with the alias rollgait::<NAME>, and its twin for x86-64-v3. SHARED_BY_BUILDS: no twin,
+# because no header has a type of Eigen's and no time is spent there.
 function(rollgait_library)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED_BY_BUILDS" "NAME" "SOURCES;DEPS;PRIVATE_DEPS" ${ARGN})
   add_library(rollgait_${ARG_NAME} STATIC ${ARG_SOURCES})
   add_library(rollgait::${ARG_NAME} ALIAS rollgait_${ARG_NAME})
   target_link_libraries(rollgait_${ARG_NAME} PUBLIC ${ARG_DEPS} PRIVATE rollgait_options ${ARG_PRIVATE_DEPS})
   target_include_directories(rollgait_${ARG_NAME} PUBLIC "${PROJECT_SOURCE_DIR}")
   rollgait_precompile(rollgait_${ARG_NAME})
+  if(ROLLGAIT_X86_64_V3 AND NOT ARG_SHARED_BY_BUILDS)
+    rollgait_library_twin(${ARG_NAME} "${ARG_SOURCES}" "${ARG_DEPS}" "${ARG_PRIVATE_DEPS}")
+  endif()
 endfunction()
 
 # rollgait_test(core/base/dual_test.cc DEPS rollgait::base LABELS unit)

@@ -20,6 +20,7 @@
 #include "server/base/file_lock.h"
 #include "server/base/notify.h"
 #include "server/base/solver_build.h"
+#include "server/base/solver_choice.h"
 #include "server/base/supervisor.h"
 #include "server/rpc/rpc_server.h"
 #include "server/service/core_knowledge.h"
@@ -40,17 +41,19 @@ struct Flags {
   int solver_slots = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   int simulation_slots = 2;
   std::string agent, solver, simulator;
+  std::string instruction_set = "auto";
   int max_queued = 1000;
   double heartbeat_interval_s = 10;
   bool no_result_reuse = false;
   std::string log_level = "info";
 };
 
-// A program that lies beside this one.
-std::string Sibling(const std::string& name) {
+// Where this program lies, and others beside it.
+std::string Folder() {
   std::error_code error;
-  return (std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name).string();
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path().string();
 }
+std::string Sibling(const std::string& name) { return Folder() + "/" + name; }
 
 void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--data-dir", flags.data_dir, "Directory of the store; made if need be")->required();
@@ -60,7 +63,12 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once; default: one a core")
       ->check(CLI::Range(1, 1024));
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
-  app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
+  auto* solver = app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
+  app.add_option("--instruction-set", flags.instruction_set,
+                 "Which rollgait-solve beside this program: auto, baseline or x86-64-v3")
+      ->check(CLI::IsMember(InstructionSetWishes()))
+      ->capture_default_str()
+      ->excludes(solver);
   app.add_option("--simulator", flags.simulator, "Path of rollgait-simulate; default: beside this program");
   app.add_option("--simulation-slots", flags.simulation_slots, "Simulations that run at once")
       ->check(CLI::Range(1, 1024))
@@ -119,19 +127,29 @@ Outcome<FileLock> TakeDataDir(const DataDir& data_dir) {
   return *std::move(lock.value());
 }
 
-Supervisor::Options AgentCommand(const Flags& flags, const DataDir& data_dir) {
+Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, const DataDir& data_dir) {
   Supervisor::Options options;
   options.name = "rollgait-agent";
   options.arguments = {flags.agent, "--data-dir", data_dir.path, "--slots", std::to_string(flags.solver_slots),
-                       "--solver",  flags.solver};
+                       "--solver",  solver};
   return options;
 }
 
+// The program that solves, and the name of its build.
+Outcome<SolverChoice> SolverOf(const Flags& flags) {
+  if (!flags.solver.empty()) return SolverChoice{flags.solver, InstructionSet::kBaseline, ""};
+  Outcome<SolverChoice> choice = ChooseSolver(Folder(), flags.instruction_set);
+  if (choice.ok() && !choice.value().remark.empty()) spdlog::warn("{}", choice.value().remark);
+  return choice;
+}
+
 int Serve(const Flags& flags, const sigset_t& end_signals) {
+  const Outcome<SolverChoice> solver = SolverOf(flags);
+  if (!solver.ok()) return Fail(solver.error().message);
   const DataDir data_dir{std::filesystem::absolute(flags.data_dir).lexically_normal().string()};
   const Outcome<FileLock> lock = TakeDataDir(data_dir);
   if (!lock.ok()) return Fail(lock.error().message);
-  const Outcome<std::string> fingerprint = Sha256HexOfFile(flags.solver);
+  const Outcome<std::string> fingerprint = Sha256HexOfFile(solver.value().program);
   if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
   const SystemClock clock;
   const auto store = SqliteStore::Open(data_dir.Database(), clock);
@@ -145,7 +163,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
                std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)));
   ServiceOptions options;
   options.version = RollgaitVersion();
-  options.solver_build = SolverBuild();
+  options.solver_build = SolverBuild(solver.value().set);
   options.solver_fingerprint = fingerprint.value();
   options.solver_slots = flags.solver_slots;
   options.max_queued = flags.max_queued;
@@ -160,9 +178,10 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   rpc_options.simulation.slots = flags.simulation_slots;
   const auto server = RpcServer::Start(rpc_options, service, hub);
   if (!server.ok()) return Fail(server.error().message);
-  const auto agent = Supervisor::Start(AgentCommand(flags, data_dir));
+  const auto agent = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir));
   if (!agent.ok()) return Fail(agent.error().message);
-  spdlog::info("serving {} on {}, {} solver slots", data_dir.path, server.value()->address(), flags.solver_slots);
+  spdlog::info("serving {} on {}, {} slots of {}", data_dir.path, server.value()->address(), flags.solver_slots,
+               solver.value().program);
   std::printf("rollgaitd listening on %s\n", server.value()->address().c_str());
   std::fflush(stdout);
 
@@ -185,7 +204,6 @@ int Main(int argc, char** argv) {
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
   spdlog::set_level(spdlog::level::from_str(flags.log_level));
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
-  if (flags.solver.empty()) flags.solver = Sibling("rollgait-solve");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
   if (!IsLoopback(flags.listen) && !flags.insecure_listen) {
     return Fail("--listen " + flags.listen +

@@ -14,6 +14,7 @@
 
 #include "server/agent/agent.h"
 #include "server/base/solver_build.h"
+#include "server/base/solver_choice.h"
 #include "server/store/sqlite_store.h"
 
 namespace rollgait::server {
@@ -49,9 +50,9 @@ int Lifeline() {
   return is_pipe ? STDIN_FILENO : -1;
 }
 
-std::string BesideThisProgram(const char* name) {
+std::string Folder() {
   std::error_code failure;
-  return (std::filesystem::read_symlink("/proc/self/exe", failure).parent_path() / name).string();
+  return std::filesystem::read_symlink("/proc/self/exe", failure).parent_path().string();
 }
 
 int Fail(const std::string& reason) {
@@ -64,8 +65,14 @@ int Main(int argc, char** argv) {
   CLI::App app("Works on the solves of a data directory, each in a process of its own.", "rollgait-agent");
   app.set_version_flag("--version", SolverBuild());
   app.add_option("--data-dir", options.data_dir, "Directory of rollgaitd")->required()->check(CLI::ExistingDirectory);
-  options.solver.program = BesideThisProgram("rollgait-solve");
-  app.add_option("--solver", options.solver.program, "Path of rollgait-solve; default: beside this program");
+  auto* solver =
+      app.add_option("--solver", options.solver.program, "Path of rollgait-solve; default: beside this program");
+  std::string instruction_set = "auto";
+  app.add_option("--instruction-set", instruction_set,
+                 "Which rollgait-solve beside this program: auto, baseline or x86-64-v3")
+      ->check(CLI::IsMember(InstructionSetWishes()))
+      ->capture_default_str()
+      ->excludes(solver);
   app.add_option("--slots", options.slots, "How many solves run at once")->check(CLI::Range(1, 1024));
   app.add_option("--memory-limit-mb", options.solver.memory_limit_mb, "Address space of a solver in MiB")
       ->check(CLI::Range(int64_t{64}, int64_t{1} << 20));
@@ -75,6 +82,12 @@ int Main(int argc, char** argv) {
 
   spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
   spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
+  if (options.solver.program.empty()) {
+    Outcome<SolverChoice> choice = ChooseSolver(Folder(), instruction_set);
+    if (!choice.ok()) return Fail(choice.error().message);
+    if (!choice.value().remark.empty()) spdlog::warn("{}", choice.value().remark);
+    options.solver.program = choice.value().program;
+  }
   if (access(options.solver.program.c_str(), X_OK) != 0) {
     return Fail(options.solver.program + " cannot be run: " + std::strerror(errno) + "; give --solver");
   }

@@ -117,5 +117,36 @@ TEST(RealSolverTest, ANeighbourStartsFromAStoredSolve) {
   EXPECT_NE(refused.status.error_message().find("other joints"), std::string::npos) << refused.status.error_message();
 }
 
+v1::Solve SolveWith(const std::string& instruction_set, const std::string& data_dir) {
+  Daemon::Options options;
+  options.data_dir = data_dir;
+  options.flags = {"--instruction-set", instruction_set};
+  const Daemon daemon(options);
+  if (daemon.address().empty()) return {};
+  const auto stub = daemon.NewStub();
+  v1::ServerInfo info;
+  grpc::ClientContext context;
+  EXPECT_TRUE(stub->GetServerInfo(&context, {}, &info).ok());
+  const v1::Solve solve = RunSolve(*stub, Request(0)).solve;
+  EXPECT_EQ(solve.result().solver_build(), info.solver_build());
+  return solve;
+}
+
+TEST(RealSolverTest, EachInstructionSetHasItsProgramAndItsResults) {
+  const TemporaryDirectory directory;
+  const std::string data_dir = directory.path() + "/data";
+  const v1::Solve baseline = SolveWith("baseline", data_dir), best = SolveWith("auto", data_dir);
+  ASSERT_EQ(baseline.result().termination(), v1::TERMINATION_OPTIMAL);
+  ASSERT_EQ(best.result().termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_EQ(baseline.result().solver_build().find("x86-64-v3"), std::string::npos);
+  if (best.result().solver_build() == baseline.result().solver_build()) {
+    GTEST_SKIP() << "this build or this processor has the baseline only";
+  }
+  EXPECT_NE(best.result().solver_build().find("x86-64-v3"), std::string::npos);
+  EXPECT_FALSE(best.from_cache());  // one solver's result is not the other's
+  // Both meet the KKT tolerance of 1e-6; at a minimum the objective follows to its square, the barrier to a like fraction.
+  EXPECT_NEAR(best.result().objective(), baseline.result().objective(), 1e-5 * baseline.result().objective());
+}
+
 }  // namespace
 }  // namespace rollgait::server
