@@ -1,6 +1,7 @@
 #include "core/gait/warm_start.h"
 
 #include <string>
+#include <vector>
 
 #include "core/gait/gait_request.h"
 

@@ -1,6 +1,5 @@
 #include "server/service/warm_start_search.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
