@@ -86,7 +86,7 @@ TEST(WarmStart, AtStandardAccuracyTheMeshOfTheNeighbourIsTaken) {
 TEST(WarmStart, AStartThatLeadsNowhereIsSaid) {
   const GaitRequest request = Draft(0);
   GaitSolution nonsense = Solve(CheckRequest(request).value());
-  nonsense.trajectory->phases[0].node_positions(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  nonsense.trajectory->phases[0].node_velocities(3, 1) = std::numeric_limits<double>::quiet_NaN();
   const GaitSolution solution = SolveFrom(request, nonsense);
   ASSERT_EQ(solution.termination, Termination::kOptimal);
   EXPECT_FALSE(solution.warm_started);
