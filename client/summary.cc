@@ -95,8 +95,10 @@ Rows UnmetRows(const v1::SolveResult& result) {
 std::string StartNote(const v1::SolveResult& result) {
   if (!result.has_warm_started_from()) return "";
   const v1::WarmStartSource& source = result.warm_started_from();
+  constexpr double kConstraintTolerance = 1e-6;  // to which the speed of a result is that of its request
+  const double speed = source.speed_difference_m_s();
   return "; started from " + source.name() + ", " + FormatNumber(source.slope_difference_rad() * 180 / kPi) + "° and " +
-         FormatNumber(source.speed_difference_m_s()) + " m/s away" +
+         FormatNumber(std::abs(speed) < kConstraintTolerance ? 0 : speed) + " m/s away" +
          (source.used_multipliers() ? "" : ", without its multipliers");
 }
 
