@@ -43,10 +43,10 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestChec
     case GaitRequest::AccuracyLevel::kDraft:
       break;
     case GaitRequest::AccuracyLevel::kStandard:
-      level = {1e-6, 1e-4, 1e-3, 3};
+      level = {1e-6, 1e-4, 1e-3, 5};
       break;
     case GaitRequest::AccuracyLevel::kFine:
-      level = {1e-6, 1e-5, 1e-4, 3};
+      level = {1e-6, 1e-5, 1e-4, 5};
       break;
   }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, level.kkt_tolerance, {1e-12, 1e-2}),

@@ -63,18 +63,23 @@ Mesh Halved(const Mesh& mesh) {
   return finer;
 }
 
-Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajectory) {
+Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajectory, bool stalled) {
   const BodyDynamics dynamics(spec.scene.model);
   const double order = SlipOrder(spec.scheme);
   Mesh finer;
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
     const double share = spec.max_gap / static_cast<double>(mesh.fractions[p].size());
-    std::vector<double> fractions;
+    std::vector<int> parts;
     for (size_t k = 0; k < mesh.fractions[p].size(); ++k) {
       const ContactError error =
           Measure(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
-      const int parts = std::max(Parts(error.slip / spec.max_slip, order), Parts(error.gap_drift / share, order + 1));
-      for (int i = 0; i < parts; ++i) fractions.push_back(mesh.fractions[p][k] / parts);
+      parts.push_back(std::max(Parts(error.slip / spec.max_slip, order), Parts(error.gap_drift / share, order + 1)));
+    }
+    const bool missed = *std::max_element(parts.begin(), parts.end()) > 1;
+    std::vector<double> fractions;
+    for (size_t k = 0; k < parts.size(); ++k) {
+      const int count = stalled && missed ? std::max(parts[k], 2) : parts[k];
+      for (int i = 0; i < count; ++i) fractions.push_back(mesh.fractions[p][k] / count);
     }
     finer.fractions.push_back(std::move(fractions));
   }

@@ -190,6 +190,12 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   return options;
 }
 
+// The last refinement did not halve the slip. Where a joint meets its limit the acceleration jumps, and the jump moves on from the
+// intervals that were split to the next coarse one, where slipping pays.
+bool Stalled(const std::vector<MeshStatistics>& meshes) {
+  return meshes.size() > 1 && meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
+}
+
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess, NlpOptions options,
                        Predecessor previous, Mesh mesh, SolveBudget* budget) {
   GaitSolution solution;
@@ -227,7 +233,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       continue;
     }
     guess = GuessFromTrajectory(*solution.trajectory);
-    mesh = RefineMesh(mesh, spec, *solution.trajectory);
+    mesh = RefineMesh(mesh, spec, *solution.trajectory, Stalled(solution.meshes));
     options = OptionsFor(spec, guess);
     previous = {std::move(current), result};
   }

@@ -61,7 +61,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
     GaitSpec finer = spec;
     finer.max_refinements = spec.max_refinements - 1;
     GaitSolution solution = SolveOnMeshes(finer, problem, GuessFromTrajectory(*best->trajectory),
-                                          RefineMesh(mesh, spec, *best->trajectory), budget);
+                                          RefineMesh(mesh, spec, *best->trajectory, false), budget);
     AppendMeshes(solution, &meshes);
     if (Converged(solution.termination)) {
       best = std::move(solution);

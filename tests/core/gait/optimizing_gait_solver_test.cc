@@ -57,9 +57,7 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
 // within the standard bounds between the nodes too.
 TEST(StandardAccuracy, HoldsOnAllSlopes) {
   for (int slope : {-10, 0, 10}) {
-    GaitRequest request = Planar(slope);
-    request.discretization.scheme = Scheme::kHermiteSimpson;
-    const GaitSolution solution = Solve(request);
+    const GaitSolution solution = Solve(Planar(slope));
     ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
     EXPECT_TRUE(solution.within_requested_accuracy);
     EXPECT_LE(solution.accuracy->max_gap, 1e-4);

@@ -1,0 +1,68 @@
+#include "core/gait/mesh_refinement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "core/gait/mesh_sequence.h"
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+// A walk on a coarse mesh, which slips between its nodes, and the bounds that its mesh is to be refined for.
+class MeshRefinementTest : public ::testing::Test {
+ protected:
+  MeshRefinementTest() {
+    GaitRequest request;
+    request.body.model = "planar";
+    request.motion.speed = 1.3;
+    request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+    spec_ = CheckRequest(request).value();
+    trajectory_ = OptimizingGaitSolver().Solve(*spec_, {}).trajectory;
+    mesh_ = RequestedMesh(*spec_);
+  }
+  Mesh Refined(double max_slip, bool stalled) {
+    spec_->max_slip = max_slip;
+    spec_->max_gap = 1;
+    return RefineMesh(mesh_, *spec_, *trajectory_, stalled);
+  }
+
+  std::optional<GaitSpec> spec_;
+  std::optional<Trajectory> trajectory_;
+  Mesh mesh_;
+};
+
+TEST_F(MeshRefinementTest, CutsIntervalsThatSlip) {
+  const Mesh finer = Refined(1e-3, false);
+  ASSERT_EQ(finer.fractions.size(), mesh_.fractions.size());
+  size_t kept = 0, cut = 0;
+  for (size_t p = 0; p < finer.fractions.size(); ++p) {
+    EXPECT_NEAR(std::accumulate(finer.fractions[p].begin(), finer.fractions[p].end(), 0.0), 1, 1e-12);
+    const double before = mesh_.fractions[p].front();
+    for (double length : finer.fractions[p]) ++(length < 0.9 * before ? cut : kept);
+  }
+  EXPECT_GT(cut, 0u);
+  EXPECT_GT(kept, 0u);
+}
+
+TEST_F(MeshRefinementTest, CutsWholePhasesWhenItHasStalled) {
+  const Mesh finer = Refined(1e-3, false), stalled = Refined(1e-3, true);
+  for (size_t p = 0; p < finer.fractions.size(); ++p) {
+    const double before = mesh_.fractions[p].front();
+    const bool touched = finer.fractions[p].size() > mesh_.fractions[p].size();
+    const double longest = *std::max_element(stalled.fractions[p].begin(), stalled.fractions[p].end());
+    EXPECT_NEAR(longest, touched ? before / 2 : before, 1e-12) << p;
+    EXPECT_GE(stalled.fractions[p].size(), finer.fractions[p].size());
+    EXPECT_NEAR(std::accumulate(stalled.fractions[p].begin(), stalled.fractions[p].end(), 0.0), 1, 1e-12);
+  }
+}
+
+TEST_F(MeshRefinementTest, LeavesWhatIsGoodEnough) {
+  for (const bool stalled : {false, true}) EXPECT_EQ(Refined(100, stalled).fractions, mesh_.fractions);
+}
+
+}  // namespace
+}  // namespace rollgait
