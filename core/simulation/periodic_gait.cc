@@ -229,6 +229,11 @@ Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const Period
     section->State(y + newton, &q, &v);
   }
   section->State(section->Coordinates(q, v), &gait.q, &gait.v);
+  // The bases of two sections may differ by any rotation, however near they are: the derivative belongs to the one at the gait.
+  section.emplace(scene, gait.q);
+  if (!Differentiate(section->Coordinates(gait.q, gait.v), options.difference_step, &*section, &map, &gait.jacobian)) {
+    return Violations{{"joints", "a step from a state near the gait found does not end with the other foot's heel strike"}};
+  }
   VectorX q_next, v_next;
   if (map.Map(gait.q, gait.v, &q_next, &v_next)) {
     gait.heel_strike = map.heel_strike();

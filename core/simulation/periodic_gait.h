@@ -26,7 +26,7 @@ struct PeriodicGait {
   VectorX q, v;                   // the fixed point, all joints of the scene
   double period = 0;              // s
   double step_length = 0;         // m or rad, change of the travel joint
-  MatrixX jacobian;               // of the step map, d × d, in the coordinates of GaitSection at the fixed point
+  MatrixX jacobian;               // of the step map, d × d, in the coordinates of GaitSection(scene, q)
   Eigen::VectorXcd eigenvalues;   // largest magnitude first
   SimulationEvent heel_strike;    // of the periodic step, before relabelling
   SimulationReport report;        // of the periodic step
