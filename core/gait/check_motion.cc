@@ -2,12 +2,11 @@
 #include <cmath>
 #include <utility>
 
+#include "core/gait/default_speed.h"
 #include "core/gait/request_check.h"
 
 namespace rollgait {
 namespace {
-
-constexpr double kDefaultSpeed = 1.3;  // m/s
 
 // Refuses contradictions between the prescribed quantities; returns the mean speed that they imply, if any.
 std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, RequestCheck& check) {

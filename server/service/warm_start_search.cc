@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/gait/default_speed.h"
 #include "rollgait/v1/solve.pb.h"
 #include "server/base/wire.pb.h"
 #include "server/service/request_check.h"
@@ -17,7 +18,6 @@ constexpr double kSlopeUnit = std::numbers::pi / 180;  // rad
 constexpr double kSpeedUnit = 0.05;                     // m/s
 constexpr double kFarthest = 5;                         // in these units
 constexpr int kMostConsidered = 1000;
-constexpr double kDefaultSpeed = 1.3;  // m/s, of Motion.speed_m_s
 
 Error Refuse(const v1::SolveSpec& spec, const std::string& reason) {
   return InvalidArgument({{"spec.warm_start", "is \"" + spec.warm_start() + "\"; " + reason}});
