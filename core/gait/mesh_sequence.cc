@@ -190,6 +190,9 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   return options;
 }
 
+// Whether the motion between the nodes counts; without bounds (draft) it does not.
+bool IsBounded(const GaitSpec& spec) { return std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap); }
+
 // The last refinement did not halve the slip. Where a joint meets its limit the acceleration jumps, and the jump moves on from the
 // intervals that were split to the next coarse one, where slipping pays.
 bool Stalled(const std::vector<MeshStatistics>& meshes) {
@@ -238,8 +241,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     previous = {std::move(current), result};
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
-  const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
-  if (bounded && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
+  if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
   solution.wall_time = budget->elapsed();
   return solution;
 }
@@ -287,9 +289,8 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
-  const bool bounded = std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap);
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
-  if (bounded && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
+  if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
   Predecessor previous = PredecessorOf(spec, problem);
   const bool used_multipliers = previous.nlp != nullptr;
   GaitSolution solution = SolveFrom(spec, problem, GuessFromTrajectory(trajectory), OptionsForNeighbour(spec),
