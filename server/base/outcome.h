@@ -20,11 +20,19 @@ enum class ErrorCode {
   kAlreadyExists,       // request_id is in use with another spec
   kFailedPrecondition,  // the solve is in another state than the call needs
   kOutOfRange,          // sequence number beyond the newest event
-  kResourceExhausted,   // the queue is full; `retry_after` says when to try again
+  kUnauthenticated,     // no token or certificate, or one that is not valid (any more)
+  kPermissionDenied,    // the caller is known and may not do this
+  kResourceExhausted,   // the queue is full, or a quota; `retry_after` says when to try again
   kDeadlineExceeded,    // the run took longer than it was given
   kLeaseLost,           // the solve belongs to another epoch now: stop working on it, write nothing more
   kUnavailable,         // busy, disk full, stopping: the same call may succeed later
   kInternal,            // a defect or a damaged file
+};
+
+// A limit of one tenant that a call has reached.
+struct QuotaViolation {
+  std::string subject;      // "tenant:acme"
+  std::string description;  // "20 solves are queued, the limit is 20"
 };
 
 struct Error {
@@ -32,6 +40,7 @@ struct Error {
   std::string message;  // one sentence with the value, the limit and what to do next
   Violations violations = {};
   std::optional<std::chrono::milliseconds> retry_after = std::nullopt;
+  std::optional<QuotaViolation> quota = std::nullopt;  // with kResourceExhausted
 };
 
 // The value of a call that has none.

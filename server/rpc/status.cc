@@ -20,6 +20,10 @@ grpc::StatusCode Code(ErrorCode code) {
       return grpc::StatusCode::FAILED_PRECONDITION;
     case ErrorCode::kOutOfRange:
       return grpc::StatusCode::OUT_OF_RANGE;
+    case ErrorCode::kUnauthenticated:
+      return grpc::StatusCode::UNAUTHENTICATED;
+    case ErrorCode::kPermissionDenied:
+      return grpc::StatusCode::PERMISSION_DENIED;
     case ErrorCode::kResourceExhausted:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
     case ErrorCode::kUnavailable:
@@ -72,6 +76,12 @@ grpc::Status ToStatus(const Error& error) {
       field->set_description(Text(violation.message));
     }
     details.add_details()->PackFrom(bad_request);
+  }
+  if (error.quota.has_value()) {
+    google::rpc::QuotaFailure failure;
+    failure.add_violations()->set_subject(Text(error.quota->subject));
+    failure.mutable_violations(0)->set_description(Text(error.quota->description));
+    details.add_details()->PackFrom(failure);
   }
   if (error.retry_after.has_value()) {
     google::rpc::RetryInfo retry;

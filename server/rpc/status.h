@@ -7,8 +7,8 @@
 
 namespace rollgait::server {
 
-// The RPC status of an error. Violations go as google.rpc.BadRequest, a time to try again as google.rpc.RetryInfo, both
-// in grpc-status-details-bin. Clients take 8 KiB of headers by default: texts are cut to kMaxText bytes, and violations
+// The RPC status of an error. Violations go as google.rpc.BadRequest, a quota as google.rpc.QuotaFailure, a time to try
+// again as google.rpc.RetryInfo, all in grpc-status-details-bin. Clients take 8 KiB of headers by default: texts are cut to kMaxText bytes, and violations
 // are left out from where they exceed kMaxDetailBytes (the message tells how many there are).
 grpc::Status ToStatus(const Error& error);
 

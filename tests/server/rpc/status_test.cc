@@ -37,6 +37,18 @@ TEST(ToStatusTest, ATimeToTryAgainIsRetryInfo) {
   EXPECT_EQ(retry.retry_delay().nanos(), 500'000'000);
 }
 
+TEST(ToStatusTest, AQuotaIsNamedBesideTheTimeToTryAgain) {
+  Error error{ErrorCode::kResourceExhausted, "full", {}, std::chrono::milliseconds(1500)};
+  error.quota = {"tenant:acme", "2 solves are queued, the limit is 2"};
+  const google::rpc::Status details = Details(ToStatus(error));
+  ASSERT_EQ(details.details_size(), 2);
+  google::rpc::QuotaFailure quota;
+  ASSERT_TRUE(details.details(0).UnpackTo(&quota));
+  EXPECT_EQ(quota.violations(0).subject(), "tenant:acme");
+  EXPECT_EQ(quota.violations(0).description(), "2 solves are queued, the limit is 2");
+  EXPECT_TRUE(details.details(1).Is<google::rpc::RetryInfo>());
+}
+
 TEST(ToStatusTest, WhatClientsCannotTakeIsCut) {
   Error error{ErrorCode::kInvalidArgument, std::string(100'000, 'x')};
   for (int i = 0; i < 10'000; ++i) error.violations.push_back({std::string(1000, 'f'), std::string(1000, 'm')});
@@ -62,6 +74,8 @@ TEST(ToStatusTest, EveryCodeHasAStatus) {
   EXPECT_EQ(ToStatus({ErrorCode::kAlreadyExists, ""}).error_code(), grpc::StatusCode::ALREADY_EXISTS);
   EXPECT_EQ(ToStatus({ErrorCode::kFailedPrecondition, ""}).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(ToStatus({ErrorCode::kOutOfRange, ""}).error_code(), grpc::StatusCode::OUT_OF_RANGE);
+  EXPECT_EQ(ToStatus({ErrorCode::kUnauthenticated, ""}).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(ToStatus({ErrorCode::kPermissionDenied, ""}).error_code(), grpc::StatusCode::PERMISSION_DENIED);
   EXPECT_EQ(ToStatus({ErrorCode::kUnavailable, ""}).error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(ToStatus({ErrorCode::kInternal, ""}).error_code(), grpc::StatusCode::INTERNAL);
   EXPECT_EQ(ToStatus({ErrorCode::kLeaseLost, ""}).error_code(), grpc::StatusCode::INTERNAL);
