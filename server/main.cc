@@ -19,6 +19,7 @@
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
 #include "server/base/notify.h"
+#include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
 #include "server/base/supervisor.h"
@@ -45,6 +46,7 @@ struct Flags {
   int max_queued = 1000;
   double heartbeat_interval_s = 10;
   bool no_result_reuse = false;
+  bool unconfined_solver = false;
   std::string log_level = "info";
 };
 
@@ -80,6 +82,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   app.add_flag("--no-result-reuse", flags.no_result_reuse, "Solve every request, also one that was answered before");
+  app.add_flag("--unconfined-solver", flags.unconfined_solver, kUnconfinedHelp);
   app.add_option("--log-level", flags.log_level, "debug, info, warning or error")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str();
@@ -132,6 +135,7 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
   options.name = "rollgait-agent";
   options.arguments = {flags.agent, "--data-dir", data_dir.path, "--slots", std::to_string(flags.solver_slots),
                        "--solver",  solver};
+  if (flags.unconfined_solver) options.arguments.push_back("--unconfined-solver");
   return options;
 }
 
@@ -176,6 +180,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   rpc_options.listen = flags.listen;
   rpc_options.simulation.program = flags.simulator;
   rpc_options.simulation.slots = flags.simulation_slots;
+  rpc_options.simulation.unconfined = flags.unconfined_solver;
   const auto server = RpcServer::Start(rpc_options, service, hub);
   if (!server.ok()) return Fail(server.error().message);
   const auto agent = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir));
@@ -209,6 +214,9 @@ int Main(int argc, char** argv) {
     return Fail("--listen " + flags.listen +
                 " is not a loopback address and this server speaks plain text: anyone on the " +
                 "network could read and use it. Listen on 127.0.0.1, or say --insecure-listen");
+  }
+  if (const auto obstacle = flags.unconfined_solver ? std::nullopt : SandboxObstacle()) {
+    return Fail(*obstacle + "; --unconfined-solver runs solves and simulations without it");
   }
   umask(0077);  // requests and results are the owner's
   RaiseDescriptorLimit();

@@ -11,8 +11,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "server/agent/agent.h"
+#include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
 #include "server/store/sqlite_store.h"
@@ -78,6 +80,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::Range(int64_t{64}, int64_t{1} << 20));
   app.add_option("--cpu-limit-s", options.solver.cpu_limit_s, "CPU time of a solver in s")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
+  app.add_flag("--unconfined-solver", options.solver.unconfined, kUnconfinedHelp);
   CLI11_PARSE(app, argc, argv);
 
   spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
@@ -90,6 +93,9 @@ int Main(int argc, char** argv) {
   }
   if (access(options.solver.program.c_str(), X_OK) != 0) {
     return Fail(options.solver.program + " cannot be run: " + std::strerror(errno) + "; give --solver");
+  }
+  if (const auto obstacle = options.solver.unconfined ? std::nullopt : SandboxObstacle()) {
+    return Fail(*obstacle + "; --unconfined-solver runs solves without it");
   }
   options.stop_fd = CatchStopSignals();
   if (options.stop_fd < 0) return Fail(std::string("cannot catch signals: ") + std::strerror(errno));

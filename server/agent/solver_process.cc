@@ -90,6 +90,7 @@ int SpawnChild(const SolverProcess::Options& options, int stream, int output, pi
                                         std::to_string(options.memory_limit_mb),
                                         "--cpu-limit-s",
                                         std::to_string(options.cpu_limit_s)};
+  if (options.unconfined) arguments.push_back("--unconfined-solver");
   std::vector<std::string> environment = ChildEnvironment();
   const int failure = posix_spawn(pid, options.program.c_str(), &actions, &attributes, Pointers(arguments).data(),
                                   Pointers(environment).data());

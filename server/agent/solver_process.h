@@ -30,6 +30,7 @@ class SolverProcess {
     std::string program;
     int64_t memory_limit_mb = 4096;
     int64_t cpu_limit_s = 86400;
+    bool unconfined = false;  // without its system call filter
   };
 
   // Starts a child that waits for its request. It gets no descriptor of this process but its own three and the stream,

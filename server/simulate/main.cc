@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "server/base/process_limits.h"
+#include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/simulate/simulation_worker.h"
 
@@ -18,6 +19,7 @@ int Fail(const std::string& reason) {
 int Main(int argc, char** argv) {
   int fd = -1;
   int64_t memory_limit_mb = 1024, cpu_limit_s = 600;
+  bool unconfined = false;
   CLI::App app("Simulates one scene for rollgaitd.", "rollgait-simulate");
   app.set_version_flag("--version", SolverBuild());
   app.add_option("--fd", fd, "Connected stream to serve one framed request on")
@@ -27,11 +29,15 @@ int Main(int argc, char** argv) {
       ->check(CLI::Range(int64_t{64}, int64_t{1} << 20));
   app.add_option("--cpu-limit-s", cpu_limit_s, "Bound of the CPU time in s")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
+  app.add_flag("--unconfined-solver", unconfined, kUnconfinedHelp);
   CLI11_PARSE(app, argc, argv);
   if (const auto reason = ConfineProcess()) return Fail(*reason);
   if (const auto reason = LimitMemory(memory_limit_mb << 20)) return Fail(*reason);
   if (const auto reason = LimitCpuTime(cpu_limit_s)) return Fail(*reason);
   std::signal(SIGPIPE, SIG_IGN);
+  if (!unconfined) {
+    if (const auto reason = EnterSandbox()) return Fail(*reason + "; --unconfined-solver simulates without it");
+  }
   return ServeOneSimulation(fd);
 }
 

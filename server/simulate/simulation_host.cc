@@ -161,6 +161,7 @@ Outcome<Done> SimulationHost::Run(const wire::SimulatorRequest& request, double 
   SolverProcess::Options options;
   options.program = options_.program;
   options.memory_limit_mb = options_.memory_limit_mb;
+  options.unconfined = options_.unconfined;
   options.cpu_limit_s = static_cast<int64_t>(std::ceil(max_wall_s)) + kCpuGraceSeconds;
   Outcome<SolverProcess> process = SolverProcess::Spawn(options);
   if (!process.ok()) return process.error();

@@ -20,6 +20,7 @@ struct SimulationHostOptions {
   std::string program;             // path of rollgait-simulate; empty: this server does not simulate
   int slots = 2;                   // simulations that run at once
   int64_t memory_limit_mb = 1024;  // of each
+  bool unconfined = false;         // without their system call filter
 };
 
 // Wakes a thread that waits in poll. Any thread may call Cancel.

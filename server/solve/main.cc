@@ -9,6 +9,7 @@
 
 #include "core/gait/optimizing_gait_solver.h"
 #include "server/base/process_limits.h"
+#include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/solve/local_solve.h"
 #include "server/solve/worker.h"
@@ -35,6 +36,7 @@ struct Flags {
   int fd = -1;
   int64_t memory_limit_mb = 4096;
   int64_t cpu_limit_s = 86400;
+  bool unconfined = false;
 };
 
 int Fail(const std::string& reason) {
@@ -48,6 +50,9 @@ int RunWorker(const Flags& flags) {
   if (const auto reason = LimitCpuTime(flags.cpu_limit_s)) return Fail(*reason);
   std::signal(SIGPIPE, SIG_IGN);
   ReportMemoryLimitOn(flags.fd);
+  if (!flags.unconfined) {
+    if (const auto reason = EnterSandbox()) return Fail(*reason + "; --unconfined-solver runs solves without it");
+  }
   OptimizingGaitSolver solver;
   return ServeOneRequest(flags.fd, solver, stop_requested, [&](const GaitSpec& spec) {
     StopOn(SIGTERM);  // until now the default: a solver that has nothing to do simply ends
@@ -84,6 +89,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::Range(int64_t{64}, int64_t{1} << 20));
   app.add_option("--cpu-limit-s", flags.cpu_limit_s, "With --fd: bound of the CPU time in s")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
+  app.add_flag("--unconfined-solver", flags.unconfined, kUnconfinedHelp);
   spec->excludes(fd);
   CLI11_PARSE(app, argc, argv);
   if (flags.spec_file.empty() && flags.fd < 0) return Fail("give --spec FILE; see --help");

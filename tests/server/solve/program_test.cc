@@ -5,6 +5,9 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "rollgait/v1/solve_spec.pb.h"
 #include "server/agent/solver_process.h"
@@ -66,6 +69,32 @@ TEST(SolveProgram, SolvesOneRequest) {
   EXPECT_EQ(answer.last.result().termination(), v1::TERMINATION_OPTIMAL) << answer.last.result().message();
   EXPECT_TRUE(answer.last.result().has_accuracy());
   EXPECT_TRUE(WIFEXITED(answer.end.wait_status));
+}
+
+// The value of a line "Name:\tvalue" of /proc/PID/status.
+std::string StatusOf(pid_t pid, const std::string& name) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind(name + ":\t", 0) == 0) return line.substr(name.size() + 2);
+  }
+  return "";
+}
+
+TEST(SolveProgram, ItIsConfinedBeforeItReadsTheRequest) {
+  for (const bool unconfined : {false, true}) {
+    SolverProcess::Options options = Options();
+    options.unconfined = unconfined;
+    Outcome<SolverProcess> process = SolverProcess::Spawn(options);
+    ASSERT_TRUE(process.ok());
+    std::vector<std::string> payloads;
+    while (payloads.empty()) {  // it says that it is ready
+      pollfd entry{process.value().stream_fd(), POLLIN, 0};
+      ASSERT_EQ(poll(&entry, 1, 120'000), 1);
+      ASSERT_EQ(process.value().Receive(&payloads), FrameStatus::kNeedMore);
+    }
+    EXPECT_EQ(StatusOf(process.value().pid(), "Seccomp"), unconfined ? "0" : "2");
+    EXPECT_EQ(StatusOf(process.value().pid(), "NoNewPrivs"), "1");
+  }
 }
 
 TEST(SolveProgram, SigtermEndsItWithACancelledResult) {
