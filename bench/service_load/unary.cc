@@ -1,0 +1,213 @@
+// Scenarios of single calls: results, creates, overload.
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+#include "bench/service_load/open_loop.h"
+#include "bench/service_load/scenarios.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace rollgait::load {
+namespace {
+
+constexpr double kLatencyLimitMs = 50;
+
+template <typename Request>
+struct Call {
+  grpc::ClientContext context;
+  Request request;
+  v1::Solve response;
+};
+
+template <typename Request>
+std::shared_ptr<Call<Request>> NewCall(const Target& target) {
+  auto call = std::make_shared<Call<Request>>();
+  target.Authorize(call->context);
+  call->context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  return call;
+}
+
+// Solves of the planar body that differ in their slope by so little that all are alike to the solver and none is
+// answered from another.
+v1::CreateSolveRequest DifferentSolve(int64_t number) {
+  v1::CreateSolveRequest request;
+  request.mutable_spec()->mutable_model()->set_name("planar");
+  request.mutable_spec()->set_slope_rad(1e-9 * static_cast<double>(number + 1));
+  request.set_request_id("load-" + std::to_string(number));
+  return request;
+}
+
+// Names of finished solves with results.
+std::vector<std::string> FinishedSolves(const Target& target, int count) {
+  const std::unique_ptr<Stub> stub = target.Connect();
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) {
+    grpc::ClientContext context;
+    target.Authorize(context);
+    v1::RunSolveRequest request;
+    request.mutable_spec()->mutable_model()->set_name("planar");
+    request.mutable_spec()->set_slope_rad(0.002 * i);
+    const auto stream = stub->RunSolve(&context, request);
+    v1::SolveEvent event;
+    while (stream->Read(&event)) {
+      if (event.has_finished() && event.finished().has_result()) names.push_back(event.name());
+    }
+    const grpc::Status status = stream->Finish();
+    if (!status.ok()) throw std::runtime_error("a solve to read failed: " + status.error_message());
+  }
+  if (static_cast<int>(names.size()) != count) throw std::runtime_error("not every solve to read ended with a result");
+  return names;
+}
+
+bool HasRetryInfo(const grpc::Status& status) {
+  google::rpc::Status details;
+  if (!details.ParseFromString(status.error_details())) return false;
+  for (const google::protobuf::Any& detail : details.details()) {
+    google::rpc::RetryInfo retry;
+    if (detail.UnpackTo(&retry)) return true;
+  }
+  return false;
+}
+
+// What was asked for at a rate, and whether it came.
+void Judge(const OpenLoopResult& run, grpc::StatusCode wanted, double rate, bool busy, Row* row) {
+  const auto found = run.by_code.find(wanted);
+  const Latencies latencies = found == run.by_code.end() ? Latencies() : found->second;
+  const double p99 = latencies.PercentileMs(99);
+  row->measured = Number(run.Rate(wanted)) + "/s, p99 " + Number(p99) + " ms (" + CodesText(run) + ")" +
+                  (busy ? "" : "; the cores did not solve throughout");
+  // Arrivals are random: their number scatters by its root.
+  row->met = busy && !run.gave_up && run.Count(wanted) == run.sent && run.Rate(wanted) >= 0.97 * rate &&
+             p99 <= kLatencyLimitMs;
+  row->figures["rate_asked"] = rate;
+  row->figures["rate"] = run.Rate(wanted);
+  row->figures["latency"] = LatencyFigures(latencies);
+  row->figures["sent_late"] = LatencyFigures(run.lag);
+  for (const auto& [code, all] : run.by_code) row->figures["answers"][CodeName(code)] = all.count();
+}
+
+std::set<std::string> ListedNames(const Target& target) {
+  const std::unique_ptr<Stub> stub = target.Connect();
+  std::set<std::string> names;
+  v1::ListSolvesRequest request;
+  request.set_page_size(1000);
+  do {
+    grpc::ClientContext context;
+    target.Authorize(context);
+    v1::ListSolvesResponse page;
+    const grpc::Status status = stub->ListSolves(&context, request, &page);
+    if (!status.ok()) throw std::runtime_error("the solves cannot be listed: " + status.error_message());
+    for (const v1::Solve& solve : page.solves()) names.insert(solve.name());
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return names;
+}
+
+// The cores solve while a scenario runs, unless it is told otherwise.
+std::unique_ptr<BusySlots> KeepBusy(const LoadOptions& options, const Target& target) {
+  return options.idle_cores ? nullptr : std::make_unique<BusySlots>(target, options.target.solver_slots);
+}
+
+}  // namespace
+
+Row ResultsScenario(const LoadOptions& options) {
+  const double rate = options.rate > 0 ? options.rate : 2000;
+  const Target target(options.target);
+  const std::vector<std::string> names = FinishedSolves(target, options.solves > 0 ? options.solves : 20);
+  const auto stubs = target.Connect(options.connections > 0 ? options.connections : 8);
+  const std::unique_ptr<BusySlots> busy = KeepBusy(options, target);
+  std::atomic<int64_t> wrong{0}, bytes{0};
+  const OpenLoopResult run = RunOpenLoop({.rate = rate, .seconds = options.seconds}, [&](int64_t number, auto done) {
+    auto call = NewCall<v1::GetSolveRequest>(target);
+    call->request.set_name(names[static_cast<size_t>(number) % names.size()]);
+    Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
+    stub.async()->GetSolve(&call->context, &call->request, &call->response, [&, call, done](grpc::Status status) {
+      if (status.ok() && (call->response.name() != call->request.name() || !call->response.has_result())) ++wrong;
+      bytes += static_cast<int64_t>(call->response.ByteSizeLong());
+      done(status.error_code());
+    });
+  });
+  Row row{"results from the store", "≥ 2000/s, p99 ≤ 50 ms", "", false, {}};
+  Judge(run, grpc::StatusCode::OK, rate, busy == nullptr || busy->StillBusy(), &row);
+  row.met = row.met && wrong == 0;
+  row.figures["wrong_answers"] = wrong.load();
+  row.figures["bytes_an_answer"] = run.sent > 0 ? bytes.load() / run.sent : 0;
+  return row;
+}
+
+Row CreatesScenario(const LoadOptions& options) {
+  const double rate = options.rate > 0 ? options.rate : 300;
+  TargetOptions own = options.target;
+  own.flags.insert(own.flags.end(), {"--max-queued", "1000000"});
+  const Target target(own);
+  const auto stubs = target.Connect(options.connections > 0 ? options.connections : 8);
+  const std::unique_ptr<BusySlots> busy = KeepBusy(options, target);
+  std::mutex mutex;
+  std::set<std::string> acknowledged;
+  int64_t duplicates = 0;
+  const OpenLoopResult run = RunOpenLoop({.rate = rate, .seconds = options.seconds}, [&](int64_t number, auto done) {
+    auto call = NewCall<v1::CreateSolveRequest>(target);
+    call->request = DifferentSolve(number);
+    Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
+    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](grpc::Status status) {
+      if (status.ok()) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!acknowledged.insert(call->response.name()).second) ++duplicates;
+      }
+      done(status.error_code());
+    });
+  });
+  Row row{"durable creates", "≥ 300/s, p99 ≤ 50 ms", "", false, {}};
+  Judge(run, grpc::StatusCode::OK, rate, busy == nullptr || busy->StillBusy(), &row);
+  const std::set<std::string> listed = ListedNames(target);
+  int64_t lost = 0;
+  for (const std::string& name : acknowledged) lost += listed.count(name) == 0 ? 1 : 0;
+  row.met = row.met && lost == 0 && duplicates == 0;
+  row.measured += "; of " + std::to_string(acknowledged.size()) + " acknowledged " + std::to_string(lost) + " lost";
+  row.figures["acknowledged"] = acknowledged.size();
+  row.figures["lost"] = lost;
+  row.figures["duplicates"] = duplicates;
+  return row;
+}
+
+Row OverloadScenario(const LoadOptions& options) {
+  const double rate = options.rate > 0 ? options.rate : 3000;
+  constexpr int kQueue = 100;
+  TargetOptions own = options.target;
+  own.flags.insert(own.flags.end(), {"--max-queued", std::to_string(kQueue)});
+  const Target target(own);
+  const auto stubs = target.Connect(options.connections > 0 ? options.connections : 8);
+  const BusySlots busy_slots(target, own.solver_slots);
+  for (int i = 0; i < kQueue; ++i) {
+    auto call = NewCall<v1::CreateSolveRequest>(target);
+    call->request = DifferentSolve(i);
+    if (!stubs[0]->CreateSolve(&call->context, call->request, &call->response).ok()) break;
+  }
+  MemoryWatch memory(target);
+  std::atomic<int64_t> without_retry{0};
+  const OpenLoopResult run = RunOpenLoop({.rate = rate, .seconds = options.seconds}, [&](int64_t number, auto done) {
+    auto call = NewCall<v1::CreateSolveRequest>(target);
+    call->request = DifferentSolve(kQueue + number);
+    Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
+    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](grpc::Status status) {
+      if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED && !HasRetryInfo(status)) ++without_retry;
+      done(status.error_code());
+    });
+  });
+  const double growth_mb = static_cast<double>(memory.Growth()) / 1e6;
+  Row row{"overload × 10", "RESOURCE_EXHAUSTED with RetryInfo, p99 ≤ 50 ms, memory flat", "", false, {}};
+  Judge(run, grpc::StatusCode::RESOURCE_EXHAUSTED, rate, true, &row);
+  row.measured +=
+      "; " + std::to_string(without_retry.load()) + " without RetryInfo; memory " + Number(growth_mb) + " MB";
+  row.met = row.met && without_retry == 0 && growth_mb <= 5;
+  row.figures["without_retry_info"] = without_retry.load();
+  row.figures["megabytes_grown"] = growth_mb;
+  row.figures["megabytes_largest"] = static_cast<double>(memory.Largest()) / 1e6;
+  return row;
+}
+
+}  // namespace rollgait::load
