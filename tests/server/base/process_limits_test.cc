@@ -34,6 +34,13 @@ TEST(ProcessLimits, ConfinedProcessesLeaveNoCoreAndDieWithTheirParent) {
   })));
 }
 
+TEST(ProcessLimits, ConfinedProcessesYieldTheProcessorAndNeverTakeNicenessBack) {
+  EXPECT_TRUE(ExitedWith0(InChild([] { return !ConfineProcess() && getpriority(PRIO_PROCESS, 0) >= 10; })));
+  EXPECT_TRUE(ExitedWith0(InChild([] {
+    return setpriority(PRIO_PROCESS, 0, 15) == 0 && !ConfineProcess() && getpriority(PRIO_PROCESS, 0) == 15;
+  })));
+}
+
 TEST(ProcessLimits, MemoryIsBounded) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need the address space";
