@@ -27,7 +27,7 @@
 #include "server/service/core_knowledge.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
-#include "server/store/sqlite_store.h"
+#include "server/store/open_store.h"
 
 namespace rollgait::server {
 namespace {
@@ -156,7 +156,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const Outcome<std::string> fingerprint = Sha256HexOfFile(solver.value().program);
   if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
   const SystemClock clock;
-  const auto store = SqliteStore::Open(data_dir.Database(), clock);
+  const auto store = OpenStore({data_dir.Database()}, clock);
   if (!store.ok()) return Fail(store.error().message);
   auto hints = NotifyReceiver::Create(data_dir.path, kServerSocket);
   if (!hints.ok()) return Fail(hints.error().message);

@@ -195,13 +195,13 @@ void Agent::ReplayDead(const std::string& known_dead) {
 }
 
 void Agent::ReclaimDeadOwners() {
-  const Outcome<std::vector<std::string>> owners = store_.LeaseOwners();
+  const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
   if (!owners.ok()) {
     spdlog::warn("cannot look for dead agents: {}", owners.error().message);
     return;
   }
   const DataDir directory{options_.data_dir};
-  for (const std::string& owner : owners.value()) {
+  for (const auto& [owner, running] : owners.value()) {
     if (owner == owner_) continue;
     Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
     if (!lock.ok() || !lock.value()) continue;  // it lives

@@ -17,7 +17,7 @@
 #include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
-#include "server/store/sqlite_store.h"
+#include "server/store/open_store.h"
 
 namespace rollgait::server {
 namespace {
@@ -102,7 +102,7 @@ int Main(int argc, char** argv) {
   options.lifeline_fd = Lifeline();
 
   const SystemClock clock;
-  Outcome<std::unique_ptr<SqliteStore>> store = SqliteStore::Open(DataDir{options.data_dir}.Database(), clock);
+  Outcome<std::unique_ptr<SqlStore>> store = OpenStore({DataDir{options.data_dir}.Database()}, clock);
   if (!store.ok()) return Fail(store.error().message);
   Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, *store.value(), clock);
   if (!agent.ok()) return Fail(agent.error().message);

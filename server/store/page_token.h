@@ -11,10 +11,10 @@ namespace rollgait::server {
 
 // Where the next page begins, as a text that callers hand back unread: it names the filter it was made for and carries
 // a check sum, so that a damaged or foreign token is recognised. It grants nothing.
-std::string MakePageToken(int64_t before_number, const std::optional<SolveState>& state);
+std::string MakePageToken(int64_t before_number, const ListQuery& query);
 
-// The number the page lies below; nullopt if the token is not ours or was made for another filter.
-std::optional<int64_t> ParsePageToken(const std::string& token, const std::optional<SolveState>& state);
+// The number the query's page lies below; nullopt if its token is not ours or was made for another state or tenant.
+std::optional<int64_t> ParsePageToken(const ListQuery& query);
 
 }  // namespace rollgait::server
 

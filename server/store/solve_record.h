@@ -20,24 +20,47 @@ struct SolveRecord {
   std::string id;         // "solves/{id}" without the prefix
   std::string spec;       // v1::SolveSpec
   std::string solve_key;  // equal keys: equal answers; empty: equal to nothing
+  std::string tenant;     // whose it is; empty: of a server without authentication
+  // The solver that the key was made for (SHA-256 of the program); a result of another is not reused. Empty: of any.
+  std::string solver_fingerprint;
+  std::string traceparent;  // W3C; of the call that made it
   SolveState state = SolveState::kQueued;
   int64_t create_time_us = 0, start_time_us = 0, end_time_us = 0;  // wall clock, µs since 1970; 0: not yet
   int attempts = 0;                                                // how often it was claimed
   int crashes = 0;                                                 // how often its solver process died
   bool cancel_requested = false;
   bool from_cache = false;
-  int64_t last_sequence = 0;  // number of its newest event
+  int64_t last_sequence = 0;     // number of its newest event
+  int64_t trimmed_sequence = 0;  // events up to here are no longer held
   std::string result;         // v1::SolveResult; empty unless kSucceeded
   std::string error;          // v1::SolveError; empty unless kFailed or kCancelled
 };
 
+// Who asked for a change; goes into the audit row of its transaction.
+struct Actor {
+  std::string tenant, token_id, peer;
+};
+
+struct AuditRow {
+  int64_t number = 0;  // grows with time
+  int64_t time_us = 0;
+  Actor actor;
+  std::string action;   // create, cancel, delete, end, expire; others by server/access
+  std::string solve;    // id; empty: of none
+  std::string outcome;  // the solve's state, or what became of the call
+  std::string detail;
+};
+
 struct NewSolve {
   std::string id;          // unique, chosen by the caller
-  std::string request_id;  // empty: none
+  std::string request_id;  // of its tenant; empty: none
   std::string spec;
   std::string solve_key;
   int max_queued = 1000;       // refuse with kResourceExhausted if so many are queued already
   std::string warm_start = {};  // wire::WarmStart, kept until the solve ends; empty: none
+  Actor actor = {};             // its tenant is the solve's
+  int max_queued_tenant = 0;    // the same limit for the tenant alone; 0: none
+  std::string solver_fingerprint = {}, traceparent = {};
 };
 
 struct CreatedSolve {
@@ -52,6 +75,7 @@ struct ListQuery {
   int page_size = 50;
   std::string page_token;  // from the previous page; empty: first page
   std::optional<SolveState> state;
+  std::optional<std::string> tenant = std::nullopt;  // nullopt: of all
 };
 
 struct SolvePage {
@@ -108,6 +132,12 @@ enum class GiveBackReason {
 
 struct SolveCounts {
   int queued = 0, running = 0;
+  int64_t oldest_queued_us = 0;  // create_time_us; 0: none
+};
+
+struct LeaseOwner {
+  std::string owner;
+  int running = 0;  // solves
 };
 
 inline constexpr int kMaxCrashes = 3;

@@ -12,7 +12,8 @@
 namespace rollgait::server {
 
 // Where solves live. Every call is one transaction and durable when it returns; any number of threads and processes may
-// call. Every call may also fail with kUnavailable or kInternal. Implementations pass tests/server/store/.
+// call. Every call may also fail with kUnavailable (also: it may have happened), kResourceExhausted (no room on the disk)
+// or kInternal. What a person or an agent changes leaves a row in `audit` with it.
 //
 // Single flight: a queued solve is not claimed while a solve of the same key runs; when that one ends with a reusable
 // result, the queued ones of its key end with it (from_cache).
@@ -29,22 +30,26 @@ class SolveStore {
   virtual Outcome<SolvePage> List(const ListQuery& query) = 0;
   // Removes a solve, its events, and its result unless another solve shares it. kNotFound, kFailedPrecondition: not
   // terminal.
-  virtual Outcome<Done> Delete(const std::string& id) = 0;
+  virtual Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) = 0;
   // Queued: ends it at once as kCancelled. Running: sets the flag. Terminal: nothing. Returns the solve. kNotFound.
-  virtual Outcome<SolveRecord> RequestCancel(const std::string& id) = 0;
+  virtual Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) = 0;
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
-  // beyond the newest or negative.
+  // beyond the newest, negative, or before the oldest held (retention), which the message names.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
-  virtual Outcome<SolveCounts> Counts() = 0;
+  virtual Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) = 0;
+  // Rows with a larger number, in order, at most max_rows.
+  virtual Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) = 0;
 
   // For agents.
 
-  // Takes the oldest queued solve that may run: attempts + 1, RUNNING and its event. nullopt: none.
+  // Takes the oldest queued solve that may run (single flight, the tenant's max_running): attempts + 1, RUNNING and its
+  // event. nullopt: none.
   virtual Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner,
                                                          std::chrono::milliseconds duration) = 0;
   // Prolongs from now on. kLeaseLost.
   virtual Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) = 0;
-  // Appends in order; the `sequence` of the events given is ignored. kLeaseLost: nothing was written.
+  // Appends in order. An event whose `sequence` is given (not 0) and not beyond the newest is held already: so a call
+  // whose answer was lost can be made again. kLeaseLost: nothing was written.
   virtual Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) = 0;
   // Appends `events`, then writes result or error, state and the terminal event, all in one transaction. kLeaseLost.
   virtual Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) = 0;
@@ -54,7 +59,7 @@ class SolveStore {
   // Solves of this owner that are to be cancelled.
   virtual Outcome<std::vector<std::string>> CancelRequests(const std::string& owner) = 0;
   // Owners that hold leases now, expired or not.
-  virtual Outcome<std::vector<std::string>> LeaseOwners() = 0;
+  virtual Outcome<std::vector<LeaseOwner>> LeaseOwners() = 0;
   // Puts the running solves whose lease has expired (or is of an earlier boot) back into the queue (or ends them, if
   // they were to be cancelled). Not counted as a crash. Returns their ids.
   virtual Outcome<std::vector<std::string>> ReclaimExpired() = 0;

@@ -1,14 +1,90 @@
 #include "server/store/sqlite_connection.h"
 
-namespace rollgait::server {
+#include "server/store/sql_dialect.h"
 
-SqliteConnection::SqliteConnection(const std::string& path) {
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+namespace rollgait::server {
+namespace {
+
+SqlFailure::Kind KindOf(int code) {
+  switch (code & 0xff) {
+    case SQLITE_CONSTRAINT:
+      return SqlFailure::Kind::kConflict;
+    case SQLITE_FULL:
+      return SqlFailure::Kind::kFull;
+    case SQLITE_IOERR:  // a file that may not grow answers so
+      return (code == SQLITE_IOERR_WRITE || code == SQLITE_IOERR_SHMSIZE || code == SQLITE_IOERR_TRUNCATE)
+                 ? SqlFailure::Kind::kFull
+                 : SqlFailure::Kind::kUnavailable;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_NOMEM:
+      return SqlFailure::Kind::kUnavailable;
+    default:
+      return SqlFailure::Kind::kInternal;
+  }
+}
+
+class SqliteStatement : public SqlStatement {
+ public:
+  SqliteStatement(SqliteConnection& connection, sqlite3* handle, const char* sql)
+      : connection_(connection), handle_(handle), sql_(sql) {
+    const std::string text = Translate(sql, kSqliteDialect);
+    const int size = static_cast<int>(text.size());
+    if (sqlite3_prepare_v3(handle, text.data(), size, SQLITE_PREPARE_PERSISTENT, &statement_, nullptr) != SQLITE_OK) {
+      connection.Throw(sql);
+    }
+  }
+  ~SqliteStatement() override { sqlite3_finalize(statement_); }
+
+  void Bind(int index, int64_t value) override { Check(sqlite3_bind_int64(statement_, index, value)); }
+  void Bind(int index, double value) override { Check(sqlite3_bind_double(statement_, index, value)); }
+  void Bind(int index, const std::string& text) override {
+    Check(sqlite3_bind_text64(statement_, index, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+  }
+  void Bind(int index, const Blob& blob) override {
+    Check(sqlite3_bind_blob64(statement_, index, blob.bytes.data(), blob.bytes.size(), SQLITE_TRANSIENT));
+  }
+  bool Step() override {
+    const int code = sqlite3_step(statement_);
+    if (code == SQLITE_ROW) return true;
+    if (code != SQLITE_DONE) connection_.Throw(sql_);
+    changes_ = sqlite3_changes(handle_);
+    return false;
+  }
+  int64_t Int(int column) const override { return sqlite3_column_int64(statement_, column); }
+  double Double(int column) const override { return sqlite3_column_double(statement_, column); }
+  std::string Bytes(int column) const override {
+    const void* data = sqlite3_column_blob(statement_, column);
+    const int size = sqlite3_column_bytes(statement_, column);
+    return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), static_cast<size_t>(size));
+  }
+  int changes() const override { return changes_; }
+  void Reset() noexcept override {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+  }
+
+ private:
+  void Check(int code) const {
+    if (code != SQLITE_OK) connection_.Throw(sql_);
+  }
+
+  SqliteConnection& connection_;
+  sqlite3* const handle_;
+  const char* const sql_;
+  sqlite3_stmt* statement_ = nullptr;
+  int changes_ = 0;
+};
+
+}  // namespace
+
+SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) : clock_(clock) {
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
     const std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
     sqlite3_close(handle_);
-    throw SqliteFailure(code & 0xff, "cannot open " + path + ": " + reason);
+    throw SqlFailure(KindOf(code), "cannot open " + path + ": " + reason);
   }
   try {
     sqlite3_busy_timeout(handle_, 5000);
@@ -20,80 +96,46 @@ SqliteConnection::SqliteConnection(const std::string& path) {
 }
 
 SqliteConnection::~SqliteConnection() {
-  for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+  statements_.clear();
   sqlite3_close(handle_);
 }
 
-void SqliteConnection::Execute(const char* sql) {
-  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) Throw(sql);
+SqlStatement& SqliteConnection::Prepared(const char* sql) {
+  std::unique_ptr<SqlStatement>& statement = statements_[sql];
+  if (statement == nullptr) statement = std::make_unique<SqliteStatement>(*this, handle_, sql);
+  return *statement;
 }
 
-sqlite3_stmt* SqliteConnection::Prepared(const char* sql) {
-  sqlite3_stmt*& statement = statements_[sql];
-  if (statement == nullptr &&
-      sqlite3_prepare_v3(handle_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement, nullptr) != SQLITE_OK) {
-    Throw(sql);
-  }
-  return statement;
+void SqliteConnection::Execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, Translate(sql, kSqliteDialect).c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Throw(sql);
 }
 
-void SqliteConnection::Throw(const char* sql) const {
-  throw SqliteFailure(sqlite3_errcode(handle_) & 0xff, std::string(sqlite3_errmsg(handle_)) + " in: " + sql);
+void SqliteConnection::Begin(Access access) { Query(*this, access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN").Run(); }
+
+void SqliteConnection::Commit() { Query(*this, "COMMIT").Run(); }
+
+void SqliteConnection::Rollback() noexcept {
+  // SQLite may have rolled back by itself (disk full, I/O error): then nothing is left to undo.
+  if (sqlite3_get_autocommit(handle_) == 0) sqlite3_exec(handle_, "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
-Query::~Query() {
-  sqlite3_reset(statement_);
-  sqlite3_clear_bindings(statement_);
+// A table that is replaced would take along the rows that refer to it, and take their references with it when it is
+// renamed.
+void SqliteConnection::BeginSchemaChange() {
+  Execute("PRAGMA foreign_keys=OFF; PRAGMA legacy_alter_table=ON;");
+  Begin(Access::kWrite);
 }
 
-bool Query::Step() {
-  const int code = sqlite3_step(statement_);
-  if (code == SQLITE_ROW) return true;
-  if (code == SQLITE_DONE) return false;
-  connection_.Throw(sql_);
+void SqliteConnection::EndSchemaChange() noexcept {
+  sqlite3_exec(handle_, "PRAGMA legacy_alter_table=OFF; PRAGMA foreign_keys=ON;", nullptr, nullptr, nullptr);
 }
 
-int Query::Run() {
-  while (Step()) {
-  }
-  return connection_.changes();
+bool SqliteConnection::HasSchema() {
+  return Query(*this, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'schema_version'").Step();
 }
 
-std::string Query::Bytes(int column) const {
-  const void* data = sqlite3_column_blob(statement_, column);
-  const int size = sqlite3_column_bytes(statement_, column);
-  return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), static_cast<size_t>(size));
-}
-
-void Query::Bind(int index, const std::string& text) {
-  if (sqlite3_bind_text64(statement_, index, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8) != SQLITE_OK) {
-    connection_.Throw(sql_);
-  }
-}
-
-void Query::Bind(int index, const Blob& blob) {
-  const std::string& bytes = blob.bytes;
-  if (sqlite3_bind_blob64(statement_, index, bytes.data(), bytes.size(), SQLITE_TRANSIENT) != SQLITE_OK) {
-    connection_.Throw(sql_);
-  }
-}
-
-Transaction::Transaction(SqliteConnection& connection, Kind kind) : connection_(connection) {
-  Query(connection_, kind == Kind::kWrite ? "BEGIN IMMEDIATE" : "BEGIN").Run();
-}
-
-Transaction::~Transaction() {
-  if (!open_) return;
-  try {
-    Query(connection_, "ROLLBACK").Run();
-  } catch (const SqliteFailure&) {
-    // SQLite has already rolled back by itself (disk full, I/O error): nothing is left to undo.
-  }
-}
-
-void Transaction::Commit() {
-  Query(connection_, "COMMIT").Run();
-  open_ = false;
+void SqliteConnection::Throw(const std::string& sql) const {
+  throw SqlFailure(KindOf(sqlite3_extended_errcode(handle_)), std::string(sqlite3_errmsg(handle_)) + " in: " + sql);
 }
 
 }  // namespace rollgait::server

@@ -15,7 +15,7 @@
 
 #include "rollgait/v1/solve.pb.h"
 #include "server/agent/agent.h"
-#include "server/store/sqlite_store.h"
+#include "server/store/open_store.h"
 
 namespace rollgait::server {
 
@@ -26,7 +26,7 @@ class AgentFixture : public ::testing::Test {
     std::string pattern = (std::filesystem::temp_directory_path() / "rollgait-agent-XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     directory_ = pattern;
-    store_ = std::move(SqliteStore::Open(DataDir{directory_}.Database(), clock_)).value();
+    store_ = std::move(OpenStore({DataDir{directory_}.Database()}, clock_)).value();
     ASSERT_EQ(pipe(stop_.data()), 0);
     ASSERT_EQ(pipe(lifeline_.data()), 0);
   }
@@ -117,7 +117,7 @@ class AgentFixture : public ::testing::Test {
 
   std::string directory_;
   SystemClock clock_;
-  std::unique_ptr<SqliteStore> store_;
+  std::unique_ptr<SqlStore> store_;
   std::array<int, 2> stop_ = {-1, -1}, lifeline_ = {-1, -1};
   int count_ = 0;
 };

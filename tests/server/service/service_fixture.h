@@ -10,7 +10,7 @@
 #include "server/base/data_dir.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
-#include "server/store/sqlite_store.h"
+#include "server/store/open_store.h"
 #include "tests/server/store/temporary_directory.h"
 
 namespace rollgait::server {
@@ -55,12 +55,12 @@ inline v1::SolveSpec PlanarSpec(double slope = 0.1) {
 class ServiceBench {
  public:
   explicit ServiceBench(std::chrono::milliseconds heartbeat = std::chrono::hours(1), ServiceOptions options = {})
-      : store_(SqliteStore::Open(directory_.path() + "/rollgait.db", clock_).value()),
+      : store_(OpenStore({directory_.path() + "/rollgait.db"}, clock_).value()),
         hub_(*store_, NotifyReceiver::Create(directory_.path(), kServerSocket).value(), heartbeat),
         hints_(NotifySender::Create(directory_.path(), kServerSocket).value()),
         service_(*store_, SmallKnowledge(), std::move(options), [this](const std::string& id) { hub_.Changed(id); }) {}
 
-  SqliteStore& store() { return *store_; }
+  SqlStore& store() { return *store_; }
   WatchHub& hub() { return hub_; }
   SolveService& service() { return service_; }
   void Hint(const std::string& id) { hints_.Send(id); }
@@ -94,7 +94,7 @@ class ServiceBench {
  private:
   TemporaryDirectory directory_;
   SystemClock clock_;
-  std::unique_ptr<SqliteStore> store_;
+  std::unique_ptr<SqlStore> store_;
   WatchHub hub_;
   NotifySender hints_;
   SolveService service_;

@@ -103,8 +103,13 @@ TEST_P(SolveStoreConformance, ReclaimedSolvesRunAgainAndNumbersGoOn) {
   const Lease dead = bench.Claim("dead");
   const Lease alive = bench.Claim("alive");
   ASSERT_TRUE(bench.store().AppendEvents(dead, {IterationEvent(0)}).ok());
-  const std::vector<std::string> owners = bench.store().LeaseOwners().value();
-  EXPECT_EQ(std::set<std::string>(owners.begin(), owners.end()), (std::set<std::string>{"dead", "alive"}));
+  std::set<std::string> owners;
+  const std::vector<LeaseOwner> lease_owners = bench.store().LeaseOwners().value();
+  for (const LeaseOwner& owner : lease_owners) {
+    owners.insert(owner.owner);
+    EXPECT_EQ(owner.running, 1);
+  }
+  EXPECT_EQ(owners, (std::set<std::string>{"dead", "alive"}));
   EXPECT_EQ(bench.store().ReclaimOwner("dead").value(), std::vector<std::string>{"a"});
   EXPECT_TRUE(bench.store().RenewLease(alive, kLeaseDuration).ok());
   const ClaimedSolve again = bench.store().ClaimNext("next", kLeaseDuration).value().value();

@@ -1,9 +1,11 @@
-#include "server/store/sqlite_store.h"
-
+// What is SQLite's own.
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "server/store/open_store.h"
+#include "server/store/schema.h"
+#include "server/store/sqlite_connection.h"
 #include "tests/server/store/solve_store_conformance.h"
 #include "tests/server/store/temporary_directory.h"
 
@@ -11,7 +13,7 @@ namespace rollgait::server {
 namespace {
 
 std::unique_ptr<SolveStore> OpenIn(const std::string& directory, const Clock& clock) {
-  auto store = SqliteStore::Open(directory + "/rollgait.db", clock);
+  auto store = OpenStore({directory + "/rollgait.db"}, clock);
   ROLLGAIT_CHECK(store.ok());
   return std::move(store).value();
 }
@@ -24,38 +26,106 @@ TEST(SqliteStoreTest, FilesThatAreNotOursAreRefused) {
   const FakeClock clock;
   std::ofstream(directory.path() + "/text.db")
       << "this is a text, and longer than the header of a database would be: " << std::string(200, 'x');
-  const auto text = SqliteStore::Open(directory.path() + "/text.db", clock);
+  const auto text = OpenStore({directory.path() + "/text.db"}, clock);
   ASSERT_FALSE(text.ok());
   EXPECT_EQ(text.error().code, ErrorCode::kUnavailable);
-  EXPECT_FALSE(SqliteStore::Open(directory.path() + "/no/such/directory.db", clock).ok());
+  EXPECT_FALSE(OpenStore({directory.path() + "/no/such/directory.db"}, clock).ok());
 }
 
-TEST(SqliteStoreTest, AnotherSchemaVersionIsRefused) {
+TEST(SqliteStoreTest, ANewerSchemaVersionIsRefusedByName) {
   const TemporaryDirectory directory;
   const FakeClock clock;
   const std::string path = directory.path() + "/rollgait.db";
-  ASSERT_TRUE(SqliteStore::Open(path, clock).ok());
-  SqliteConnection(path).Execute("UPDATE schema_version SET version = 99");
-  const auto newer = SqliteStore::Open(path, clock);
+  ASSERT_TRUE(OpenStore({path}, clock).ok());
+  SqliteConnection(path, clock).Execute("UPDATE schema_version SET version = 99");
+  const auto newer = OpenStore({path}, clock);
   ASSERT_FALSE(newer.ok());
   EXPECT_NE(newer.error().message.find("99"), std::string::npos) << newer.error().message;
+  EXPECT_NE(newer.error().message.find(path), std::string::npos) << newer.error().message;
 }
 
-TEST(SqliteStoreTest, AFileFromBeforeWarmStartsGetsTheirTable) {
+// A file as version 1 wrote it, with a solve that ended, one that runs and one that waits.
+void WriteVersion1(const std::string& path, const Clock& clock) {
+  SqliteConnection connection(path, clock);
+  connection.Execute(R"(
+    CREATE TABLE schema_version (version INTEGER NOT NULL);
+    CREATE TABLE results (id INTEGER PRIMARY KEY, solve_key TEXT NOT NULL, reusable INTEGER NOT NULL,
+      payload BLOB NOT NULL);
+    CREATE INDEX results_by_key ON results (solve_key) WHERE reusable = 1;
+    CREATE TABLE solves (
+      number INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, request_id TEXT UNIQUE, spec BLOB NOT NULL,
+      solve_key TEXT NOT NULL, state INTEGER NOT NULL, create_time_us INTEGER NOT NULL,
+      start_time_us INTEGER NOT NULL DEFAULT 0, end_time_us INTEGER NOT NULL DEFAULT 0,
+      attempts INTEGER NOT NULL DEFAULT 0, crashes INTEGER NOT NULL DEFAULT 0,
+      cancel_requested INTEGER NOT NULL DEFAULT 0, from_cache INTEGER NOT NULL DEFAULT 0,
+      last_sequence INTEGER NOT NULL DEFAULT 0, result_id INTEGER REFERENCES results (id), error BLOB, owner TEXT,
+      epoch INTEGER NOT NULL DEFAULT 0, lease_boot_id TEXT, lease_end_ns INTEGER);
+    CREATE INDEX solves_by_state ON solves (state, number);
+    CREATE INDEX solves_by_key ON solves (solve_key, state);
+    CREATE INDEX solves_by_result ON solves (result_id);
+    CREATE TABLE events (solve INTEGER NOT NULL REFERENCES solves (number) ON DELETE CASCADE,
+      sequence INTEGER NOT NULL, kind INTEGER NOT NULL, payload BLOB NOT NULL,
+      PRIMARY KEY (solve, sequence)) WITHOUT ROWID;
+    INSERT INTO schema_version VALUES (1);
+    INSERT INTO results VALUES (7, 'key', 1, x'616e73776572');
+    INSERT INTO solves (number, id, request_id, spec, solve_key, state, create_time_us, end_time_us, attempts,
+      last_sequence, result_id) VALUES (3, 'old', 'request', x'73', 'key', 3, 11, 12, 1, 3, 7);
+    INSERT INTO solves (number, id, spec, solve_key, state, create_time_us, start_time_us, attempts, last_sequence,
+      owner, epoch, lease_boot_id, lease_end_ns) VALUES (4, 'runs', x'73', 'k2', 2, 11, 12, 1, 2, 'agent', 5, 'b', 9);
+    INSERT INTO solves (number, id, spec, solve_key, state, create_time_us, last_sequence)
+      VALUES (5, 'waits', x'73', 'k3', 1, 11, 1);
+    INSERT INTO events VALUES (3, 1, 1, x''), (3, 2, 1, x''), (3, 3, 3, x''), (4, 1, 1, x''), (4, 2, 1, x''),
+      (5, 1, 1, x'');)");
+}
+
+TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
   const TemporaryDirectory directory;
   const FakeClock clock;
   const std::string path = directory.path() + "/rollgait.db";
-  ASSERT_TRUE(SqliteStore::Open(path, clock).ok());
-  SqliteConnection(path).Execute("DROP TABLE warm_starts");
-  const auto store = SqliteStore::Open(path, clock);
-  ASSERT_TRUE(store.ok());
-  ASSERT_TRUE(store.value()->Create({"a", "", "s", "", 9, "start"}).ok());
-  EXPECT_EQ(store.value()->ClaimNext("agent", kLeaseDuration).value().value().warm_start, "start");
+  WriteVersion1(path, clock);
+  for (int opened = 0; opened < 2; ++opened) {
+    const auto store = OpenStore({path}, clock);
+    ASSERT_TRUE(store.ok()) << store.error().message;
+    EXPECT_EQ(store.value()->Get("old").value().result, "answer");
+    EXPECT_EQ(store.value()->Get("old").value().tenant, "");
+    EXPECT_EQ(store.value()->ReadEvents("old", 0, 10).value().events.size(), 3u);
+    EXPECT_EQ(store.value()->Counts().value().queued, 1);
+  }
+  const auto store = OpenStore({path}, clock);
+  // The old lease is still good, the old request_id is known, the old result answers, and parts go with their solve.
+  EXPECT_TRUE(store.value()->AppendEvents({"runs", "agent", 5}, {}).ok());
+  EXPECT_FALSE(store.value()->Create({"again", "request", "s", "key"}).value().created);
+  EXPECT_TRUE(store.value()->Create({"equal", "", "s", "key"}).value().record.from_cache);
+  EXPECT_TRUE(store.value()->Delete("old").ok());
+  SqliteConnection connection(path, clock);
+  Query events(connection, "SELECT COUNT(*) FROM events WHERE solve = 3");
+  ASSERT_TRUE(events.Step());
+  EXPECT_EQ(events.Int(0), 0);
+  Query check(connection, "PRAGMA foreign_key_check");
+  EXPECT_FALSE(check.Step());
+  ASSERT_TRUE(store.value()->Create({"warm", "", "s", "", 9, "start"}).ok());
+}
+
+TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  WriteVersion1(path, clock);
+  SqliteConnection connection(path, clock);
+  connection.Execute("CREATE TABLE audit (mine INTEGER)");
+  EXPECT_FALSE(OpenStore({path}, clock).ok());
+  Query version(connection, "SELECT version FROM schema_version");
+  ASSERT_TRUE(version.Step());
+  EXPECT_EQ(version.Int(0), 1);
+  Query rows(connection, "SELECT COUNT(*) FROM solves JOIN events ON solve = number");
+  ASSERT_TRUE(rows.Step());
+  EXPECT_EQ(rows.Int(0), 6);
 }
 
 TEST(SqliteStoreTest, CommitsAreSynchronisedToDisk) {
   const TemporaryDirectory directory;
-  SqliteConnection connection(directory.path() + "/rollgait.db");
+  const FakeClock clock;
+  SqliteConnection connection(directory.path() + "/rollgait.db", clock);
   Query mode(connection, "PRAGMA journal_mode");
   ASSERT_TRUE(mode.Step());
   EXPECT_EQ(mode.Bytes(0), "wal");

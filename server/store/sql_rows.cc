@@ -1,4 +1,7 @@
-#include "server/store/sqlite_rows.h"
+#include "server/store/sql_rows.h"
+
+#include <algorithm>
+#include <cctype>
 
 #include "rollgait/v1/solve.pb.h"
 
@@ -18,7 +21,28 @@ void DropLease(SolveRow& row) {
   row.lease_end_ns = 0;
 }
 
+const char* NameOf(SolveState state) {
+  switch (state) {
+    case SolveState::kQueued:
+      return "queued";
+    case SolveState::kRunning:
+      return "running";
+    case SolveState::kSucceeded:
+      return "succeeded";
+    case SolveState::kFailed:
+      return "failed";
+    case SolveState::kCancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
 }  // namespace
+
+bool CouldBeId(const std::string& text) {
+  const auto is_plain = [](unsigned char letter) { return std::isalnum(letter) || letter == '-' || letter == '_'; };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), is_plain);
+}
 
 SolveRow ReadSolve(const Query& query) {
   SolveRow row;
@@ -42,16 +66,24 @@ SolveRow ReadSolve(const Query& query) {
   row.epoch = query.Int(16);
   row.lease_boot_id = query.Bytes(17);
   row.lease_end_ns = query.Int(18);
+  record.tenant = query.Bytes(19);
+  record.solver_fingerprint = query.Bytes(20);
+  record.traceparent = query.Bytes(21);
+  record.trimmed_sequence = query.Int(22);
   return row;
 }
 
-std::optional<SolveRow> FindSolve(SqliteConnection& connection, const std::string& id) {
-  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ?", id);
+std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id, RowLock lock) {
+  if (!CouldBeId(id)) return std::nullopt;
+  Query query(connection,
+              lock == RowLock::kHeld ? "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ? {for_update}"
+                                     : "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ?",
+              id);
   if (!query.Step()) return std::nullopt;
   return ReadSolve(query);
 }
 
-void SaveSolve(SqliteConnection& connection, const SolveRow& row) {
+void SaveSolve(SqlConnection& connection, const SolveRow& row) {
   const SolveRecord& record = row.record;
   Query(connection,
         "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
@@ -63,13 +95,13 @@ void SaveSolve(SqliteConnection& connection, const SolveRow& row) {
       .Run();
 }
 
-void AppendEvent(SqliteConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
+void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
   Query(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", row.number,
         ++row.record.last_sequence, static_cast<int>(kind), Blob{payload})
       .Run();
 }
 
-void ChangeState(SqliteConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
+void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
                  int64_t now_us) {
   row.record.state = state;
   v1::SolveEvent event = EventAt(now_us);
@@ -79,7 +111,7 @@ void ChangeState(SqliteConnection& connection, SolveRow& row, SolveState state, 
   AppendEvent(connection, row, EventKind::kStateChange, event.SerializeAsString());
 }
 
-void EndSolve(SqliteConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
+void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
               const std::string& error, int64_t now_us) {
   row.record.state = state;
   row.record.end_time_us = now_us;
@@ -89,9 +121,11 @@ void EndSolve(SqliteConnection& connection, SolveRow& row, SolveState state, int
   Query(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number).Run();
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
   SaveSolve(connection, row);
+  const std::string detail = row.record.from_cache ? "from cache" : "attempts " + std::to_string(row.record.attempts);
+  AddAudit(connection, {Actor{row.record.tenant, "", ""}, "end", row.record.id, NameOf(state), detail}, now_us);
 }
 
-void RequeueSolve(SqliteConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us) {
+void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us) {
   if (row.record.cancel_requested) {
     EndSolve(connection, row, SolveState::kCancelled, 0, CancelledError(), now_us);
     return;
@@ -101,10 +135,19 @@ void RequeueSolve(SqliteConnection& connection, SolveRow& row, const std::string
   SaveSolve(connection, row);
 }
 
-int64_t FindReusableResult(SqliteConnection& connection, const std::string& solve_key) {
+int64_t FindReusableResult(SqlConnection& connection, const std::string& solve_key) {
   if (solve_key.empty()) return 0;
   Query query(connection, "SELECT id FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1", solve_key);
   return query.Step() ? query.Int(0) : 0;
+}
+
+void AddAudit(SqlConnection& connection, const AuditEntry& entry, int64_t now_us) {
+  Query(connection,
+        "INSERT INTO audit (time_us, tenant, token_id, peer, action, solve, outcome, detail) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        now_us, entry.actor.tenant, entry.actor.token_id, entry.actor.peer, entry.action, entry.solve, entry.outcome,
+        entry.detail)
+      .Run();
 }
 
 std::string CancelledError() {

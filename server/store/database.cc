@@ -1,0 +1,150 @@
+#include "server/store/database.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "server/store/schema.h"
+
+namespace rollgait::server {
+namespace {
+
+using Kind = SqlFailure::Kind;
+
+constexpr int kConflicts = 30;  // in a row, before a call gives up
+constexpr int kLosses = 2;
+
+// Those that were in each other's way do not meet again at the same moment.
+void PauseAfterConflict(int conflicts) {
+  thread_local std::minstd_rand random(std::random_device{}());
+  const int longest = std::min(20, 1 << std::min(conflicts, 5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution<>(0, longest)(random)));
+}
+
+Error ToError(const SqlFailure& failure) {
+  switch (failure.kind()) {
+    case Kind::kFull:
+      return {ErrorCode::kResourceExhausted,
+              std::string("the store has no room on its disk: ") + failure.what() +
+                  "; nothing is lost, and it goes on by itself when there is room",
+              {},
+              std::chrono::milliseconds(10'000)};
+    case Kind::kConflict:
+    case Kind::kLost:
+    case Kind::kUnavailable:
+      return {ErrorCode::kUnavailable, std::string("the store cannot do this now: ") + failure.what()};
+    case Kind::kInternal:
+      break;
+  }
+  return {ErrorCode::kInternal, std::string("the store failed: ") + failure.what()};
+}
+
+}  // namespace
+
+std::unique_ptr<SqlConnection> Database::Take(SqlConnection::Access access) {
+  const bool write = access == SqlConnection::Access::kWrite;
+  Pool& pool = write ? writers_ : readers_;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    returned_.wait(lock, [&] { return !pool.idle.empty() || pool.open < (write ? options_.writers : options_.readers); });
+    if (!pool.idle.empty()) {
+      std::unique_ptr<SqlConnection> connection = std::move(pool.idle.back());
+      pool.idle.pop_back();
+      return connection;
+    }
+    ++pool.open;
+  }
+  try {
+    return options_.connect();
+  } catch (...) {
+    Return(access, nullptr);
+    throw;
+  }
+}
+
+void Database::Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Pool& pool = access == SqlConnection::Access::kWrite ? writers_ : readers_;
+    if (connection != nullptr && !connection->lost()) {
+      pool.idle.push_back(std::move(connection));
+    } else {
+      --pool.open;
+    }
+  }
+  returned_.notify_all();
+}
+
+// One lost connection is seldom the only one.
+void Database::DropIdle() {
+  std::vector<std::unique_ptr<SqlConnection>> dropped;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (Pool* pool : {&writers_, &readers_}) {
+      pool->open -= static_cast<int>(pool->idle.size());
+      std::move(pool->idle.begin(), pool->idle.end(), std::back_inserter(dropped));
+      pool->idle.clear();
+    }
+  }
+  returned_.notify_all();
+}
+
+void Database::Attempt(SqlConnection& connection, SqlConnection::Access access,
+                       const std::function<bool(SqlConnection&)>& body, bool* committing) {
+  try {
+    connection.Begin(access);
+    if (body(connection)) {
+      *committing = access == SqlConnection::Access::kWrite;
+      connection.Commit();
+    } else {
+      connection.Rollback();
+    }
+  } catch (...) {
+    connection.Rollback();
+    throw;
+  }
+}
+
+Outcome<Done> Database::PrepareSchema() {
+  constexpr SqlConnection::Access kWrite = SqlConnection::Access::kWrite;
+  std::unique_ptr<SqlConnection> connection;
+  try {
+    connection = Take(kWrite);
+    EnsureSchema(*connection);
+  } catch (const SqlFailure& failure) {
+    if (connection != nullptr) Return(kWrite, std::move(connection));
+    return ToError(failure);
+  }
+  Return(kWrite, std::move(connection));
+  return Done{};
+}
+
+Database::Result Database::Transact(SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body) {
+  for (int conflicts = 0, losses = 0;;) {
+    std::unique_ptr<SqlConnection> connection;
+    bool committing = false;
+    try {
+      connection = Take(access);
+      Attempt(*connection, access, body, &committing);
+      Return(access, std::move(connection));
+      return std::nullopt;
+    } catch (const SqlFailure& failure) {
+      const bool connected = connection != nullptr;
+      if (connected) Return(access, std::move(connection));
+      if (failure.kind() == Kind::kLost && connected) {
+        DropIdle();
+        if (!committing && ++losses <= kLosses) continue;
+      }
+      if (failure.kind() != Kind::kConflict || ++conflicts > kConflicts) return ToError(failure);
+      PauseAfterConflict(conflicts);
+    } catch (...) {
+      if (connection != nullptr) Return(access, std::move(connection));
+      throw;
+    }
+  }
+}
+
+}  // namespace rollgait::server

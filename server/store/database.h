@@ -1,0 +1,80 @@
+#ifndef ROLLGAIT_SERVER_STORE_DATABASE_H_
+#define ROLLGAIT_SERVER_STORE_DATABASE_H_
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/base/outcome.h"
+#include "server/store/sql_connection.h"
+
+namespace rollgait::server {
+
+// Connections to one database, made when needed and used again. Any thread may call; a call waits when all are in use.
+class Database {
+ public:
+  struct Options {
+    std::string name;  // for messages; without a password
+    std::function<std::unique_ptr<SqlConnection>()> connect;
+    int writers = 1, readers = 2;  // most connections of each kind
+  };
+  explicit Database(Options options) : options_(std::move(options)) {}
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  // Runs `body(SqlConnection&)`, which returns an Outcome, in a transaction; commits if the outcome is good. The body
+  // may run more than once: again after a conflict with another transaction and, if the connection was lost before the
+  // commit was asked for, over a new one. kUnavailable also when it is not known whether the commit has happened.
+  template <typename Body>
+  auto Write(Body body) {
+    return Run(SqlConnection::Access::kWrite, body);
+  }
+  // The same for a body that changes nothing: one snapshot, retried after any loss of the connection.
+  template <typename Body>
+  auto Read(Body body) {
+    return Run(SqlConnection::Access::kRead, body);
+  }
+  // EnsureSchema (schema.h) over one of the connections.
+  Outcome<Done> PrepareSchema();
+  const std::string& name() const { return options_.name; }
+
+ private:
+  using Result = std::optional<Error>;
+  struct Pool {
+    std::vector<std::unique_ptr<SqlConnection>> idle;
+    int open = 0;
+  };
+
+  template <typename Body>
+  auto Run(SqlConnection::Access access, Body& body) -> decltype(body(std::declval<SqlConnection&>())) {
+    using Answer = decltype(body(std::declval<SqlConnection&>()));
+    std::optional<Answer> answer;
+    const Result failure = Transact(access, [&](SqlConnection& connection) {
+      answer.emplace(body(connection));
+      return answer->ok();
+    });
+    return failure.has_value() ? Answer(*failure) : std::move(*answer);
+  }
+
+  // `body` returns whether to commit.
+  Result Transact(SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body);
+  void Attempt(SqlConnection& connection, SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body,
+               bool* committing);
+  std::unique_ptr<SqlConnection> Take(SqlConnection::Access access);
+  void Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection);
+  void DropIdle();
+
+  const Options options_;
+  std::mutex mutex_;  // protects the pools
+  std::condition_variable returned_;
+  Pool writers_, readers_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_STORE_DATABASE_H_

@@ -1,0 +1,181 @@
+#include "server/store/schema.h"
+
+#include <string>
+
+namespace rollgait::server {
+namespace {
+
+constexpr char kVersionTable[] = "CREATE TABLE schema_version (version BIGINT NOT NULL);";
+
+// Results are apart from solves, because several solves may share one (from_cache).
+constexpr char kResults[] = R"(
+CREATE TABLE results (
+  id {serial_key},
+  solve_key TEXT NOT NULL,
+  reusable BIGINT NOT NULL,
+  payload {blob} NOT NULL);
+CREATE INDEX results_by_key ON results (solve_key) WHERE reusable = 1;
+)";
+
+// `number` is the order of creation.
+constexpr char kSolves[] = R"(
+CREATE TABLE solves (
+  number {serial_key},
+  id TEXT NOT NULL UNIQUE,
+  tenant TEXT NOT NULL DEFAULT '',
+  request_id TEXT,
+  spec {blob} NOT NULL,
+  solve_key TEXT NOT NULL,
+  solver_fingerprint TEXT NOT NULL DEFAULT '',
+  traceparent TEXT NOT NULL DEFAULT '',
+  state BIGINT NOT NULL,
+  create_time_us BIGINT NOT NULL,
+  start_time_us BIGINT NOT NULL DEFAULT 0,
+  end_time_us BIGINT NOT NULL DEFAULT 0,
+  attempts BIGINT NOT NULL DEFAULT 0,
+  crashes BIGINT NOT NULL DEFAULT 0,
+  cancel_requested BIGINT NOT NULL DEFAULT 0,
+  from_cache BIGINT NOT NULL DEFAULT 0,
+  last_sequence BIGINT NOT NULL DEFAULT 0,
+  trimmed_sequence BIGINT NOT NULL DEFAULT 0,
+  result_id BIGINT REFERENCES results (id),
+  error {blob},
+  owner TEXT,
+  epoch BIGINT NOT NULL DEFAULT 0,
+  lease_boot_id TEXT,
+  lease_end_ns BIGINT);
+)";
+
+// The last one is single flight, whoever claims.
+constexpr char kSolveIndexes[] = R"(
+CREATE UNIQUE INDEX solves_by_request ON solves (tenant, request_id);
+CREATE INDEX solves_by_state ON solves (state, number);
+CREATE INDEX solves_by_tenant ON solves (tenant, number);
+CREATE INDEX solves_by_tenant_state ON solves (tenant, state, number);
+CREATE INDEX solves_by_key ON solves (solve_key, state);
+CREATE INDEX solves_by_result ON solves (result_id);
+CREATE INDEX solves_by_end ON solves (end_time_us) WHERE end_time_us > 0;
+CREATE UNIQUE INDEX solves_running_once ON solves (solve_key) WHERE state = 2 AND solve_key <> '';
+)";
+
+// A warm start is a copy of what a solve that has not ended starts from, so that the solve it came from may be deleted.
+constexpr char kPartsOfSolves[] = R"(
+CREATE TABLE events (
+  solve BIGINT NOT NULL REFERENCES solves (number) ON DELETE CASCADE,
+  sequence BIGINT NOT NULL,
+  kind BIGINT NOT NULL,
+  payload {blob} NOT NULL,
+  PRIMARY KEY (solve, sequence)) {clustered};
+CREATE TABLE warm_starts (
+  solve BIGINT PRIMARY KEY REFERENCES solves (number) ON DELETE CASCADE,
+  payload {blob} NOT NULL);
+)";
+
+// Times are wall clock, microseconds since 1970. A token's expire_time_us and revoke_time_us: 0 is never; limits of a
+// tenant: -1 is the server's default.
+constexpr char kAccess[] = R"(
+CREATE TABLE tokens (
+  id TEXT PRIMARY KEY,
+  hash TEXT NOT NULL UNIQUE,
+  tenant TEXT NOT NULL,
+  scopes TEXT NOT NULL,
+  create_time_us BIGINT NOT NULL,
+  expire_time_us BIGINT NOT NULL DEFAULT 0,
+  revoke_time_us BIGINT NOT NULL DEFAULT 0,
+  note TEXT NOT NULL DEFAULT '');
+CREATE TABLE tenants (
+  tenant TEXT PRIMARY KEY,
+  max_queued BIGINT NOT NULL DEFAULT -1,
+  max_running BIGINT NOT NULL DEFAULT -1,
+  max_watches BIGINT NOT NULL DEFAULT -1,
+  creates_per_s DOUBLE PRECISION NOT NULL DEFAULT -1);
+CREATE TABLE audit (
+  number {serial_key},
+  time_us BIGINT NOT NULL,
+  tenant TEXT NOT NULL DEFAULT '',
+  token_id TEXT NOT NULL DEFAULT '',
+  peer TEXT NOT NULL DEFAULT '',
+  action TEXT NOT NULL,
+  solve TEXT NOT NULL DEFAULT '',
+  outcome TEXT NOT NULL DEFAULT '',
+  detail TEXT NOT NULL DEFAULT '');
+CREATE INDEX audit_by_time ON audit (time_us);
+CREATE INDEX audit_by_tenant ON audit (tenant, number);
+)";
+
+// Version 1 existed on SQLite only. request_id was unique by itself, which takes a new table to undo; the rows of other
+// tables go on referring to it by its name.
+constexpr char kMoveSolves[] = R"(
+DROP INDEX solves_by_state;
+DROP INDEX solves_by_key;
+DROP INDEX solves_by_result;
+ALTER TABLE solves RENAME TO solves_1;
+)";
+constexpr char kCopySolves[] = R"(
+INSERT INTO solves (number, id, request_id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts,
+  crashes, cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, lease_boot_id, lease_end_ns)
+SELECT number, id, request_id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts,
+  crashes, cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, lease_boot_id, lease_end_ns
+FROM solves_1;
+DROP TABLE solves_1;
+)";
+constexpr char kWarmStartsOf1[] = R"(
+CREATE TABLE IF NOT EXISTS warm_starts (
+  solve INTEGER PRIMARY KEY REFERENCES solves (number) ON DELETE CASCADE,
+  payload BLOB NOT NULL);
+)";
+
+void MakeAll(SqlConnection& connection) {
+  for (const char* part : {kVersionTable, kResults, kSolves, kSolveIndexes, kPartsOfSolves, kAccess}) {
+    connection.Execute(part);
+  }
+  Query(connection, "INSERT INTO schema_version (version) VALUES (?)", kSchemaVersion).Run();
+}
+
+void From1To2(SqlConnection& connection) {
+  for (const char* part : {kWarmStartsOf1, kMoveSolves, kSolves, kCopySolves, kSolveIndexes, kAccess}) {
+    connection.Execute(part);
+  }
+}
+
+using Step = void (*)(SqlConnection&);
+// kSteps[i] leads from version i + 1 to i + 2.
+constexpr Step kSteps[] = {From1To2};
+static_assert(std::size(kSteps) == kSchemaVersion - 1);
+
+void BringUp(SqlConnection& connection) {
+  int64_t version = 0;
+  {
+    Query query(connection, "SELECT version FROM schema_version");
+    if (query.Step()) version = query.Int(0);
+  }
+  if (version < 1 || version > kSchemaVersion) {
+    throw SqlFailure(SqlFailure::Kind::kInternal,
+                     "it has schema version " + std::to_string(version) + ", this program reads versions 1 to " +
+                         std::to_string(kSchemaVersion) + "; run a program at least as new as the one that wrote it");
+  }
+  if (version == kSchemaVersion) return;
+  for (int64_t from = version; from < kSchemaVersion; ++from) kSteps[from - 1](connection);
+  Query(connection, "UPDATE schema_version SET version = ?", kSchemaVersion).Run();
+}
+
+}  // namespace
+
+void EnsureSchema(SqlConnection& connection) {
+  connection.BeginSchemaChange();
+  try {
+    if (connection.HasSchema()) {
+      BringUp(connection);
+    } else {
+      MakeAll(connection);
+    }
+    connection.Commit();
+  } catch (...) {
+    connection.Rollback();
+    connection.EndSchemaChange();
+    throw;
+  }
+  connection.EndSchemaChange();
+}
+
+}  // namespace rollgait::server

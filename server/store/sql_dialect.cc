@@ -1,0 +1,33 @@
+#include "server/store/sql_dialect.h"
+
+#include "core/base/check.h"
+
+namespace rollgait::server {
+namespace {
+
+const char* WordOf(std::string_view name, const SqlDialect& dialect) {
+  if (name == "serial_key") return dialect.serial_key;
+  if (name == "blob") return dialect.blob;
+  if (name == "clustered") return dialect.clustered;
+  if (name == "for_update") return dialect.for_update;
+  if (name == "skip_locked") return dialect.skip_locked;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string Translate(std::string_view sql, const SqlDialect& dialect) {
+  std::string text;
+  size_t position = 0;
+  for (size_t open; (open = sql.find('{', position)) != std::string_view::npos;) {
+    const size_t close = sql.find('}', open);
+    ROLLGAIT_CHECK(close != std::string_view::npos);
+    const char* word = WordOf(sql.substr(open + 1, close - open - 1), dialect);
+    ROLLGAIT_CHECK(word != nullptr);
+    text.append(sql.substr(position, open - position)).append(word);
+    position = close + 1;
+  }
+  return text.append(sql.substr(position));
+}
+
+}  // namespace rollgait::server

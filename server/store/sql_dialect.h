@@ -1,0 +1,27 @@
+#ifndef ROLLGAIT_SERVER_STORE_SQL_DIALECT_H_
+#define ROLLGAIT_SERVER_STORE_SQL_DIALECT_H_
+
+#include <string>
+#include <string_view>
+
+namespace rollgait::server {
+
+// The words in braces of our SQL, as an engine says them. All that differs in the text of statements is here:
+// sqlite_dialect.cc, postgres_dialect.cc.
+struct SqlDialect {
+  const char* serial_key;   // {serial_key}: a key that the database counts up
+  const char* blob;         // {blob}: the type of bytes
+  const char* clustered;    // {clustered}: a table kept in the order of its key
+  const char* for_update;   // {for_update}: locks the rows read
+  const char* skip_locked;  // {skip_locked}: passes over rows that another transaction has locked
+};
+
+extern const SqlDialect kSqliteDialect;
+extern const SqlDialect kPostgresDialect;
+
+// Replaces the words. A brace that opens none of them is a defect.
+std::string Translate(std::string_view sql, const SqlDialect& dialect);
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_STORE_SQL_DIALECT_H_

@@ -1,0 +1,54 @@
+#ifndef ROLLGAIT_SERVER_STORE_SQL_STORE_H_
+#define ROLLGAIT_SERVER_STORE_SQL_STORE_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/base/clock.h"
+#include "server/store/database.h"
+#include "server/store/solve_store.h"
+
+namespace rollgait::server {
+
+// Solves in an SQL database. Threads may share it; so may processes (each with its own object): on one machine for
+// SQLite, on any for PostgreSQL. Leases expire by SqlConnection::Now.
+class SqlStore : public SolveStore {
+ public:
+  // Makes the tables or brings them up to date. kUnavailable with the reason if that fails. The clock outlives the
+  // store.
+  static Outcome<std::unique_ptr<SqlStore>> Open(std::unique_ptr<Database> database, const Clock& clock);
+
+  Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<SolveRecord> Get(const std::string& id) override;
+  Outcome<SolvePage> List(const ListQuery& query) override;
+  Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) override;
+  Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) override;
+  Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) override;
+  Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) override;
+
+  Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner, std::chrono::milliseconds duration) override;
+  Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) override;
+  Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) override;
+  Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) override;
+  Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) override;
+  Outcome<std::vector<std::string>> CancelRequests(const std::string& owner) override;
+  Outcome<std::vector<LeaseOwner>> LeaseOwners() override;
+  Outcome<std::vector<std::string>> ReclaimExpired() override;
+  Outcome<std::vector<std::string>> ReclaimOwner(const std::string& owner) override;
+
+  // For tables beside those of the solves.
+  Database& database() { return *database_; }
+
+ private:
+  SqlStore(std::unique_ptr<Database> database, const Clock& clock) : database_(std::move(database)), clock_(clock) {}
+
+  const std::unique_ptr<Database> database_;
+  const Clock& clock_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_STORE_SQL_STORE_H_
