@@ -1,7 +1,6 @@
 // rollgaitd: the gRPC front end. Serves requests from the store and keeps a rollgait-agent alive that works on them.
 #include <fcntl.h>
 #include <signal.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -18,6 +17,8 @@
 #include "server/base/data_dir.h"
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
+#include "server/base/logging.h"
+#include "server/base/metrics.h"
 #include "server/base/notify.h"
 #include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
@@ -25,8 +26,10 @@
 #include "server/base/supervisor.h"
 #include "server/rpc/rpc_server.h"
 #include "server/service/core_knowledge.h"
+#include "server/service/service_metrics.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
+#include "server/store/measured_store.h"
 #include "server/store/open_store.h"
 
 namespace rollgait::server {
@@ -47,7 +50,8 @@ struct Flags {
   double heartbeat_interval_s = 10;
   bool no_result_reuse = false;
   bool unconfined_solver = false;
-  std::string log_level = "info";
+  std::string log_format = "auto", log_level = "info";
+  std::string metrics_listen, agent_metrics_listen;
 };
 
 // Where this program lies, and others beside it.
@@ -83,8 +87,14 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_flag("--no-result-reuse", flags.no_result_reuse, "Solve every request, also one that was answered before");
   app.add_flag("--unconfined-solver", flags.unconfined_solver, kUnconfinedHelp);
+  app.add_option("--metrics-listen", flags.metrics_listen,
+                 "HOST:PORT for GET /metrics (Prometheus), without encryption or authentication; default: off");
+  app.add_option("--agent-metrics-listen", flags.agent_metrics_listen, "The same for the agent that this server starts");
+  app.add_option("--log-format", flags.log_format, "auto (text on a terminal, else JSON), json or text")
+      ->check(CLI::IsMember(LogFormatWishes()))
+      ->capture_default_str();
   app.add_option("--log-level", flags.log_level, "debug, info, warning or error")
-      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->check(CLI::IsMember(LogLevels()))
       ->capture_default_str();
   app.set_version_flag("--version", SolverBuild());
 }
@@ -134,7 +144,10 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
   Supervisor::Options options;
   options.name = "rollgait-agent";
   options.arguments = {flags.agent, "--data-dir", data_dir.path, "--slots", std::to_string(flags.solver_slots),
-                       "--solver",  solver};
+                       "--solver",  solver, "--log-format", flags.log_format, "--log-level", flags.log_level};
+  if (!flags.agent_metrics_listen.empty()) {
+    options.arguments.insert(options.arguments.end(), {"--metrics-listen", flags.agent_metrics_listen});
+  }
   if (flags.unconfined_solver) options.arguments.push_back("--unconfined-solver");
   return options;
 }
@@ -145,6 +158,15 @@ Outcome<SolverChoice> SolverOf(const Flags& flags) {
   Outcome<SolverChoice> choice = ChooseSolver(Folder(), flags.instruction_set);
   if (choice.ok() && !choice.value().remark.empty()) spdlog::warn("{}", choice.value().remark);
   return choice;
+}
+
+// Why metrics cannot be served, if so.
+std::optional<std::string> ServeMetrics(const Flags& flags, Metrics& metrics) {
+  if (flags.metrics_listen.empty()) return std::nullopt;
+  const Outcome<std::string> address = metrics.Listen(flags.metrics_listen);
+  if (!address.ok()) return address.error().message;
+  LogEvent(spdlog::level::info, "metrics.served", {{"address", address.value()}});
+  return std::nullopt;
 }
 
 int Serve(const Flags& flags, const sigset_t& end_signals) {
@@ -158,13 +180,16 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const SystemClock clock;
   const auto store = OpenStore({data_dir.Database()}, clock);
   if (!store.ok()) return Fail(store.error().message);
+  Metrics metrics("rollgaitd", RollgaitVersion(), SolverBuild(solver.value().set));
+  MeasuredStore measured_store(*store.value(), metrics);
   auto hints = NotifyReceiver::Create(data_dir.path, kServerSocket);
   if (!hints.ok()) return Fail(hints.error().message);
   const auto to_agent = NotifySender::Create(data_dir.path, kAgentSocket);
   if (!to_agent.ok()) return Fail(to_agent.error().message);
 
-  WatchHub hub(*store.value(), std::move(hints).value(),
+  WatchHub hub(measured_store, std::move(hints).value(),
                std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)));
+  metrics.Collect(std::make_shared<ServiceMetrics>(measured_store, hub, clock, flags.solver_slots));
   ServiceOptions options;
   options.version = RollgaitVersion();
   options.solver_build = SolverBuild(solver.value().set);
@@ -172,7 +197,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   options.solver_slots = flags.solver_slots;
   options.max_queued = flags.max_queued;
   options.reuse_results = !flags.no_result_reuse;
-  SolveService service(*store.value(), MakeCoreKnowledge(), options, [&](const std::string& id) {
+  SolveService service(measured_store, MakeCoreKnowledge(), options, [&](const std::string& id) {
     to_agent.value().Send(id);
     hub.Changed(id);
   });
@@ -181,8 +206,10 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   rpc_options.simulation.program = flags.simulator;
   rpc_options.simulation.slots = flags.simulation_slots;
   rpc_options.simulation.unconfined = flags.unconfined_solver;
+  rpc_options.metrics = &metrics;
   const auto server = RpcServer::Start(rpc_options, service, hub);
   if (!server.ok()) return Fail(server.error().message);
+  if (const auto problem = ServeMetrics(flags, metrics)) return Fail(*problem);
   const auto agent = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir));
   if (!agent.ok()) return Fail(agent.error().message);
   spdlog::info("serving {} on {}, {} slots of {}", data_dir.path, server.value()->address(), flags.solver_slots,
@@ -205,9 +232,7 @@ int Main(int argc, char** argv) {
   AddFlags(app, flags);
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("rollgaitd"));
-  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
-  spdlog::set_level(spdlog::level::from_str(flags.log_level));
+  StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
   if (!IsLoopback(flags.listen) && !flags.insecure_listen) {

@@ -42,6 +42,7 @@ set(RESTRICTED
   "^(grpc|grpcpp)/|[.]grpc[.]pb[.]h$"          "^(server/rpc/.*|server/main[.]cc|client/.*)$"
   "^(google|rollgait)/.*[.]pb[.]h$|^google/"   "^(server|client)/"
   "^spdlog/"                                   "^server/"
+  "^prometheus/"                               "^server/"
   "^sqlite3[.]h$"                              "^server/store/"
   "^CLI/"                                      "^(client/.*|server/.*main[.]cc|server/base/.*)$")
 

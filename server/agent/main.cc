@@ -1,7 +1,6 @@
 // rollgait-agent: works on the solves of a data directory, each in a rollgait-solve of its own.
 #include <fcntl.h>
 #include <signal.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,9 +13,12 @@
 #include <optional>
 
 #include "server/agent/agent.h"
+#include "server/base/logging.h"
+#include "server/base/metrics.h"
 #include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
+#include "server/store/measured_store.h"
 #include "server/store/open_store.h"
 
 namespace rollgait::server {
@@ -81,10 +83,18 @@ int Main(int argc, char** argv) {
   app.add_option("--cpu-limit-s", options.solver.cpu_limit_s, "CPU time of a solver in s")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
   app.add_flag("--unconfined-solver", options.solver.unconfined, kUnconfinedHelp);
+  std::string metrics_listen, log_format = "auto", log_level = "info";
+  app.add_option("--metrics-listen", metrics_listen,
+                 "HOST:PORT for GET /metrics (Prometheus), without encryption or authentication; default: off");
+  app.add_option("--log-format", log_format, "auto (text on a terminal, else JSON), json or text")
+      ->check(CLI::IsMember(LogFormatWishes()))
+      ->capture_default_str();
+  app.add_option("--log-level", log_level, "debug, info, warning or error")
+      ->check(CLI::IsMember(LogLevels()))
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
-  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %n %l %v");
+  StartLogging({"rollgait-agent", ChooseLogFormat(log_format), log_level});
   if (options.solver.program.empty()) {
     Outcome<SolverChoice> choice = ChooseSolver(Folder(), instruction_set);
     if (!choice.ok()) return Fail(choice.error().message);
@@ -104,8 +114,15 @@ int Main(int argc, char** argv) {
   const SystemClock clock;
   Outcome<std::unique_ptr<SqlStore>> store = OpenStore({DataDir{options.data_dir}.Database()}, clock);
   if (!store.ok()) return Fail(store.error().message);
-  Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, *store.value(), clock);
+  Metrics metrics("rollgait-agent", RollgaitVersion(), SolverBuild());
+  MeasuredStore measured_store(*store.value(), metrics);
+  Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, measured_store, clock);
   if (!agent.ok()) return Fail(agent.error().message);
+  if (!metrics_listen.empty()) {
+    const Outcome<std::string> address = metrics.Listen(metrics_listen);
+    if (!address.ok()) return Fail(address.error().message);
+    LogEvent(spdlog::level::info, "metrics.served", {{"address", address.value()}});
+  }
   spdlog::info("{} works with {} slots on {}", agent.value()->owner(), options.slots, options.data_dir);
   agent.value()->Run();
   spdlog::info("{} stops", agent.value()->owner());

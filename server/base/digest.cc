@@ -11,6 +11,16 @@
 namespace rollgait::server {
 namespace {
 
+std::string HexOf(const unsigned char* bytes, size_t count) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (size_t i = 0; i < count; ++i) {
+    text += kDigits[bytes[i] >> 4];
+    text += kDigits[bytes[i] & 15];
+  }
+  return text;
+}
+
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
@@ -20,13 +30,7 @@ class Sha256 {
   std::string Hex() {
     std::array<unsigned char, 32> digest;
     ROLLGAIT_CHECK(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1);
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (const unsigned char byte : digest) {
-      text += kDigits[byte >> 4];
-      text += kDigits[byte & 15];
-    }
-    return text;
+    return HexOf(digest.data(), digest.size());
   }
 
  private:
@@ -60,6 +64,13 @@ std::string RandomId() {
   std::string id;
   for (const uint8_t byte : bytes) id += kLetters[byte & 31];
   return id;
+}
+
+std::string RandomHex(size_t bytes) {
+  std::array<unsigned char, 256> random;
+  ROLLGAIT_CHECK(bytes <= random.size());
+  ROLLGAIT_CHECK(getrandom(random.data(), bytes, 0) == static_cast<ssize_t>(bytes));
+  return HexOf(random.data(), bytes);
 }
 
 }  // namespace rollgait::server

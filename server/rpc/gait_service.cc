@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "server/rpc/call_record.h"
 #include "server/rpc/simulation_stream.h"
 #include "server/rpc/status.h"
 #include "server/rpc/watch_stream.h"
@@ -38,6 +39,8 @@ grpc::ServerUnaryReactor* GaitServiceRpc::Answer(grpc::CallbackServerContext* co
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method) otherwise.
   const bool taken = executor_.TryPost([&service = service_, context, reactor, request, response, method] {
+    const LogFields fields = FieldsOf(*context);
+    const LogScope scope(fields);
     Outcome<Response> outcome = (service.*method)(*request);
     if (outcome.ok()) {
       *response = std::move(outcome).value();

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "server/rpc/call_observer.h"
 #include "server/service/request_check.h"
 
 namespace rollgait::server {
@@ -53,6 +55,11 @@ Outcome<std::unique_ptr<RpcServer>> RpcServer::Start(const RpcOptions& options, 
   std::unique_ptr<RpcServer> server(new RpcServer(options, service, hub));
   grpc::ServerBuilder builder;
   SetLimits(builder);
+  if (options.metrics != nullptr) {
+    std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> observers;
+    observers.push_back(std::make_unique<CallObserver>(*options.metrics));
+    builder.experimental().SetInterceptorCreators(std::move(observers));
+  }
   int port = 0;
   builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&server->rpc_);

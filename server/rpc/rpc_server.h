@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/base/executor.h"
+#include "server/base/metrics.h"
 #include "server/base/outcome.h"
 #include "server/rpc/gait_service.h"
 #include "server/service/solve_service.h"
@@ -21,6 +22,7 @@ struct RpcOptions {
   int executor_threads = 8;                   // calls that may touch the store at once
   size_t max_waiting_calls = 4096;            // more are refused with RESOURCE_EXHAUSTED
   std::chrono::milliseconds slow_write{250};  // a longer write marks its reader as slow
+  Metrics* metrics = nullptr;                 // counts calls; outlives the server; null: calls are neither counted nor logged
   SimulationHostOptions simulation;           // without a program: Simulate answers UNAVAILABLE
 };
 

@@ -4,6 +4,7 @@
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "server/base/utf8.h"
 
 namespace rollgait::server {
 namespace {
@@ -37,22 +38,11 @@ grpc::StatusCode Code(ErrorCode code) {
   return grpc::StatusCode::INTERNAL;
 }
 
-// Bytes of the UTF-8 sequence that begins at `text[i]`; 0 if none does.
-size_t SequenceLength(const std::string& text, size_t i) {
-  const auto byte = static_cast<unsigned char>(text[i]);
-  const size_t length = byte < 0x80 ? 1 : byte < 0xc2 ? 0 : byte < 0xe0 ? 2 : byte < 0xf0 ? 3 : byte < 0xf5 ? 4 : 0;
-  if (i + length > text.size()) return 0;
-  for (size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
-
 // At most about kMaxText bytes of valid UTF-8 without control characters, as protobuf strings and terminals want it.
 std::string Text(const std::string& text) {
   std::string clean;
   for (size_t i = 0; i < text.size();) {
-    const size_t length = SequenceLength(text, i);
+    const size_t length = Utf8SequenceLength(text, i);
     if (clean.size() + length > kMaxText) return clean + "…";
     const bool printable = length > 1 || (length == 1 && text[i] >= ' ' && text[i] != 0x7f);
     clean += printable ? text.substr(i, length) : "?";

@@ -66,6 +66,11 @@ Outcome<std::vector<EventPtr>> SolveFeed::After(int64_t position, int max_events
   return Read(position, max_events);
 }
 
+int64_t SolveFeed::last_sequence() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_sequence_;
+}
+
 bool SolveFeed::EndedBy(int64_t position) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return terminal_ && position >= last_sequence_;

@@ -24,6 +24,8 @@ class SolveFeed {
   Outcome<bool> Refresh();
   // At most max_events events after `position`, from memory if they are all there. May read the store.
   Outcome<std::vector<EventPtr>> After(int64_t position, int max_events);
+  // Number of the newest event known here.
+  int64_t last_sequence() const;
   // True if the terminal event has a number of at most `position`.
   bool EndedBy(int64_t position) const;
 

@@ -106,6 +106,17 @@ void WatchHub::Close(Watch* watch) {
   if (watches.empty()) entries_.erase(entry);
 }
 
+WatchHub::Stats WatchHub::GetStats() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Stats stats;
+  for (const auto& [id, entry] : entries_) {
+    const int64_t newest = entry.feed->last_sequence();
+    stats.readers += static_cast<int>(entry.watches.size());
+    for (const Watch* watch : entry.watches) stats.max_lag = std::max(stats.max_lag, newest - watch->position_);
+  }
+  return stats;
+}
+
 void WatchHub::Changed(const std::string& id) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -49,7 +49,7 @@ class Watch {
   WatchHub& hub_;
   const std::shared_ptr<SolveFeed> feed_;
   const std::shared_ptr<const std::function<void()>> wake_;
-  int64_t position_;  // number of the last event taken
+  std::atomic<int64_t> position_;  // number of the last event taken
   std::atomic<int64_t> last_taken_ns_;
 };
 
@@ -69,6 +69,11 @@ class WatchHub {
   // Wakes every reader; from now on Take and Open answer kUnavailable.
   void Stop();
   bool stopped() const { return stopped_; }
+  struct Stats {
+    int readers = 0;
+    int64_t max_lag = 0;  // events that the reader furthest behind has not taken yet
+  };
+  Stats GetStats();
 
  private:
   friend class Watch;
