@@ -23,8 +23,8 @@ std::string ReadLine(int fd) {
   return line;
 }
 
-// A file of a process; empty if the process is gone, also when it goes between opening and reading (a stream buffer would
-// throw then).
+// A file of a process; empty if the process is gone, also when it goes between opening and reading (a stream buffer
+// would throw then).
 std::string ReadOfProcess(pid_t pid, const char* name) {
   const std::string path = "/proc/" + std::to_string(pid) + "/" + name;
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -68,13 +68,14 @@ Daemon::Daemon(const Options& options) : data_dir_(options.data_dir) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  std::vector<std::string> arguments = {ROLLGAITD, "--data-dir", options.data_dir, "--listen", options.listen};
+  std::vector<std::string> arguments = options.launcher;
+  arguments.insert(arguments.end(), {ROLLGAITD, "--data-dir", options.data_dir, "--listen", options.listen});
   if (!options.solver.empty()) arguments.insert(arguments.end(), {"--solver", options.solver});
   arguments.insert(arguments.end(), options.flags.begin(), options.flags.end());
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  ROLLGAIT_CHECK(posix_spawn(&pid_, pointers[0], &actions, nullptr, pointers.data(), environ) == 0);
+  ROLLGAIT_CHECK(posix_spawnp(&pid_, pointers[0], &actions, nullptr, pointers.data(), environ) == 0);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   output_ = ends[0];

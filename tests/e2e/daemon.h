@@ -20,6 +20,8 @@ class Daemon {
     std::string listen = "127.0.0.1:0";
     std::string solver;              // path
     std::vector<std::string> flags;  // more of them
+    std::vector<std::string> launcher =
+        {};  // a command that the server's own is put behind and that becomes it: env, prlimit …
   };
   // Starts the server and waits until it listens. If it does not, address() is empty and ExitCode() tells why.
   explicit Daemon(const Options& options);
