@@ -39,10 +39,10 @@ constexpr std::chrono::milliseconds kCallGrace{5'000};
 constexpr std::chrono::milliseconds kAgentGrace{10'000};
 
 struct Flags {
-  std::string data_dir;
+  std::string data_dir, store;
   std::string listen = "127.0.0.1:50051";
   bool insecure_listen = false;
-  int solver_slots = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int solver_slots = -1;  // -1: not said
   int simulation_slots = 2;
   std::string agent, solver, simulator;
   std::string instruction_set = "auto";
@@ -63,11 +63,14 @@ std::string Sibling(const std::string& name) { return Folder() + "/" + name; }
 
 void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--data-dir", flags.data_dir, "Directory of the store; made if need be")->required();
+  app.add_option("--store", flags.store,
+                 "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir; agents may be elsewhere")
+      ->envname(kStoreVariable);
   app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
       ->capture_default_str();
   app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
-  app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once; default: one a core")
-      ->check(CLI::Range(1, 1024));
+  app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
+      ->check(CLI::Range(0, 1024));
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
   auto* solver = app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
   app.add_option("--instruction-set", flags.instruction_set,
@@ -140,10 +143,16 @@ Outcome<FileLock> TakeDataDir(const DataDir& data_dir) {
   return *std::move(lock.value());
 }
 
-Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, const DataDir& data_dir) {
+int SolverSlots(const Flags& flags, const StoreLocation& location) {
+  if (flags.solver_slots >= 0) return flags.solver_slots;
+  return location.is_postgres() ? 0 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// The agent finds a PostgreSQL URL in its environment: its command line is for everybody to read.
+Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, const std::string& directory, int slots) {
   Supervisor::Options options;
   options.name = "rollgait-agent";
-  options.arguments = {flags.agent, "--data-dir", data_dir.path, "--slots", std::to_string(flags.solver_slots),
+  options.arguments = {flags.agent, flags.store.empty() ? "--data-dir" : "--work-dir", directory, "--slots", std::to_string(slots),
                        "--solver",  solver, "--log-format", flags.log_format, "--log-level", flags.log_level};
   if (!flags.agent_metrics_listen.empty()) {
     options.arguments.insert(options.arguments.end(), {"--metrics-listen", flags.agent_metrics_listen});
@@ -178,27 +187,30 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const Outcome<std::string> fingerprint = Sha256HexOfFile(solver.value().program);
   if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
   const SystemClock clock;
-  const auto store = OpenStore({data_dir.Database()}, clock);
+  const Outcome<StoreLocation> location = LocateStore(flags.store, data_dir.path);
+  if (!location.ok()) return Fail(location.error().message);
+  if (location.value().is_postgres()) setenv(kStoreVariable, flags.store.c_str(), 1);
+  const int solver_slots = SolverSlots(flags, location.value());
+  const auto store = OpenStore(location.value(), clock);
   if (!store.ok()) return Fail(store.error().message);
   Metrics metrics("rollgaitd", RollgaitVersion(), SolverBuild(solver.value().set));
   MeasuredStore measured_store(*store.value(), metrics);
-  auto hints = NotifyReceiver::Create(data_dir.path, kServerSocket);
+  const auto hints = OpenHints(location.value(), data_dir.path, HintRole::kServer);
   if (!hints.ok()) return Fail(hints.error().message);
-  const auto to_agent = NotifySender::Create(data_dir.path, kAgentSocket);
-  if (!to_agent.ok()) return Fail(to_agent.error().message);
 
-  WatchHub hub(measured_store, std::move(hints).value(),
+  WatchHub hub(measured_store, *hints.value(),
                std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)));
-  metrics.Collect(std::make_shared<ServiceMetrics>(measured_store, hub, clock, flags.solver_slots));
+  metrics.Collect(std::make_shared<ServiceMetrics>(measured_store, hub, clock, solver_slots));
   ServiceOptions options;
   options.version = RollgaitVersion();
   options.solver_build = SolverBuild(solver.value().set);
   options.solver_fingerprint = fingerprint.value();
-  options.solver_slots = flags.solver_slots;
+  options.solver_slots = solver_slots;
+  options.store_name = location.value().is_postgres() ? "postgresql" : "sqlite";
   options.max_queued = flags.max_queued;
   options.reuse_results = !flags.no_result_reuse;
   SolveService service(measured_store, MakeCoreKnowledge(), options, [&](const std::string& id) {
-    to_agent.value().Send(id);
+    hints.value()->Send(id);
     hub.Changed(id);
   });
   RpcOptions rpc_options;
@@ -210,9 +222,13 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const auto server = RpcServer::Start(rpc_options, service, hub);
   if (!server.ok()) return Fail(server.error().message);
   if (const auto problem = ServeMetrics(flags, metrics)) return Fail(*problem);
-  const auto agent = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir));
-  if (!agent.ok()) return Fail(agent.error().message);
-  spdlog::info("serving {} on {}, {} slots of {}", data_dir.path, server.value()->address(), flags.solver_slots,
+  std::unique_ptr<Supervisor> agent;
+  if (solver_slots > 0) {
+    auto started = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir.path, solver_slots));
+    if (!started.ok()) return Fail(started.error().message);
+    agent = std::move(started).value();
+  }
+  spdlog::info("serving {} on {}, {} slots of {}", location.value().Name(), server.value()->address(), solver_slots,
                solver.value().program);
   std::printf("rollgaitd listening on %s\n", server.value()->address().c_str());
   std::fflush(stdout);
@@ -221,7 +237,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   sigwait(&end_signals, &received);
   spdlog::info("signal {}: stopping", received);
   server.value()->Stop(kCallGrace);
-  agent.value()->Stop(kAgentGrace);
+  if (agent != nullptr) agent->Stop(kAgentGrace);
   spdlog::info("stopped");
   return 0;
 }

@@ -1,5 +1,6 @@
 #include "server/agent/agent.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <random>
 #include <utility>
 
@@ -17,10 +19,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReclaim{5000};       // between looks for solves of dead agents
+constexpr milliseconds kReclaim{2000};       // between looks for solves of dead agents
 constexpr milliseconds kSpawnRetry{1000};    // after a solver that did not start or died without work
 constexpr milliseconds kStartLimit{30'000};  // for a solver to say that it is ready
-constexpr milliseconds kLook{kNotifyPollMillis};
 
 // "agent-<pid>-<random>": unique among all agents that ever used the directory.
 std::string NewOwner() {
@@ -47,8 +48,8 @@ bool Readable(int fd) {
 
 }  // namespace
 
-Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, SolveStore& store, const Clock& clock) {
-  const DataDir directory{options.data_dir};
+Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, const Surroundings& surroundings) {
+  const DataDir directory{options.work_dir};
   if (mkdir(directory.AgentsDir().c_str(), 0700) != 0 && errno != EEXIST) {
     return Error{ErrorCode::kUnavailable, "cannot make " + directory.AgentsDir() + ": " + std::strerror(errno)};
   }
@@ -56,36 +57,32 @@ Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, SolveStore
   Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
   if (!lock.ok()) return lock.error();
   if (!lock.value()) return Error{ErrorCode::kInternal, directory.AgentLock(owner) + " is locked by another process"};
-  Outcome<Spool> spool = Spool::Open(options.data_dir + "/spool");
+  Outcome<Spool> spool = Spool::Open(options.work_dir + "/spool");
   if (!spool.ok()) return spool.error();
-  Outcome<NotifyReceiver> receiver = NotifyReceiver::Create(options.data_dir, kAgentSocket);
-  if (!receiver.ok()) return receiver.error();
-  Outcome<NotifySender> sender = NotifySender::Create(options.data_dir, kServerSocket);
-  if (!sender.ok()) return sender.error();
-  return std::unique_ptr<Agent>(new Agent(options, store, clock, std::move(owner), std::move(*lock.value()),
-                                          std::move(spool).value(), std::move(receiver).value(),
-                                          std::move(sender).value()));
+  return std::unique_ptr<Agent>(
+      new Agent(options, surroundings, std::move(owner), std::move(*lock.value()), std::move(spool).value()));
 }
 
-Agent::Agent(const Options& options, SolveStore& store, const Clock& clock, std::string owner, FileLock lock,
-             Spool spool, NotifyReceiver receiver, NotifySender sender)
+Agent::Agent(const Options& options, const Surroundings& surroundings, std::string owner, FileLock lock, Spool spool)
     : options_(options),
-      store_(store),
+      store_(surroundings.store),
       owner_(std::move(owner)),
       lock_(std::move(lock)),
       spool_(std::move(spool)),
-      receiver_(std::move(receiver)),
-      sender_(std::move(sender)),
-      context_{.store = store,
+      hints_(surroundings.hints),
+      context_{.store = surroundings.store,
                .spool = spool_,
-               .clock = clock,
-               .poke = [this](const std::string& id) { sender_.Send(id); },
+               .clock = surroundings.clock,
+               .poke = [this](const std::string& id) { hints_.Send(id); },
                .kill_after = options.kill_after,
                .wall_grace = options.wall_grace,
-               .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s)} {}
+               .lease = options.lease,
+               .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s),
+               .solver_fingerprint = options.solver_fingerprint} {}
 
 Agent::~Agent() {
   GiveUpAll();
+  unlink(DataDir{options_.work_dir}.AgentDraining(owner_).c_str());
   lock_.ReleaseAndRemove();
 }
 
@@ -100,22 +97,20 @@ bool Agent::Step(milliseconds at_most) {
   const SteadyTime now = std::chrono::steady_clock::now();
   if (Readable(options_.stop_fd)) stopping_ = true;
   if (!draining_ && AtEnd(options_.lifeline_fd)) {
-    spdlog::warn("rollgaitd has gone; finishing {} solves", runs_.size());
-    draining_ = true;
-    idle_.clear();
+    Drain();
   }
   if (stopping_) {
     GiveUpAll();
     return false;
   }
-  if (!receiver_.Drain().empty()) poked_ = true;
+  if (!hints_.Drain().empty()) poked_ = true;
   const size_t before = runs_.size();
   ServiceRuns(now);
   if (draining_ && runs_.empty()) return false;
   if (!draining_ && now >= reclaim_at_) LookAfterOthers(now);
   if (poked_ || now >= look_at_ || runs_.size() < before) {
     poked_ = false;
-    look_at_ = now + kLook;
+    look_at_ = now + options_.look;
     LookForCancels();
     if (!draining_) ClaimWork(now);
   }
@@ -123,8 +118,21 @@ bool Agent::Step(milliseconds at_most) {
   return true;
 }
 
+void Agent::Drain() {
+  spdlog::warn("rollgaitd has gone; finishing {} solves", runs_.size());
+  draining_ = true;
+  idle_.clear();
+  const std::string mark = DataDir{options_.work_dir}.AgentDraining(owner_);
+  const int fd = open(mark.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (fd < 0) {
+    spdlog::warn("cannot make {}: {}", mark, std::strerror(errno));  // the next agent may start more than its slots
+  } else {
+    close(fd);
+  }
+}
+
 void Agent::Wait(milliseconds at_most) {
-  std::vector<pollfd> entries = {{receiver_.fd(), POLLIN, 0}, {options_.stop_fd, POLLIN, 0}};
+  std::vector<pollfd> entries = {{hints_.fd(), POLLIN, 0}, {options_.stop_fd, POLLIN, 0}};
   entries.push_back({draining_ ? -1 : options_.lifeline_fd, POLLIN, 0});
   for (const auto& run : runs_) {
     const SolverProcess& process = run->process();
@@ -153,7 +161,26 @@ SteadyTime Agent::NextDue(SteadyTime now) const {
 
 void Agent::ServiceRuns(SteadyTime now) {
   for (const auto& run : runs_) run->Service(now);
+  StoreEvents(now);
   std::erase_if(runs_, [](const auto& run) { return run->over(); });
+}
+
+// One transaction for all: every commit waits for the disk.
+void Agent::StoreEvents(SteadyTime now) {
+  const auto is_due = [now](const auto& run) { return run->events_due(now); };
+  if (std::none_of(runs_.begin(), runs_.end(), is_due)) return;
+  std::vector<SolveRun*> runs;
+  std::vector<EventBatch> batches;
+  for (const auto& run : runs_) {
+    EventBatch batch = run->Events();
+    if (batch.events.empty()) continue;
+    runs.push_back(run.get());
+    batches.push_back(std::move(batch));
+  }
+  const Outcome<std::vector<Outcome<LeaseState>>> outcomes = store_.AppendAll(batches);
+  for (size_t i = 0; i < runs.size(); ++i) {
+    runs[i]->EventsStored(outcomes.ok() ? outcomes.value()[i] : Outcome<LeaseState>(outcomes.error()), now);
+  }
 }
 
 void Agent::LookForCancels() {
@@ -183,7 +210,7 @@ void Agent::LookAfterOthers(SteadyTime now) {
 
 // Commits the ends that dead agents left in the spool.
 void Agent::ReplayDead(const std::string& known_dead) {
-  const DataDir directory{options_.data_dir};
+  const DataDir directory{options_.work_dir};
   const auto is_dead = [&](const std::string& owner) {
     if (owner == owner_ || owner == known_dead) return owner == known_dead;
     Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
@@ -194,15 +221,19 @@ void Agent::ReplayDead(const std::string& known_dead) {
   for (const std::string& id : ReplaySpool(spool_, store_, is_dead)) context_.poke(id);
 }
 
+bool Agent::LivesElsewhere(const std::string& owner) const {
+  return !options_.all_agents_here && access(DataDir{options_.work_dir}.AgentLock(owner).c_str(), F_OK) != 0;
+}
+
 void Agent::ReclaimDeadOwners() {
   const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
   if (!owners.ok()) {
     spdlog::warn("cannot look for dead agents: {}", owners.error().message);
     return;
   }
-  const DataDir directory{options_.data_dir};
+  const DataDir directory{options_.work_dir};
   for (const auto& [owner, running] : owners.value()) {
-    if (owner == owner_) continue;
+    if (owner == owner_ || LivesElsewhere(owner)) continue;
     Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
     if (!lock.ok() || !lock.value()) continue;  // it lives
     ReplayDead(owner);
@@ -214,6 +245,7 @@ void Agent::ReclaimDeadOwners() {
     spdlog::info("{} is dead; {} of its solves are queued again", owner, ids.value().size());
     for (const std::string& id : ids.value()) context_.poke(id);
     poked_ = true;
+    unlink(directory.AgentDraining(owner).c_str());
     lock.value()->ReleaseAndRemove();
   }
 }
@@ -250,17 +282,28 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
   }
 }
 
+// Solves that agents of this directory finish before they go.
+int Agent::RunByDrainingAgents() {
+  std::vector<std::string> draining;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(DataDir{options_.work_dir}.AgentsDir(), failure)) {
+    if (entry.path().extension() == DataDir::kDrainingSuffix) draining.push_back(entry.path().stem().string());
+  }
+  if (draining.empty()) return 0;
+  const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
+  if (!owners.ok()) return 0;  // then nothing will be claimed either
+  int count = 0;
+  for (const auto& [owner, solves] : owners.value()) {
+    if (std::find(draining.begin(), draining.end(), owner) != draining.end()) count += solves;
+  }
+  return count;
+}
+
 void Agent::ClaimWork(SteadyTime now) {
-  while (true) {
+  while (running() < options_.slots) {
     const auto idle = std::find_if(idle_.begin(), idle_.end(), [](const IdleProcess& i) { return i.ready; });
-    if (idle == idle_.end()) return;
-    const Outcome<SolveCounts> counts = store_.Counts();
-    if (!counts.ok()) {
-      spdlog::warn("cannot look for work: {}", counts.error().message);
-      return;
-    }
-    if (counts.value().queued == 0 || counts.value().running >= options_.slots) return;
-    Outcome<std::optional<ClaimedSolve>> claimed = store_.ClaimNext(owner_, kLeaseDuration);
+    if (idle == idle_.end() || running() + RunByDrainingAgents() >= options_.slots) return;
+    Outcome<std::optional<ClaimedSolve>> claimed = store_.ClaimNext(owner_, options_.lease);
     if (!claimed.ok()) {
       spdlog::warn("cannot claim work: {}", claimed.error().message);
       return;

@@ -13,6 +13,7 @@
 #include "server/base/clock.h"
 #include "server/base/data_dir.h"
 #include "server/base/file_lock.h"
+#include "server/base/hint_channel.h"
 #include "server/base/notify.h"
 #include "server/store/solve_store.h"
 
@@ -23,18 +24,28 @@ namespace rollgait::server {
 class Agent {
  public:
   struct Options {
-    std::string data_dir;
-    int slots = 1;  // solves at once, of all agents of this directory together
+    std::string work_dir;  // locks and spool; rollgaitd's data directory when the store is SQLite
+    // Every agent of the store has its lock in work_dir: an owner without one is dead. False: it may live elsewhere.
+    bool all_agents_here = true;
+    int slots = 1;  // solves at once, those of agents that drain in this directory included
     SolverProcess::Options solver;
+    std::string solver_fingerprint = {};  // SHA-256 of the solver; see SolveRun::Context
+    std::chrono::milliseconds lease = kLeaseDuration;
+    std::chrono::milliseconds look{kNotifyPollMillis};  // between looks into the store without a hint
     int stop_fd = -1;                            // readable: stop, give the solves back
     int lifeline_fd = -1;                        // at its end: claim nothing more, finish what runs
     std::chrono::milliseconds kill_after{2000};  // see SolveRun::Context
     std::chrono::milliseconds wall_grace{60'000};
   };
 
-  // Takes its place in the data directory (lock, socket, spool). The store and the clock outlive it. kUnavailable with
-  // the reason.
-  static Outcome<std::unique_ptr<Agent>> Create(const Options& options, SolveStore& store, const Clock& clock);
+  // What it works with; outlives it.
+  struct Surroundings {
+    SolveStore& store;
+    HintChannel& hints;
+    const Clock& clock;
+  };
+  // Takes its place in the work directory (lock, spool). kUnavailable with the reason.
+  static Outcome<std::unique_ptr<Agent>> Create(const Options& options, const Surroundings& surroundings);
   ~Agent();
 
   // Works until it is told to stop or has nothing left to finish.
@@ -48,11 +59,14 @@ class Agent {
   std::vector<pid_t> IdleProcesses() const;
 
  private:
-  Agent(const Options& options, SolveStore& store, const Clock& clock, std::string owner, FileLock lock, Spool spool,
-        NotifyReceiver receiver, NotifySender sender);
+  Agent(const Options& options, const Surroundings& surroundings, std::string owner, FileLock lock, Spool spool);
 
   void Wait(std::chrono::milliseconds at_most);
   void ServiceRuns(SteadyTime now);
+  void StoreEvents(SteadyTime now);
+  void Drain();
+  bool LivesElsewhere(const std::string& owner) const;
+  int RunByDrainingAgents();
   void LookAfterOthers(SteadyTime now);
   void ReclaimDeadOwners();
   void ReplayDead(const std::string& known_dead);
@@ -68,8 +82,7 @@ class Agent {
   const std::string owner_;
   FileLock lock_;
   const Spool spool_;
-  NotifyReceiver receiver_;
-  const NotifySender sender_;
+  HintChannel& hints_;
   const SolveRun::Context context_;
   std::vector<std::unique_ptr<SolveRun>> runs_;
   struct IdleProcess {

@@ -1,4 +1,4 @@
-// rollgait-agent: works on the solves of a data directory, each in a rollgait-solve of its own.
+// rollgait-agent: works on the solves of a store, each in a rollgait-solve of its own.
 #include <fcntl.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "server/agent/agent.h"
+#include "server/base/digest.h"
 #include "server/base/logging.h"
 #include "server/base/metrics.h"
 #include "server/base/sandbox.h"
@@ -23,6 +24,9 @@
 
 namespace rollgait::server {
 namespace {
+
+// Without a hint; PostgreSQL's come over the network and are seldom lost.
+constexpr std::chrono::milliseconds kLookWithNotify{1000};
 
 // Written to by the handler of SIGTERM and SIGINT.
 int stop_pipe_write = -1;
@@ -64,11 +68,43 @@ int Fail(const std::string& reason) {
   return 1;
 }
 
+// Flags that say where the solves are.
+struct AgentPlace {
+  std::string data_dir, store, work_dir;
+};
+
+// Where the solves are; sets what follows for the agent. kInvalidArgument names the flag that is missing or too much.
+Outcome<StoreLocation> Locate(const AgentPlace& place, Agent::Options& options) {
+  const auto refuse = [](const std::string& why) { return Error{ErrorCode::kInvalidArgument, why}; };
+  if (place.store.empty() && place.data_dir.empty()) return refuse("give --data-dir of rollgaitd, or --store postgresql://...");
+  if (place.store.empty() && !place.work_dir.empty()) return refuse("--work-dir goes with --store; the spool is in --data-dir");
+  if (!place.store.empty() && place.work_dir.empty()) return refuse("--store needs --work-dir, a directory for the spool");
+  Outcome<StoreLocation> location = LocateStore(place.store, place.data_dir);
+  if (!location.ok()) return location;
+  location.value().connections = 1;  // one thread
+  options.work_dir = location.value().is_postgres() ? place.work_dir : place.data_dir;
+  options.all_agents_here = !location.value().is_postgres();
+  if (location.value().is_postgres()) options.look = kLookWithNotify;
+  std::error_code error;
+  std::filesystem::create_directories(options.work_dir, error);
+  if (error) return refuse("--work-dir " + options.work_dir + " cannot be made: " + error.message());
+  return location;
+}
+
 int Main(int argc, char** argv) {
   Agent::Options options;
-  CLI::App app("Works on the solves of a data directory, each in a process of its own.", "rollgait-agent");
+  CLI::App app("Works on the solves of a store, each in a process of its own.", "rollgait-agent");
   app.set_version_flag("--version", SolverBuild());
-  app.add_option("--data-dir", options.data_dir, "Directory of rollgaitd")->required()->check(CLI::ExistingDirectory);
+  AgentPlace place;
+  app.add_option("--data-dir", place.data_dir, "Directory of rollgaitd, whose SQLite file holds the solves")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--store", place.store, "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir")
+      ->envname(kStoreVariable);
+  app.add_option("--work-dir", place.work_dir, "With --store: directory of this agent's spool, made if need be; must last");
+  int lease_s = 15;
+  app.add_option("--lease-s", lease_s, "Seconds without a sign of life after which other agents take its solves over")
+      ->check(CLI::Range(3, 3600))
+      ->capture_default_str();
   auto* solver =
       app.add_option("--solver", options.solver.program, "Path of rollgait-solve; default: beside this program");
   std::string instruction_set = "auto";
@@ -111,19 +147,29 @@ int Main(int argc, char** argv) {
   if (options.stop_fd < 0) return Fail(std::string("cannot catch signals: ") + std::strerror(errno));
   options.lifeline_fd = Lifeline();
 
+  const Outcome<StoreLocation> location = Locate(place, options);
+  if (!location.ok()) return Fail(location.error().message);
+  options.lease = std::chrono::seconds(lease_s);
+  const Outcome<std::string> fingerprint = Sha256HexOfFile(options.solver.program);
+  if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
+  options.solver_fingerprint = fingerprint.value();
+
   const SystemClock clock;
-  Outcome<std::unique_ptr<SqlStore>> store = OpenStore({DataDir{options.data_dir}.Database()}, clock);
+  Outcome<std::unique_ptr<SqlStore>> store = OpenStore(location.value(), clock);
   if (!store.ok()) return Fail(store.error().message);
+  Outcome<std::unique_ptr<HintChannel>> hints = OpenHints(location.value(), options.work_dir, HintRole::kAgent);
+  if (!hints.ok()) return Fail(hints.error().message);
   Metrics metrics("rollgait-agent", RollgaitVersion(), SolverBuild());
   MeasuredStore measured_store(*store.value(), metrics);
-  Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, measured_store, clock);
+  Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, {measured_store, *hints.value(), clock});
   if (!agent.ok()) return Fail(agent.error().message);
   if (!metrics_listen.empty()) {
     const Outcome<std::string> address = metrics.Listen(metrics_listen);
     if (!address.ok()) return Fail(address.error().message);
     LogEvent(spdlog::level::info, "metrics.served", {{"address", address.value()}});
   }
-  spdlog::info("{} works with {} slots on {}", agent.value()->owner(), options.slots, options.data_dir);
+  spdlog::info("{} works with {} slots on {}", agent.value()->owner(), options.slots,
+               location.value().Name());
   agent.value()->Run();
   spdlog::info("{} stops", agent.value()->owner());
   return 0;

@@ -30,8 +30,13 @@ milliseconds WallTime(const v1::SolveSpec& spec) {
 }  // namespace
 
 SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
-    : context_(context), lease_(std::move(claimed.lease)), process_(std::move(process)) {
-  renew_at_ = now + kLeaseRenewal;
+    : context_(context),
+      lease_(std::move(claimed.lease)),
+      other_solver_(!context.solver_fingerprint.empty() && !claimed.record.solver_fingerprint.empty() &&
+                    claimed.record.solver_fingerprint != context.solver_fingerprint),
+      process_(std::move(process)),
+      next_sequence_(claimed.record.last_sequence + 1) {
+  renew_at_ = now + context_.lease / 3;
   v1::SolveSpec spec;  // one that cannot be read is the solver's to refuse
   if (!spec.ParseFromString(claimed.record.spec)) spec.Clear();
   wall_end_ = now + WallTime(spec) + context_.wall_grace;
@@ -47,7 +52,6 @@ void SolveRun::Service(SteadyTime now) {
     process_.ReadOutput();
     ReadSolver(now);
     EnforceDeadlines(now);
-    if (flush_at_ && now >= *flush_at_) FlushEvents(now);
   }
   if (state_ != State::kOver && now >= renew_at_) RenewLease(now);
   if (state_ == State::kSolving) ConcludeIfGone(now);
@@ -121,15 +125,13 @@ void SolveRun::AddIteration(const v1::Iteration& iteration, SteadyTime now) {
   *event.mutable_time() = google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(context_.clock.WallMicros());
   event.set_skipped_count(std::exchange(skipped_, 0));
   *event.mutable_iteration() = iteration;
-  pending_.push_back({0, EventKind::kIteration, event.SerializeAsString()});
+  pending_.push_back({next_sequence_++, EventKind::kIteration, event.SerializeAsString()});
   if (!flush_at_) flush_at_ = sent_any_ ? now + context_.batch : now;
   sent_any_ = true;
 }
 
-void SolveRun::FlushEvents(SteadyTime now) {
+void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now) {
   flush_at_.reset();
-  if (pending_.empty()) return;
-  const Outcome<LeaseState> appended = context_.store.AppendEvents(lease_, pending_);
   if (!appended.ok() && appended.error().code == ErrorCode::kLeaseLost) return LoseLease(appended.error().message);
   if (!appended.ok()) {
     spdlog::warn("solves/{}: {} events wait: {}", id(), pending_.size(), appended.error().message);
@@ -137,19 +139,20 @@ void SolveRun::FlushEvents(SteadyTime now) {
     return;
   }
   pending_.clear();
+  next_sequence_ = appended.value().last_sequence + 1;
   context_.poke(id());
   if (appended.value().cancel_requested) Cancel(now);
 }
 
 void SolveRun::RenewLease(SteadyTime now) {
-  const Outcome<LeaseState> renewed = context_.store.RenewLease(lease_, kLeaseDuration);
+  const Outcome<LeaseState> renewed = context_.store.RenewLease(lease_, context_.lease);
   if (!renewed.ok() && renewed.error().code == ErrorCode::kLeaseLost) return LoseLease(renewed.error().message);
   if (!renewed.ok()) {
     spdlog::warn("solves/{}: the lease is not renewed: {}", id(), renewed.error().message);
     renew_at_ = now + kRetry;
     return;
   }
-  renew_at_ = now + kLeaseRenewal;
+  renew_at_ = now + context_.lease / 3;
   if (renewed.value().cancel_requested) Cancel(now);
 }
 
@@ -185,12 +188,20 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   facts.cpu_limit_s = context_.cpu_limit_s;
   facts.output = process_.LastOutput();
   outcome_ = JudgeRun(std::move(facts));
-  if (const SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {
-    const Outcome<Done> put = context_.spool.Put({lease_, pending_, *solve_end});
-    if (!put.ok()) spdlog::error("solves/{}: {}", id(), put.error().message);  // the commit may still succeed
+  if (SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {
+    if (other_solver_) solve_end->reusable = false;
+    PutIntoSpool();
   }
+  flush_at_.reset();
   state_ = State::kCommitting;
   commit_at_ = now;
+}
+
+// A failure is tried again before every commit, which may succeed though.
+void SolveRun::PutIntoSpool() {
+  const Outcome<Done> put = context_.spool.Put({lease_, pending_, std::get<SolveEnd>(outcome_)});
+  spooled_ = put.ok();
+  if (!spooled_) spdlog::error("solves/{}: {}", id(), put.error().message);
 }
 
 void SolveRun::Commit(SteadyTime now) {
@@ -200,6 +211,7 @@ void SolveRun::Commit(SteadyTime now) {
     const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kCrashed, crash->detail);
     if (!given.ok()) failure = given.error();
   } else {
+    if (!spooled_) PutIntoSpool();
     const Outcome<Done> finished = context_.store.Finish(lease_, pending_, std::get<SolveEnd>(outcome_));
     if (!finished.ok()) failure = finished.error();
   }

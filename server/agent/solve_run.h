@@ -31,7 +31,9 @@ class SolveRun {
     std::chrono::milliseconds batch{20};              // how long events wait for company
     std::chrono::milliseconds kill_after{2000};       // from the request to stop to SIGKILL
     std::chrono::milliseconds wall_grace{60'000};     // from max_wall_time_s to SIGKILL
+    std::chrono::milliseconds lease = kLeaseDuration;  // renewed when a third of it is over
     double cpu_limit_s = 86400;
+    std::string solver_fingerprint = {};  // results for keys of another solver are not reused; empty: unknown
   };
 
   SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now);
@@ -40,8 +42,14 @@ class SolveRun {
   const SolverProcess& process() const { return process_; }
   // Its stream stays readable for ever then.
   bool stream_ended() const { return stream_end_.has_value(); }
-  // Does what is due: reads the solver, stores events, renews the lease, kills, commits the end.
+  // Does what is due: reads the solver, renews the lease, kills, commits the end. Events are left to the agent, which
+  // stores those of all its runs together.
   void Service(SteadyTime now);
+  // Whether events have waited long enough, and those that wait; empty when there are none.
+  bool events_due(SteadyTime now) const { return flush_at_ && now >= *flush_at_; }
+  EventBatch Events() const { return {lease_, state_ == State::kSolving ? pending_ : std::vector<StoredEvent>()}; }
+  // What became of them.
+  void EventsStored(const Outcome<LeaseState>& appended, SteadyTime now);
   // When Service is due again though no descriptor is ready.
   SteadyTime NextDue() const;
   // The store knows the end, or the solve is no longer ours.
@@ -57,7 +65,6 @@ class SolveRun {
   void ReadSolver(SteadyTime now);
   void Take(const std::string& payload, SteadyTime now);
   void AddIteration(const v1::Iteration& iteration, SteadyTime now);
-  void FlushEvents(SteadyTime now);
   void RenewLease(SteadyTime now);
   void EnforceDeadlines(SteadyTime now);
   void ConcludeIfGone(SteadyTime now);
@@ -65,14 +72,19 @@ class SolveRun {
   void KillBy(SteadyTime deadline);
   void LoseLease(const std::string& reason);
 
+  void PutIntoSpool();
+
   const Context& context_;
   Lease lease_;
+  const bool other_solver_;  // the key was made for another one than ours
   SolverProcess process_;
   State state_ = State::kSolving;
 
   std::optional<wire::SolverMessage> last_;  // result or error
   std::optional<FrameStatus> stream_end_;
   std::vector<StoredEvent> pending_;
+  int64_t next_sequence_;
+  bool spooled_ = false;
   int skipped_ = 0;  // iterations dropped because the store does not take any
   bool sent_any_ = false;
   bool cancelled_ = false;

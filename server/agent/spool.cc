@@ -31,6 +31,7 @@ std::string Encode(const PendingEnd& pending) {
   spooled.set_error(pending.end.error);
   spooled.set_reusable(pending.end.reusable);
   for (const StoredEvent& event : pending.events) spooled.add_iterations(event.payload);
+  if (!pending.events.empty()) spooled.set_first_sequence(pending.events.front().sequence);
   return spooled.SerializeAsString();
 }
 
@@ -42,8 +43,10 @@ bool Decode(const std::string& bytes, PendingEnd* pending) {
   if (state != SolveState::kSucceeded && state != SolveState::kFailed && state != SolveState::kCancelled) return false;
   pending->lease = {spooled.solve_id(), spooled.owner(), spooled.epoch()};
   pending->end = {state, spooled.result(), spooled.error(), spooled.reusable()};
+  int64_t sequence = spooled.first_sequence();
   for (const std::string& payload : spooled.iterations()) {
-    pending->events.push_back({0, EventKind::kIteration, payload});
+    pending->events.push_back({sequence, EventKind::kIteration, payload});
+    if (sequence > 0) ++sequence;
   }
   return true;
 }

@@ -125,4 +125,13 @@ bool NotifySender::Send(std::string_view text) const {
          static_cast<ssize_t>(size);
 }
 
+Outcome<std::unique_ptr<HintChannel>> SocketHints::Create(const std::string& directory, const std::string& own_name,
+                                                          const std::string& other_name) {
+  Outcome<NotifyReceiver> receiver = NotifyReceiver::Create(directory, own_name);
+  if (!receiver.ok()) return receiver.error();
+  Outcome<NotifySender> sender = NotifySender::Create(directory, other_name);
+  if (!sender.ok()) return sender.error();
+  return std::unique_ptr<HintChannel>(new SocketHints(std::move(receiver).value(), std::move(sender).value()));
+}
+
 }  // namespace rollgait::server

@@ -2,10 +2,13 @@
 #define ROLLGAIT_SERVER_BASE_NOTIFY_H_
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "server/base/hint_channel.h"
 #include "server/base/outcome.h"
 
 namespace rollgait::server {
@@ -62,6 +65,25 @@ class NotifySender {
   int fd_ = -1;
   int directory_fd_ = -1;
   std::string name_;
+};
+
+// Both ends of one process in the data directory.
+class SocketHints : public HintChannel {
+ public:
+  // kUnavailable with the reason.
+  static Outcome<std::unique_ptr<HintChannel>> Create(const std::string& directory, const std::string& own_name,
+                                                      const std::string& other_name);
+
+  int fd() const override { return receiver_.fd(); }
+  std::vector<std::string> Drain() override { return receiver_.Drain(); }
+  void Send(std::string_view text) override { sender_.Send(text); }
+
+ private:
+  SocketHints(NotifyReceiver receiver, NotifySender sender)
+      : receiver_(std::move(receiver)), sender_(std::move(sender)) {}
+
+  NotifyReceiver receiver_;
+  const NotifySender sender_;
 };
 
 }  // namespace rollgait::server

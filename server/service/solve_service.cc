@@ -62,6 +62,7 @@ Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& reque
   }
   NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key, options_.max_queued};
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
+  solve.solver_fingerprint = options_.solver_fingerprint;
   const Outcome<CreatedSolve> created = store_.Create(solve);
   if (!created.ok()) return created.error();
   const SolveRecord& record = created.value().record;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/base/notify.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -61,9 +63,9 @@ Outcome<WatchBatch> Watch::Take() {
   return batch;
 }
 
-WatchHub::WatchHub(SolveStore& store, NotifyReceiver receiver, std::chrono::milliseconds heartbeat_interval)
+WatchHub::WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval)
     : store_(store),
-      receiver_(std::move(receiver)),
+      hints_(hints),
       heartbeat_interval_(heartbeat_interval),
       event_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   ROLLGAIT_CHECK(event_fd_ >= 0);
@@ -184,11 +186,11 @@ void WatchHub::WakeForHeartbeats() {
 void WatchHub::Loop() {
   int64_t last_poll_ns = SteadyNanos();
   while (!stopped_) {
-    pollfd entries[] = {{receiver_.fd(), POLLIN, 0}, {event_fd_, POLLIN, 0}};
+    pollfd entries[] = {{hints_.fd(), POLLIN, 0}, {event_fd_, POLLIN, 0}};
     poll(entries, 2, kNotifyPollMillis);
     uint64_t count = 0;
     if (read(event_fd_, &count, sizeof(count)) < 0) count = 0;  // nobody rang
-    std::vector<std::string> ids = receiver_.Drain();
+    std::vector<std::string> ids = hints_.Drain();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       ids.insert(ids.end(), changed_.begin(), changed_.end());

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/base/notify.h"
+#include "server/base/hint_channel.h"
 #include "server/service/solve_feed.h"
 #include "server/service/solve_message.h"
 #include "server/store/solve_store.h"
@@ -57,8 +57,8 @@ class Watch {
 // looking into the store every kNotifyPollMillis; events that several readers want are read and decoded once.
 class WatchHub {
  public:
-  // The store outlives the hub. Heartbeats come within a poll of their time.
-  WatchHub(SolveStore& store, NotifyReceiver receiver, std::chrono::milliseconds heartbeat_interval);
+  // Store and hints outlive the hub, which alone receives from them. Heartbeats come within a poll of their time.
+  WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval);
   ~WatchHub();
 
   // A reader after a sequence number. `wake` is called, from any thread, when Take may have something: soon after
@@ -90,7 +90,7 @@ class WatchHub {
   std::vector<std::string> WatchedIds();
 
   SolveStore& store_;
-  NotifyReceiver receiver_;
+  HintChannel& hints_;
   const std::chrono::milliseconds heartbeat_interval_;
   const int event_fd_;
   std::atomic<bool> stopped_{false};

@@ -92,20 +92,76 @@ void Database::DropIdle() {
   returned_.notify_all();
 }
 
-void Database::Attempt(SqlConnection& connection, SqlConnection::Access access,
-                       const std::function<bool(SqlConnection&)>& body, bool* committing) {
+void Database::Alone(SqlConnection::Access access, Waiting& write) {
+  std::unique_ptr<SqlConnection> connection;
+  write.committing = false;
+  write.failure.reset();
   try {
-    connection.Begin(access);
-    if (body(connection)) {
-      *committing = access == SqlConnection::Access::kWrite;
-      connection.Commit();
+    connection = Take(access);
+    connection->Begin(access);
+    if (write.body(*connection)) {
+      write.committing = access == SqlConnection::Access::kWrite;
+      connection->Commit();
     } else {
-      connection.Rollback();
+      connection->Rollback();
     }
+  } catch (const SqlFailure& failure) {
+    if (connection != nullptr) connection->Rollback();
+    write.failure = failure;
   } catch (...) {
-    connection.Rollback();
+    if (connection != nullptr) {
+      connection->Rollback();
+      Return(access, std::move(connection));
+    }
     throw;
   }
+  if (connection == nullptr) return;
+  Return(access, std::move(connection));
+  if (write.failure.has_value() && write.failure->kind() == Kind::kLost) DropIdle();
+}
+
+// All in one transaction, each undone by itself if it does not want to commit. False: something failed, nothing was
+// written.
+bool Database::TryTogether(const std::vector<Waiting*>& group) {
+  constexpr SqlConnection::Access kWrite = SqlConnection::Access::kWrite;
+  std::unique_ptr<SqlConnection> connection;
+  bool committed = false;
+  try {
+    connection = Take(kWrite);
+    connection->Begin(kWrite);
+    for (const Waiting* write : group) {
+      Query(*connection, "SAVEPOINT one").Run();
+      if (!write->body(*connection)) Query(*connection, "ROLLBACK TO one").Run();
+      Query(*connection, "RELEASE one").Run();
+    }
+    connection->Commit();
+    committed = true;
+  } catch (const SqlFailure&) {
+    if (connection != nullptr) connection->Rollback();
+  }
+  if (connection != nullptr) Return(kWrite, std::move(connection));
+  return committed;
+}
+
+void Database::RunGroup(const std::vector<Waiting*>& group) {
+  if (group.size() > 1 && TryTogether(group)) return;
+  for (Waiting* write : group) Alone(SqlConnection::Access::kWrite, *write);
+}
+
+// The first that finds nobody at work does the work of all that wait.
+void Database::InGroup(Waiting& write) {
+  std::unique_lock<std::mutex> lock(group_mutex_);
+  waiting_.push_back(&write);
+  group_done_.wait(lock, [&] { return write.done || !leading_; });
+  if (write.done) return;
+  leading_ = true;
+  const std::vector<Waiting*> group = std::exchange(waiting_, {});
+  lock.unlock();
+  RunGroup(group);
+  lock.lock();
+  leading_ = false;
+  for (Waiting* member : group) member->done = true;
+  group_done_.notify_all();
 }
 
 Outcome<Done> Database::PrepareSchema() {
@@ -122,28 +178,19 @@ Outcome<Done> Database::PrepareSchema() {
   return Done{};
 }
 
-Database::Result Database::Transact(SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body) {
+std::optional<Error> Database::Transact(SqlConnection::Access access, const Body& body) {
   for (int conflicts = 0, losses = 0;;) {
-    std::unique_ptr<SqlConnection> connection;
-    bool committing = false;
-    try {
-      connection = Take(access);
-      Attempt(*connection, access, body, &committing);
-      Return(access, std::move(connection));
-      return std::nullopt;
-    } catch (const SqlFailure& failure) {
-      const bool connected = connection != nullptr;
-      if (connected) Return(access, std::move(connection));
-      if (failure.kind() == Kind::kLost && connected) {
-        DropIdle();
-        if (!committing && ++losses <= kLosses) continue;
-      }
-      if (failure.kind() != Kind::kConflict || ++conflicts > kConflicts) return ToError(failure);
-      PauseAfterConflict(conflicts);
-    } catch (...) {
-      if (connection != nullptr) Return(access, std::move(connection));
-      throw;
+    Waiting write{body};
+    if (access == SqlConnection::Access::kWrite && options_.group_writes) {
+      InGroup(write);
+    } else {
+      Alone(access, write);
     }
+    if (!write.failure.has_value()) return std::nullopt;
+    const SqlFailure& failure = *write.failure;
+    if (failure.kind() == Kind::kLost && !write.committing && ++losses <= kLosses) continue;
+    if (failure.kind() != Kind::kConflict || ++conflicts > kConflicts) return ToError(failure);
+    PauseAfterConflict(conflicts);
   }
 }
 

@@ -22,6 +22,7 @@ class Database {
     std::string name;  // for messages; without a password
     std::function<std::unique_ptr<SqlConnection>()> connect;
     int writers = 1, readers = 2;  // most connections of each kind
+    bool group_writes = false;     // writes that wait for one another share a transaction and its commit
   };
   explicit Database(Options options) : options_(std::move(options)) {}
   Database(const Database&) = delete;
@@ -44,7 +45,12 @@ class Database {
   const std::string& name() const { return options_.name; }
 
  private:
-  using Result = std::optional<Error>;
+  using Body = std::function<bool(SqlConnection&)>;  // returns whether to commit
+  struct Waiting {
+    const Body& body;
+    std::optional<SqlFailure> failure = std::nullopt;
+    bool committing = false, done = false;
+  };
   struct Pool {
     std::vector<std::unique_ptr<SqlConnection>> idle;
     int open = 0;
@@ -54,17 +60,19 @@ class Database {
   auto Run(SqlConnection::Access access, Body& body) -> decltype(body(std::declval<SqlConnection&>())) {
     using Answer = decltype(body(std::declval<SqlConnection&>()));
     std::optional<Answer> answer;
-    const Result failure = Transact(access, [&](SqlConnection& connection) {
+    const std::optional<Error> failure = Transact(access, [&](SqlConnection& connection) {
       answer.emplace(body(connection));
       return answer->ok();
     });
     return failure.has_value() ? Answer(*failure) : std::move(*answer);
   }
 
-  // `body` returns whether to commit.
-  Result Transact(SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body);
-  void Attempt(SqlConnection& connection, SqlConnection::Access access, const std::function<bool(SqlConnection&)>& body,
-               bool* committing);
+  std::optional<Error> Transact(SqlConnection::Access access, const Body& body);
+  // One attempt; sets failure and whether that was in the commit.
+  void Alone(SqlConnection::Access access, Waiting& write);
+  void InGroup(Waiting& write);
+  void RunGroup(const std::vector<Waiting*>& group);
+  bool TryTogether(const std::vector<Waiting*>& group);
   std::unique_ptr<SqlConnection> Take(SqlConnection::Access access);
   void Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection);
   void DropIdle();
@@ -73,6 +81,10 @@ class Database {
   std::mutex mutex_;  // protects the pools
   std::condition_variable returned_;
   Pool writers_, readers_;
+  std::mutex group_mutex_;  // protects what follows
+  std::condition_variable group_done_;
+  std::vector<Waiting*> waiting_;
+  bool leading_ = false;  // a thread runs a group
 };
 
 }  // namespace rollgait::server

@@ -89,6 +89,15 @@ Outcome<LeaseState> MeasuredStore::AppendEvents(const Lease& lease, const std::v
   return MeasureLeased("append_events", lease, [&] { return store_.AppendEvents(lease, events); });
 }
 
+Outcome<std::vector<Outcome<LeaseState>>> MeasuredStore::AppendAll(const std::vector<EventBatch>& batches) {
+  auto outcomes = Measure("append_events", [&] { return store_.AppendAll(batches); });
+  for (size_t i = 0; outcomes.ok() && i < batches.size(); ++i) {
+    const Outcome<LeaseState>& outcome = outcomes.value()[i];
+    if (!outcome.ok() && outcome.error().code == ErrorCode::kLeaseLost) solves_.LeaseLost(batches[i].lease);
+  }
+  return outcomes;
+}
+
 Outcome<Done> MeasuredStore::Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) {
   auto outcome = MeasureLeased("finish", lease, [&] { return store_.Finish(lease, events, end); });
   if (outcome.ok()) solves_.Finished(lease, end);

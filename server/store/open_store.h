@@ -5,17 +5,21 @@
 #include <string>
 
 #include "server/base/clock.h"
+#include "server/base/hint_channel.h"
 #include "server/store/sql_store.h"
+#include "server/store/store_location.h"
 
 namespace rollgait::server {
 
-// Where the solves are.
-struct StoreLocation {
-  std::string sqlite_path;
-};
-
 // Opens the store, making what is missing. kUnavailable with the reason. The clock outlives it.
 Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, const Clock& clock);
+
+enum class HintRole { kServer, kAgent };
+
+// The channel by which a server and the agents of one store tell each other of news: LISTEN and NOTIFY on PostgreSQL,
+// sockets in the data directory on SQLite. What a server sends reaches the agents and, on PostgreSQL, other servers.
+Outcome<std::unique_ptr<HintChannel>> OpenHints(const StoreLocation& location, const std::string& data_dir,
+                                                HintRole role);
 
 }  // namespace rollgait::server
 

@@ -106,6 +106,12 @@ struct Lease {
   int64_t epoch = 0;
 };
 
+// Events of one leased solve.
+struct EventBatch {
+  Lease lease;
+  std::vector<StoredEvent> events;
+};
+
 struct ClaimedSolve {
   Lease lease;
   SolveRecord record;
@@ -142,7 +148,6 @@ struct LeaseOwner {
 
 inline constexpr int kMaxCrashes = 3;
 inline constexpr std::chrono::milliseconds kLeaseDuration{15'000};
-inline constexpr std::chrono::milliseconds kLeaseRenewal{5'000};
 
 }  // namespace rollgait::server
 

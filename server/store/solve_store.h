@@ -51,6 +51,8 @@ class SolveStore {
   // Appends in order. An event whose `sequence` is given (not 0) and not beyond the newest is held already: so a call
   // whose answer was lost can be made again. kLeaseLost: nothing was written.
   virtual Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) = 0;
+  // The same for several solves in one transaction: an outcome for each.
+  virtual Outcome<std::vector<Outcome<LeaseState>>> AppendAll(const std::vector<EventBatch>& batches) = 0;
   // Appends `events`, then writes result or error, state and the terminal event, all in one transaction. kLeaseLost.
   virtual Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) = 0;
   // Gives a solve up. Returns the state it is in now: kQueued, kFailed (too many crashes), kCancelled (that was asked

@@ -32,6 +32,7 @@ class SqlStore : public SolveStore {
   Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) override;
+  Outcome<std::vector<Outcome<LeaseState>>> AppendAll(const std::vector<EventBatch>& batches) override;
   Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) override;
   Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) override;
   Outcome<std::vector<std::string>> CancelRequests(const std::string& owner) override;

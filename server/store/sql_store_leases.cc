@@ -35,6 +35,15 @@ void AppendNew(SqlConnection& connection, const std::vector<StoredEvent>& events
 
 LeaseState StateOf(const SolveRow& row) { return {row.record.cancel_requested, row.record.last_sequence}; }
 
+// Writes nothing if the lease is lost.
+Outcome<LeaseState> AppendLeased(SqlConnection& connection, const Lease& lease, const std::vector<StoredEvent>& events) {
+  Outcome<SolveRow> row = FindLeased(connection, lease);
+  if (!row.ok()) return row.error();
+  AppendNew(connection, events, row.value());
+  SaveSolve(connection, row.value());
+  return StateOf(row.value());
+}
+
 // Every queued solve of this key ends with the result.
 void AnswerQueued(SqlConnection& connection, const std::string& solve_key, int64_t result_id, int64_t now_us) {
   if (solve_key.empty()) return;
@@ -145,12 +154,14 @@ Outcome<LeaseState> SqlStore::RenewLease(const Lease& lease, std::chrono::millis
 }
 
 Outcome<LeaseState> SqlStore::AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<LeaseState> {
-    Outcome<SolveRow> row = FindLeased(connection, lease);
-    if (!row.ok()) return row.error();
-    AppendNew(connection, events, row.value());
-    SaveSolve(connection, row.value());
-    return StateOf(row.value());
+  return database_->Write([&](SqlConnection& connection) { return AppendLeased(connection, lease, events); });
+}
+
+Outcome<std::vector<Outcome<LeaseState>>> SqlStore::AppendAll(const std::vector<EventBatch>& batches) {
+  return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<Outcome<LeaseState>>> {
+    std::vector<Outcome<LeaseState>> outcomes;
+    for (const EventBatch& batch : batches) outcomes.push_back(AppendLeased(connection, batch.lease, batch.events));
+    return outcomes;
   });
 }
 

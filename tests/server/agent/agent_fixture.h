@@ -41,7 +41,7 @@ class AgentFixture : public ::testing::Test {
 
   Agent::Options Options() const {
     Agent::Options options;
-    options.data_dir = directory_;
+    options.work_dir = directory_;
     options.slots = 2;
     options.solver.program = ROLLGAIT_TEST_SOLVER;
     options.stop_fd = stop_[0];
@@ -52,7 +52,8 @@ class AgentFixture : public ::testing::Test {
 
   std::unique_ptr<Agent> MakeAgent() { return MakeAgent(Options()); }
   std::unique_ptr<Agent> MakeAgent(const Agent::Options& options) {
-    Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, *store_, clock_);
+    channels_.push_back(SocketHints::Create(directory_, kAgentSocket, kServerSocket).value());
+    Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, {*store_, *channels_.back(), clock_});
     EXPECT_TRUE(agent.ok());
     return std::move(agent).value();
   }
@@ -118,6 +119,7 @@ class AgentFixture : public ::testing::Test {
   std::string directory_;
   SystemClock clock_;
   std::unique_ptr<SqlStore> store_;
+  std::vector<std::unique_ptr<HintChannel>> channels_;  // one an agent
   std::array<int, 2> stop_ = {-1, -1}, lifeline_ = {-1, -1};
   int count_ = 0;
 };

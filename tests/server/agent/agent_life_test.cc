@@ -74,15 +74,68 @@ TEST_F(AgentLifeTest, AnIdleAgentWithoutRollgaitdGoesAtOnce) {
   EXPECT_FALSE(agent->Step(std::chrono::seconds(5)));
 }
 
-TEST_F(AgentLifeTest, TwoAgentsKeepToTheSlotsTogether) {
+TEST_F(AgentLifeTest, AgentsWorkBesideEachOtherWithTheirOwnSlots) {
   Agent::Options options = Options();
   options.slots = 1;
   const auto first = MakeAgent(options), second = MakeAgent(options);
-  const std::string one = Queue("hang"), two = Queue("result");
-  ASSERT_TRUE(StepUntil(*first, [&] { return CountIterations(one) == 1; }));
+  const std::string one = Queue("iterations 1 hang"), two = Queue("iterations 1 hang"), three = Queue("result");
+  ASSERT_TRUE(StepUntil(*first, [&] { return CountIterations(one) >= 1; }));
+  ASSERT_TRUE(StepUntil(*second, [&] { return CountIterations(two) >= 1; }));
   for (int i = 0; i < 20; ++i) second->Step(std::chrono::milliseconds(20));
-  EXPECT_EQ(second->running(), 0);
-  EXPECT_EQ(Get(two).state, SolveState::kQueued);
+  EXPECT_EQ(first->running(), 1);
+  EXPECT_EQ(second->running(), 1);
+  EXPECT_EQ(Get(three).state, SolveState::kQueued);
+}
+
+TEST_F(AgentLifeTest, WhatADrainingAgentRunsCountsAgainstTheSlotsOfTheNext) {
+  Agent::Options options = Options();
+  options.slots = 1;
+  const std::string one = Queue("iterations 1 hang"), two = Queue("result");
+  auto old = MakeAgent(options);
+  ASSERT_TRUE(StepUntil(*old, [&] { return CountIterations(one) >= 1; }));
+  close(std::exchange(lifeline_[1], -1));
+  old->Step(std::chrono::milliseconds(0));
+  options.lifeline_fd = -1;
+  const auto next = MakeAgent(options);
+  ASSERT_TRUE(StepUntil(*next, [&] { return next->IdleProcesses().size() == 1; }));
+  for (int i = 0; i < 20; ++i) next->Step(std::chrono::milliseconds(20));
+  EXPECT_EQ(next->running(), 0);
+  ASSERT_TRUE(store_->RequestCancel(one).ok());
+  while (old->Step(std::chrono::seconds(1))) {
+  }
+  old.reset();
+  EXPECT_EQ(RunToEnd(*next, two).state, SolveState::kSucceeded);
+  for (const auto& entry : std::filesystem::directory_iterator(DataDir{directory_}.AgentsDir())) {
+    EXPECT_NE(entry.path().extension(), ".draining");
+  }
+}
+
+TEST_F(AgentLifeTest, AnOwnerThatMayLiveElsewhereIsLeftToItsLease) {
+  const std::string id = Queue("result");
+  ASSERT_TRUE(store_->ClaimNext("agent-far-away", kLeaseDuration).value().has_value());
+  Agent::Options options = Options();
+  options.all_agents_here = false;
+  const auto agent = MakeAgent(options);
+  for (int i = 0; i < 20; ++i) agent->Step(std::chrono::milliseconds(10));
+  EXPECT_EQ(Get(id).state, SolveState::kRunning);
+  ASSERT_TRUE(std::filesystem::exists(DataDir{directory_}.AgentLock(agent->owner())));
+  EXPECT_FALSE(std::filesystem::exists(DataDir{directory_}.AgentLock("agent-far-away")));
+}
+
+TEST_F(AgentLifeTest, AResultOfAnotherSolverIsNotReused) {
+  Agent::Options options = Options();
+  options.solver_fingerprint = "ours";
+  const auto agent = MakeAgent(options);
+  v1::SolveSpec spec;
+  spec.mutable_model()->set_name("result");
+  for (const std::string fingerprint : {"theirs", "ours"}) {
+    NewSolve solve{"first-" + fingerprint, "", spec.SerializeAsString(), "key of " + fingerprint};
+    solve.solver_fingerprint = fingerprint;
+    ASSERT_TRUE(store_->Create(solve).ok());
+    EXPECT_EQ(RunToEnd(*agent, solve.id).state, SolveState::kSucceeded);
+    solve.id = "second-" + fingerprint;
+    EXPECT_EQ(store_->Create(solve).value().record.from_cache, fingerprint == "ours");
+  }
 }
 
 TEST_F(AgentLifeTest, TheSolvesOfADeadAgentAreRunAgain) {

@@ -8,6 +8,7 @@
 
 #include "server/base/clock.h"
 #include "server/base/data_dir.h"
+#include "server/base/notify.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
 #include "server/store/open_store.h"
@@ -56,7 +57,8 @@ class ServiceBench {
  public:
   explicit ServiceBench(std::chrono::milliseconds heartbeat = std::chrono::hours(1), ServiceOptions options = {})
       : store_(OpenStore({directory_.path() + "/rollgait.db"}, clock_).value()),
-        hub_(*store_, NotifyReceiver::Create(directory_.path(), kServerSocket).value(), heartbeat),
+        channel_(SocketHints::Create(directory_.path(), kServerSocket, kAgentSocket).value()),
+        hub_(*store_, *channel_, heartbeat),
         hints_(NotifySender::Create(directory_.path(), kServerSocket).value()),
         service_(*store_, SmallKnowledge(), std::move(options), [this](const std::string& id) { hub_.Changed(id); }) {}
 
@@ -95,6 +97,7 @@ class ServiceBench {
   TemporaryDirectory directory_;
   SystemClock clock_;
   std::unique_ptr<SqlStore> store_;
+  std::unique_ptr<HintChannel> channel_;
   WatchHub hub_;
   NotifySender hints_;
   SolveService service_;

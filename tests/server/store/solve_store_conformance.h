@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@ struct StoreKind {
   std::string name;
   // Opens the store that lies in `directory`; called twice for one directory it gives two objects on the same solves.
   std::function<std::unique_ptr<SolveStore>(const std::string& directory, const Clock& clock)> open;
+  // Lets leases age: so much time passes for the clock they expire by.
+  std::function<void(const std::string& directory, FakeClock& clock, std::chrono::milliseconds time)> pass_time;
 };
 
 // The cases are in solve_store_{requests,leases}_conformance.cc.

@@ -6,7 +6,7 @@
 #include "server/store/open_store.h"
 #include "server/store/schema.h"
 #include "server/store/sqlite_connection.h"
-#include "tests/server/store/solve_store_conformance.h"
+#include "tests/server/store/store_bench.h"
 #include "tests/server/store/temporary_directory.h"
 
 namespace rollgait::server {
@@ -18,7 +18,9 @@ std::unique_ptr<SolveStore> OpenIn(const std::string& directory, const Clock& cl
   return std::move(store).value();
 }
 
-INSTANTIATE_TEST_SUITE_P(Sqlite, SolveStoreConformance, testing::Values(StoreKind{"sqlite", OpenIn}),
+void PassTime(const std::string&, FakeClock& clock, std::chrono::milliseconds time) { clock.Advance(time); }
+
+INSTANTIATE_TEST_SUITE_P(Sqlite, SolveStoreConformance, testing::Values(StoreKind{"sqlite", OpenIn, PassTime}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(SqliteStoreTest, FilesThatAreNotOursAreRefused) {
@@ -120,6 +122,17 @@ TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {
   Query rows(connection, "SELECT COUNT(*) FROM solves JOIN events ON solve = number");
   ASSERT_TRUE(rows.Step());
   EXPECT_EQ(rows.Int(0), 6);
+}
+
+TEST(SqliteStoreTest, ARestartOfTheMachineEndsAllLeases) {
+  const StoreKind kind{"sqlite", OpenIn, PassTime};
+  StoreBench bench(kind);
+  bench.Add("a");
+  bench.Claim();
+  bench.clock().Reboot("second-boot");  // its time since boot is smaller than the end of the lease
+  bench.Restart();
+  EXPECT_EQ(bench.store().ReclaimExpired().value(), std::vector<std::string>{"a"});
+  EXPECT_EQ(bench.Get("a").state, SolveState::kQueued);
 }
 
 TEST(SqliteStoreTest, CommitsAreSynchronisedToDisk) {
