@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "server/store/audit.h"
+
 namespace rollgait::server {
 
 // The numbers of rollgait.v1.SolveState.
@@ -34,21 +36,6 @@ struct SolveRecord {
   int64_t trimmed_sequence = 0;  // events up to here are no longer held
   std::string result;         // v1::SolveResult; empty unless kSucceeded
   std::string error;          // v1::SolveError; empty unless kFailed or kCancelled
-};
-
-// Who asked for a change; goes into the audit row of its transaction.
-struct Actor {
-  std::string tenant, token_id, peer;
-};
-
-struct AuditRow {
-  int64_t number = 0;  // grows with time
-  int64_t time_us = 0;
-  Actor actor;
-  std::string action;   // create, cancel, delete, end, expire; others by server/access
-  std::string solve;    // id; empty: of none
-  std::string outcome;  // the solve's state, or what became of the call
-  std::string detail;
 };
 
 struct NewSolve {
