@@ -186,6 +186,8 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   options.initial_barrier = 3e-3;
   options.warm_push = 1e-2;
   options.barrier_tolerance = 1000;
+  options.barrier_exponent = 2.2;
+  options.recentre = true;
   options.max_iterations = 200;  // cold starts take fewer
   return options;
 }

@@ -10,9 +10,11 @@ namespace {
 // What is inlined into a function takes that function's instruction set.
 #define ROLLGAIT_INLINE inline __attribute__((always_inline))
 
-constexpr int kLanes = 4;
-// Without AVX the compiler makes two instructions of one.
-typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
+// Numbers that one instruction works on. Without AVX or AVX-512 the compiler makes several of one.
+typedef double Lanes __attribute__((vector_size(4 * sizeof(double))));
+typedef double WideLanes __attribute__((vector_size(8 * sizeof(double))));
+template <typename L>
+constexpr int kWidth = sizeof(L) / sizeof(double);
 
 // y −= Σ f_k l_k over K columns.
 template <int K>
@@ -52,31 +54,40 @@ ROLLGAIT_INLINE void ColumnKernel(const double* l, int l_stride, const int* plac
   if ((used & 1) != 0) Subtract<1>(columns + used - 1, factors + used - 1, n, y);
 }
 
-// A tile of R · kLanes rows and C columns of Y, held in registers while all k go by. W's numbers of the columns are neighbours.
-template <int R, int C>
+// A tile of R · kWidth<L> rows and C columns of Y, held in registers while all k go by. W's numbers of the columns are neighbours.
+template <typename L, int R, int C>
 ROLLGAIT_INLINE void Tile(const double* l, int l_stride, const double* w, int w_stride, int count, double* y, int y_stride) {
-  Lanes sum[R][C];
+  L sum[R][C];
   for (int c = 0; c < C; ++c) {
-    for (int r = 0; r < R; ++r) std::memcpy(&sum[r][c], y + static_cast<size_t>(c) * y_stride + r * kLanes, sizeof(Lanes));
+    for (int r = 0; r < R; ++r) std::memcpy(&sum[r][c], y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, sizeof(L));
   }
   for (int k = 0; k < count; ++k, l += l_stride, w += w_stride) {
-    Lanes column[R];
-    for (int r = 0; r < R; ++r) std::memcpy(&column[r], l + r * kLanes, sizeof(Lanes));
+    L column[R];
+    for (int r = 0; r < R; ++r) std::memcpy(&column[r], l + r * kWidth<L>, sizeof(L));
     for (int c = 0; c < C; ++c) {
       for (int r = 0; r < R; ++r) sum[r][c] -= column[r] * w[c];
     }
   }
   for (int c = 0; c < C; ++c) {
-    for (int r = 0; r < R; ++r) std::memcpy(y + static_cast<size_t>(c) * y_stride + r * kLanes, &sum[r][c], sizeof(Lanes));
+    for (int r = 0; r < R; ++r) std::memcpy(y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, &sum[r][c], sizeof(L));
   }
 }
 
-template <int C>
+// Tiles of R · kWidth<L> rows from row i on, as many as fit.
+template <typename L, int R, int C>
+ROLLGAIT_INLINE void Tiles(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y,
+                           int y_stride, int* i) {
+  constexpr int kRows = R * kWidth<L>;
+  for (; *i + kRows <= n; *i += kRows) Tile<L, R, C>(l + *i, l_stride, w, w_stride, count, y + *i, y_stride);
+}
+
+template <typename L, int C>
 ROLLGAIT_INLINE void Rows(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y,
                           int y_stride) {
   int i = 0;
-  for (; i + 3 * kLanes <= n; i += 3 * kLanes) Tile<3, C>(l + i, l_stride, w, w_stride, count, y + i, y_stride);
-  for (; i + kLanes <= n; i += kLanes) Tile<1, C>(l + i, l_stride, w, w_stride, count, y + i, y_stride);
+  Tiles<L, 3, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
+  Tiles<L, 1, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
+  if constexpr (kWidth<L> > kWidth<Lanes>) Tiles<Lanes, 1, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
   for (; i < n; ++i) {
     double sum[C];
     for (int c = 0; c < C; ++c) sum[c] = y[static_cast<size_t>(c) * y_stride + i];
@@ -89,18 +100,19 @@ ROLLGAIT_INLINE void Rows(const double* l, int l_stride, const double* w, int w_
 }
 
 // Of column j the rows from j · first_step on.
+template <typename L>
 ROLLGAIT_INLINE void MatrixKernel(const double* l, int l_stride, const double* w, int w_stride, int count, int n,
                                   int columns, double* y, int y_stride, int first_step) {
   constexpr int kColumns = 4;
   int j = 0;
   for (; j + kColumns <= columns; j += kColumns) {
     const int first = j * first_step;
-    Rows<kColumns>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first,
+    Rows<L, kColumns>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first,
                    y_stride);
   }
   for (; j < columns; ++j) {
     const int first = j * first_step;
-    Rows<1>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first, y_stride);
+    Rows<L, 1>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first, y_stride);
   }
 }
 
@@ -108,7 +120,7 @@ template <int K>
 ROLLGAIT_INLINE void Dots(const double* l, int l_stride, int n, const double* x, double* y) {
   Lanes sum[K] = {};
   int i = 0;
-  for (; i + kLanes <= n; i += kLanes) {
+  for (; i + kWidth<Lanes> <= n; i += kWidth<Lanes>) {
     Lanes value;
     std::memcpy(&value, x + i, sizeof(Lanes));
     for (int k = 0; k < K; ++k) {
@@ -131,43 +143,46 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
   for (; k < count; ++k) Dots<1>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
 }
 
-struct Kernels {
-  void (*column)(const double*, int, const int*, const double*, int, int, int, double*);
-  void (*matrix)(const double*, int, const double*, int, int, int, int, double*, int, int);
-  decltype(&SubtractTransposedProduct) transposed;
-};
-
-// The three kernels for one instruction set.
-#define ROLLGAIT_KERNELS(NAME, TARGET)                                                                                    \
-  TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride,             \
-                           int count, int n, double* y) {                                                               \
-    ColumnKernel(l, l_stride, places, w, w_stride, count, n, y);                                                        \
-  }                                                                                                                     \
+// The three kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order, so the lanes
+// change no bit of it.
+#define ROLLGAIT_KERNELS(NAME, TARGET, L)                                                                                 \
+  TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count,   \
+                           int n, double* y) {                                                                            \
+    ColumnKernel(l, l_stride, places, w, w_stride, count, n, y);                                                          \
+  }                                                                                                                       \
   TARGET void NAME##Matrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,   \
                            double* y, int y_stride, int first_step) {                                                     \
-    MatrixKernel(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step);                                   \
+    MatrixKernel<L>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step);                                \
   }                                                                                                                       \
   TARGET void NAME##Transposed(const double* l, int l_stride, int count, int n, const double* x, double* y) {             \
     TransposedKernel(l, l_stride, count, n, x, y);                                                                        \
   }                                                                                                                       \
-  constexpr Kernels k##NAME = {NAME##Column, NAME##Matrix, NAME##Transposed};
+  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME, NAME##Column, NAME##Matrix, NAME##Transposed};
 
-ROLLGAIT_KERNELS(Portable, )
+ROLLGAIT_KERNELS(Portable, , Lanes)
 #if defined(__x86_64__)
-ROLLGAIT_KERNELS(Wide, __attribute__((target("avx2,fma"))))
+ROLLGAIT_KERNELS(Avx2, __attribute__((target("avx2,fma"))), Lanes)
+ROLLGAIT_KERNELS(Wide, __attribute__((target("avx512f,avx2,fma"))), WideLanes)
+// Dot products are bound by memory; those of AVX2 round their remainders in the order of AVX2.
+constexpr ProductKernels kAvx512 = {"Avx512", WideColumn, WideMatrix, Avx2Transposed};
 #endif
 
-const Kernels& Chosen() {
-#if defined(__x86_64__)
-  static const Kernels& kernels =
-      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? kWide : kPortable;
+const ProductKernels& Chosen() {
+  static const ProductKernels& kernels = *AvailableProductKernels().back();
   return kernels;
-#else
-  return kPortable;
-#endif
 }
 
 }  // namespace
+
+std::vector<const ProductKernels*> AvailableProductKernels() {
+  std::vector<const ProductKernels*> available = {&kPortable};
+#if defined(__x86_64__)
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (avx2) available.push_back(&kAvx2);
+  if (avx2 && __builtin_cpu_supports("avx512f")) available.push_back(&kAvx512);
+#endif
+  return available;
+}
 
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y) {
   Chosen().column(l, l_stride, nullptr, w, w_stride, count, n, y);

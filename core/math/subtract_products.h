@@ -1,10 +1,13 @@
 #ifndef ROLLGAIT_CORE_MATH_SUBTRACT_PRODUCTS_H_
 #define ROLLGAIT_CORE_MATH_SUBTRACT_PRODUCTS_H_
 
+#include <vector>
+
 namespace rollgait {
 
-// The inner loops of dense elimination. Matrices are column-major; `stride` is the distance between columns. All run with AVX2 and
-// FMA where the processor has them, so the last bits of a result depend on the kind of processor.
+// The inner loops of dense elimination. Matrices are column-major; `stride` is the distance between columns. All run with the
+// widest vectors that the processor has; fused multiply-add rounds differently, so the last bits of a result depend on whether it has
+// that, and on nothing else.
 
 // y (n) −= Σ_k l_k w_k for `count` columns l_k and numbers w_k (`w_stride` apart). Columns whose number is zero are passed over.
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y);
@@ -20,6 +23,18 @@ void SubtractProductTriangle(const double* l, int l_stride, const double* w, int
 
 // y (count) −= Lᵀ x for L (n × count), x (n).
 void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, const double* x, double* y);
+
+// The same for one instruction set; the functions above call the last of those available.
+struct ProductKernels {
+  const char* name;
+  // y −= Σ_k l_k w_k; with places as in SubtractColumns, or null for the columns in order.
+  void (*column)(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count, int n, double* y);
+  // Y −= L Wᵀ, of column j the rows from j · first_step on.
+  void (*matrix)(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns, double* y,
+                 int y_stride, int first_step);
+  void (*transposed)(const double* l, int l_stride, int count, int n, const double* x, double* y);
+};
+std::vector<const ProductKernels*> AvailableProductKernels();
 
 }  // namespace rollgait
 

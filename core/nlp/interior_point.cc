@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/nlp/bound_multipliers.h"
 #include "core/nlp/filter.h"
 #include "core/nlp/newton_step.h"
 #include "core/nlp/optimality.h"
@@ -17,10 +18,12 @@ using Clock = std::chrono::steady_clock;
 using Point = BarrierProblem::Point;
 
 // Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
-constexpr double kTauMin = 0.99, kKappaSigma = 1e10, kKappaMu = 0.2, kThetaMu = 1.5;
+constexpr double kTauMin = 0.99, kKappaMu = 0.2;
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
 constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10, kMostMultiplier = 1000;
 constexpr int kMostCorrections = 4;
+// Of recentred steps: shorter ones are worth it; how much longer they are to be, and the part of that which is enough.
+constexpr double kLongStep = 0.9, kLengthening = 0.6, kLeastGain = 0.1;
 constexpr double kEpsilon = 2.2e-16;
 
 // a ≤ b up to the rounding of numbers of the size of `scale`.
@@ -55,7 +58,8 @@ class Solver {
     const double warm_push = std::min(kPush, options_.warm_push > 0 ? options_.warm_push : mu_);
     if (!barrier_.MakeInterior(start_.x, warm ? warm_push : kPush, &point_)) return false;
     gradient_.resize(barrier_.variables());
-    StartMultipliers(warm);
+    multipliers_.y = warm ? start_.constraint_multipliers : VectorX(VectorX::Zero(barrier_.rows()));
+    StartBoundMultipliers(barrier_, point_, mu_, start_, &multipliers_);
     if (!barrier_.Gradient(point_, &gradient_)) return false;
     if (!warm) {
       if (!problem_.Jacobian(point_.w.data(), newton_.kkt().jacobian())) return false;
@@ -69,25 +73,6 @@ class Solver {
     theta_max_ = 1e4 * std::max(1.0, point_.theta);
     filter_.Reset(theta_max_);
     return true;
-  }
-
-  void StartMultipliers(bool warm) {
-    const int n = barrier_.variables();
-    multipliers_.y = warm ? start_.constraint_multipliers : VectorX(VectorX::Zero(barrier_.rows()));
-    multipliers_.lower.setZero(barrier_.unknowns());
-    multipliers_.upper.setZero(barrier_.unknowns());
-    for (int i = 0; i < barrier_.unknowns(); ++i) {
-      // Of a warm start, as close to the central path of its barrier parameter as its distances say.
-      const double row = warm && i >= n ? multipliers_.y(barrier_.slack_rows()[i - n]) : 0;
-      const double lower = !warm ? 1 : std::max(i < n ? start_.lower_bound_multipliers(i) : -row, Share(i, true));
-      const double upper = !warm ? 1 : std::max(i < n ? start_.upper_bound_multipliers(i) : row, Share(i, false));
-      if (barrier_.has_lower(i)) multipliers_.lower(i) = lower;
-      if (barrier_.has_upper(i)) multipliers_.upper(i) = upper;
-    }
-  }
-  double Share(int i, bool lower) const {
-    const double distance = lower ? point_.w(i) - barrier_.lower(i) : barrier_.upper(i) - point_.w(i);
-    return mu_ / distance;
   }
 
   bool Linearise() {
@@ -125,7 +110,8 @@ class Solver {
         return Termination::kNumericalDifficulty;
       }
       tiny_steps = outcome == Search::kTinyStep ? tiny_steps + 1 : 0;
-      Correct();
+      barrier_.KeepDistance(point_.w, mu_);
+      KeepNearCentralPath(barrier_, point_, mu_, &multipliers_);
       if (!Linearise()) return Termination::kNumericalDifficulty;
     }
   }
@@ -147,7 +133,7 @@ class Solver {
     while (mu_ > least &&
            (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
                          options_.barrier_tolerance * mu_)) {
-      mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, kThetaMu)));
+      mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, options_.barrier_exponent)));
       tau_ = std::max(kTauMin, 1 - mu_);
       filter_.Reset(theta_max_);
       stuck = false;
@@ -175,6 +161,7 @@ class Solver {
       Accept(alpha, step_);
       return Search::kTinyStep;
     }
+    if (options_.recentre && std::min(alpha, dual_step_) < kLongStep && TryRecentred(alpha)) return Search::kStep;
     const double least = SmallestStep();
     for (bool first = true; first || alpha > least; first = false, alpha *= 0.5) {
       ++trials_;
@@ -186,6 +173,28 @@ class Solver {
       if (first && valid && trial_.theta >= point_.theta && SecondOrderCorrection(alpha)) return Search::kStep;
     }
     return Search::kFailed;
+  }
+
+  // The recentred step, if it is longer in one and not much shorter in the other of primal and dual, and the filter takes it whole.
+  bool TryRecentred(double alpha) {
+    if (!newton_.Recentre(point_, multipliers_, mu_, step_, std::min(1.0, alpha + kLengthening),
+                          std::min(1.0, dual_step_ + kLengthening), &corrected_)) {
+      return false;
+    }
+    const double primal = MaxPrimalStep(barrier_, point_, corrected_.w, tau_);
+    const double dual = MaxDualStep(multipliers_, corrected_.multipliers, tau_);
+    if (std::max(primal - alpha, dual - dual_step_) < kLeastGain * kLengthening) return false;
+    if (primal < 0.9 * alpha || dual < 0.9 * dual_step_) return false;
+    const double slope = slope_;
+    slope_ = barrier_gradient_.dot(corrected_.w);
+    ++trials_;
+    if (Try(primal, corrected_.w) && IsAcceptable(primal)) {
+      dual_step_ = dual;
+      Accept(primal, corrected_);
+      return true;
+    }
+    slope_ = slope;
+    return false;
   }
 
   double SmallestStep() const {
@@ -261,18 +270,6 @@ class Solver {
     multipliers_.y += alpha * step.multipliers.y;
     multipliers_.lower += dual_step_ * step.multipliers.lower;
     multipliers_.upper += dual_step_ * step.multipliers.upper;
-  }
-
-  // Keeps the bound multipliers within a factor of those of the central path.
-  void Correct() {
-    barrier_.KeepDistance(point_.w, mu_);
-    const auto within = [this](double z, double distance) {
-      return std::clamp(z, mu_ / (kKappaSigma * distance), kKappaSigma * mu_ / distance);
-    };
-    for (int i = 0; i < barrier_.unknowns(); ++i) {
-      if (barrier_.has_lower(i)) multipliers_.lower(i) = within(multipliers_.lower(i), point_.w(i) - barrier_.lower(i));
-      if (barrier_.has_upper(i)) multipliers_.upper(i) = within(multipliers_.upper(i), barrier_.upper(i) - point_.w(i));
-    }
   }
 
   double Elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

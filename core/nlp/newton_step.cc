@@ -15,6 +15,8 @@ constexpr double kDualShift = 1e-8, kDualShiftExponent = 0.25;
 constexpr int kMostSkips = 3;
 // A row without effective bounds: its slack is free.
 constexpr double kLeastCurvature = 1e-20;
+// Products of distance and multiplier within these multiples of μ are central enough.
+constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
 }  // namespace
 
@@ -27,7 +29,9 @@ NewtonSystem::NewtonSystem(BarrierProblem& barrier)
       dual_diagonal_(VectorX::Zero(barrier.rows())),
       a_(primal_diagonal_),
       b_(dual_diagonal_),
-      x_(primal_diagonal_) {}
+      x_(primal_diagonal_) {
+  no_excess_.lower = no_excess_.upper = excess_.lower = excess_.upper = sigma_;
+}
 
 bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
   const int n = barrier_.variables();
@@ -102,30 +106,57 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
 
 bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
                          NewtonStep* step) {
+  return Solve(point, multipliers, c, mu, right_, no_excess_, step);
+}
+
+bool NewtonSystem::Recentre(const BarrierProblem::Point& point, const Multipliers& multipliers, double mu,
+                            const NewtonStep& step, double primal, double dual, NewtonStep* recentred) {
+  const auto excess = [&](double distance, double change, double z, double z_change) {
+    const double product = (distance + primal * change) * (z + dual * z_change);
+    const double target = std::clamp(product, kLeastProduct * mu, kLargestProduct * mu);
+    return std::max(target - product, -kLargestProduct * mu) / distance;
+  };
+  shifted_right_ = right_;
+  for (int i = 0; i < barrier_.unknowns(); ++i) {
+    if (barrier_.has_lower(i)) {
+      excess_.lower(i) =
+          excess(point.w(i) - barrier_.lower(i), step.w(i), multipliers.lower(i), step.multipliers.lower(i));
+    }
+    if (barrier_.has_upper(i)) {
+      excess_.upper(i) =
+          excess(barrier_.upper(i) - point.w(i), -step.w(i), multipliers.upper(i), step.multipliers.upper(i));
+    }
+    shifted_right_(i) += excess_.lower(i) - excess_.upper(i);
+  }
+  return Solve(point, multipliers, point.c, mu, shifted_right_, excess_, recentred);
+}
+
+bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+                         const VectorX& right, const Multipliers& excess, NewtonStep* step) {
   const int n = barrier_.variables();
-  a_ = right_.head(n);
+  a_ = right.head(n);
   b_ = -c;
   for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
     const int row = barrier_.slack_rows()[k];
-    b_(row) += right_(n + static_cast<int>(k)) * dual_diagonal_(row);
+    b_(row) += right(n + static_cast<int>(k)) * dual_diagonal_(row);
   }
   step->w.resize(barrier_.unknowns());
   if (!kkt_.Solve(a_, b_, &x_, &step->multipliers.y)) return false;
   step->w.head(n) = x_;
   for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
     const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];
-    step->w(i) = (step->multipliers.y(row) + right_(i)) * dual_diagonal_(row);
+    step->w(i) = (step->multipliers.y(row) + right(i)) * dual_diagonal_(row);
   }
   step->multipliers.lower.setZero(barrier_.unknowns());
   step->multipliers.upper.setZero(barrier_.unknowns());
   for (int i = 0; i < barrier_.unknowns(); ++i) {
     if (barrier_.has_lower(i)) {
       const double distance = point.w(i) - barrier_.lower(i), z = multipliers.lower(i);
-      step->multipliers.lower(i) = mu / distance - z - z / distance * step->w(i);
+      step->multipliers.lower(i) = mu / distance - z - z / distance * step->w(i) + excess.lower(i);
     }
     if (barrier_.has_upper(i)) {
       const double distance = barrier_.upper(i) - point.w(i), z = multipliers.upper(i);
-      step->multipliers.upper(i) = mu / distance - z + z / distance * step->w(i);
+      step->multipliers.upper(i) = mu / distance - z + z / distance * step->w(i) + excess.upper(i);
     }
   }
   return true;

@@ -39,7 +39,16 @@ class NewtonSystem {
   bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
              NewtonStep* step);
 
+  // With the last factors, the step corrected for centrality (Gondzio, Computational Optimization and Applications 6, 1996): the
+  // products of distance and multiplier that a longer step, `primal` and `dual` of the given one, would leave outside
+  // [0.1 μ, 10 μ] are aimed at its ends.
+  bool Recentre(const BarrierProblem::Point& point, const Multipliers& multipliers, double mu, const NewtonStep& step,
+                double primal, double dual, NewtonStep* recentred);
+
  private:
+  // right: that of the gradients; excess: what the targets of the products differ from μ, divided by the distances.
+  bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
+             const VectorX& right, const Multipliers& excess, NewtonStep* step);
   bool Factorise(double mu);
   bool TryShift(double shift, double mu);
 
@@ -50,6 +59,8 @@ class NewtonSystem {
   bool degenerate_ = false;    // the present matrix is singular without a dual shift
   VectorX sigma_;              // unknowns(): curvature of the bounds
   VectorX right_;              // unknowns(): negative gradient of the barrier Lagrangian
+  Multipliers no_excess_, excess_;   // of targets
+  VectorX shifted_right_;
   VectorX primal_diagonal_, dual_diagonal_, a_, b_, x_;
 };
 

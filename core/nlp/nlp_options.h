@@ -21,6 +21,9 @@ struct NlpOptions {
   double barrier_tolerance = 10;  // κ_ε: μ falls once its problem is solved to an error of κ_ε μ
   // How far from its bounds a warm start begins, relative to their size or distance, at most 0.01; 0: μ₀.
   double warm_push = 0;
+  double barrier_exponent = 1.5;   // θ_μ: the next μ is at least μ^θ_μ
+  // Whether a step that bounds cut short is tried again with Gondzio's correction for centrality.
+  bool recentre = false;
   int mesh = 0;                  // passed on with every iteration
 };
 

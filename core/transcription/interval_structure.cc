@@ -157,9 +157,10 @@ void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_couple
 }
 
 void IntervalBlock::BuildHessianPattern() {
-  std::set<std::pair<int, int>> lower;
+  const int order = local_size_ + 1;
+  std::vector<char> lower(static_cast<size_t>(order) * order, 0);  // column by column, as the dense local matrix is stored
   std::set<int> cost;
-  const auto add = [&lower](int a, int b) { lower.emplace(std::max(a, b), std::min(a, b)); };
+  const auto add = [&](int a, int b) { lower[static_cast<size_t>(std::min(a, b)) * order + std::max(a, b)] = 1; };
   for (int i = 0; i < points_count_; ++i) {
     Entries pairs;
     std::set<int> step_coupled;
@@ -182,10 +183,11 @@ void IntervalBlock::BuildHessianPattern() {
     }
   }
   add(local_size_, local_size_);
-  hessian_pattern_.assign(lower.begin(), lower.end());
-  // Column by column, as the dense local matrix is stored.
-  std::sort(hessian_pattern_.begin(), hessian_pattern_.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.second, a.first) < std::pair(b.second, b.first); });
+  for (int column = 0; column < order; ++column) {
+    for (int row = column; row < order; ++row) {
+      if (lower[static_cast<size_t>(column) * order + row] != 0) hessian_pattern_.emplace_back(row, column);
+    }
+  }
   cost_variables_.assign(cost.begin(), cost.end());
   const auto scale = [this](int i) { return i < local_size_ ? scale_(i) : 1; };
   for (const auto& [i, j] : hessian_pattern_) hessian_scale_.push_back(scale(i) * scale(j));

@@ -25,7 +25,7 @@ struct Size {
   int n, columns, count;
 };
 
-// All remainders of tiles of 12 and 4 rows and of 4 columns.
+// All remainders of tiles of 24, 12, 8 and 4 rows and of 4 columns.
 class SubtractProductsTest : public ::testing::TestWithParam<Size> {
  protected:
   void SetUp() override {
@@ -41,7 +41,7 @@ class SubtractProductsTest : public ::testing::TestWithParam<Size> {
 
 std::vector<Size> Sizes() {
   std::vector<Size> sizes;
-  for (int n = 0; n <= 29; ++n) {
+  for (int n = 0; n <= 37; ++n) {
     for (int columns : {0, 1, 3, 4, 6, 9}) {
       for (int count : {0, 1, 7, 8, 15, 40}) sizes.push_back({n, columns, count});
     }
@@ -87,6 +87,32 @@ TEST_P(SubtractProductsTest, Transposed) {
   const VectorX expected = y - l_.topRows(n).transpose() * x;
   SubtractTransposedProduct(l_.data(), n + kStrideExcess, count, n, x.data(), y.data());
   EXPECT_LT((y - expected).cwiseAbs().sum(), 1e-13 * (1 + count));
+}
+
+// With fused multiply-add the width of the vectors changes no bit; without it only the last ones.
+TEST_P(SubtractProductsTest, InstructionSets) {
+  const auto [n, columns, count] = GetParam();
+  const int stride = n + kStrideExcess, w_stride = columns + kStrideExcess;
+  const VectorX x = VectorX::Random(n);
+  const VectorX dots = VectorX::Random(count);
+  std::vector<MatrixX> matrices, columnwise;
+  std::vector<VectorX> transposed;
+  for (const ProductKernels* kernels : AvailableProductKernels()) {
+    kernels->matrix(l_.data(), stride, w_.data(), w_stride, count, n, columns, matrices.emplace_back(y_).data(), stride, 0);
+    ExpectRows(matrices.back(), expected_, n);
+    MatrixX& y = columnwise.emplace_back(y_);
+    for (int j = 0; j < columns; ++j) {
+      kernels->column(l_.data(), stride, nullptr, w_.data() + j, w_stride, count, n, y.col(j).data());
+    }
+    ExpectRows(y, expected_, n);
+    kernels->transposed(l_.data(), stride, count, n, x.data(), transposed.emplace_back(dots).data());
+    EXPECT_LT((transposed.back() - dots + l_.topRows(n).transpose() * x).cwiseAbs().sum(), 1e-13 * (1 + count));
+  }
+  for (size_t k = 2; k < matrices.size(); ++k) {
+    EXPECT_EQ(matrices[k], matrices[1]);
+    EXPECT_EQ(columnwise[k], columnwise[1]);
+    EXPECT_EQ(transposed[k], transposed[1]);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+#ifndef ROLLGAIT_CORE_NLP_BOUND_MULTIPLIERS_H_
+#define ROLLGAIT_CORE_NLP_BOUND_MULTIPLIERS_H_
+
+#include "core/nlp/newton_step.h"
+#include "core/nlp/nlp_options.h"
+
+namespace rollgait {
+
+// Multipliers of the bounds of w at the first point: 1 of a cold start; of a warm one those of `start`, and of its rows for slacks
+// (multipliers->y), but no smaller than on the central path at the point's distances.
+void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
+                           const NlpStart& start, Multipliers* multipliers);
+
+// Keeps them within a factor of 1e10 of those of the central path (Wächter and Biegler, eq. 16).
+void KeepNearCentralPath(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
+                         Multipliers* multipliers);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_BOUND_MULTIPLIERS_H_
