@@ -37,8 +37,8 @@ Connection::Connection(const GlobalOptions& options) : options_(options) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
   arguments.SetUserAgentPrefix("rollgait/" ROLLGAIT_VERSION);
-  stub_ = v1::GaitService::NewStub(
-      grpc::CreateCustomChannel(options.server, grpc::InsecureChannelCredentials(), arguments));
+  channel_ = grpc::CreateCustomChannel(options.server, grpc::InsecureChannelCredentials(), arguments);
+  stub_ = v1::GaitService::NewStub(channel_);
 }
 
 void Connection::SetDeadline(grpc::ClientContext& context) const {

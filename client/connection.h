@@ -2,6 +2,7 @@
 #ifndef ROLLGAIT_CLIENT_CONNECTION_H_
 #define ROLLGAIT_CLIENT_CONNECTION_H_
 
+#include <grpcpp/channel.h>
 #include <grpcpp/client_context.h>
 
 #include <memory>
@@ -28,6 +29,7 @@ class Connection {
   explicit Connection(const GlobalOptions& options);
 
   v1::GaitService::StubInterface& stub() { return *stub_; }
+  std::shared_ptr<grpc::Channel> channel() const { return channel_; }
   const std::string& server() const { return options_.server; }
   const GlobalOptions& options() const { return options_; }
 
@@ -39,6 +41,7 @@ class Connection {
 
  private:
   GlobalOptions options_;
+  std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::GaitService::Stub> stub_;
 };
 

@@ -123,6 +123,7 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
                 "Example: rollgait reproduce-paper -o paper.html");
 
   app.add_subcommand("server-info", "Version, load and store of the server");
+  app.add_subcommand("health", "Whether the server serves: exit code 0, else 3; also by unix:DATA_DIR/admin.sock");
   app.add_subcommand("help", "Print this, or the help of a command")->add_option("COMMAND", arguments.help_command);
 }
 
@@ -164,6 +165,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);
   if (command == "report") return RunReport(arguments.report, global, terminal);
   if (command == "reproduce-paper") return RunReproducePaper(arguments.paper, global, terminal);
+  if (command == "health") return RunHealth(global, terminal);
   if (command == "server-info") return RunServerInfo(global, terminal);
   const CLI::App* const topic = arguments.help_command.empty() ? &app : app.get_subcommand(arguments.help_command);
   terminal.out << topic->help() << std::flush;

@@ -89,6 +89,8 @@ struct PoincareOptions {
 // The periodic gait of a passive walker. kNoSolution if the search did not converge.
 ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
+// Success: the server says that it serves; kUnreachable: it does not, or says otherwise.
+ExitCode RunHealth(const GlobalOptions& global, const Terminal& terminal);
 ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal);
 
 }  // namespace rollgait::client

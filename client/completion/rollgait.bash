@@ -2,7 +2,7 @@
 # share/bash-completion/completions/rollgait.
 _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
-  local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info help"
+  local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info health help"
   local global="--server --json --quiet --timeout --version --help"
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
