@@ -1,0 +1,99 @@
+# To be sourced by run: podman with storage of its own, and how a check is written down.
+# shellcheck shell=bash
+
+passed=0
+failed=0
+step() { echo; echo "==> $*"; }
+# check SENTENCE COMMAND...: runs the command; the sentence says what is true when it succeeds.
+check() {
+  local sentence=$1
+  shift
+  local output
+  if output=$("$@" 2>&1); then
+    passed=$((passed + 1))
+    echo "  ok    $sentence"
+  else
+    failed=$((failed + 1))
+    echo "  FAIL  $sentence"
+    sed 's/^/        | /' <<< "$output" | tail -n 20
+  fi
+}
+equal() { [ "$1" = "$2" ] || { echo "is '$1', expected '$2'"; return 1; }; }
+# until_true SECONDS COMMAND...: tries every half second.
+until_true() {
+  local end=$((SECONDS + $1))
+  shift
+  until "$@" > /dev/null 2>&1; do
+    [ $SECONDS -lt $end ] || { "$@"; return 1; }
+    sleep 0.5
+  done
+}
+
+# What is asked of every container; the limits are those that runc may set in a sandboxed CI.
+limits=(--ulimit nofile=10000:10000 --ulimit nproc=4000:4000)
+# As docker/compose.yaml has it.
+confined=(--read-only --tmpfs /tmp:rw,size=64m --cap-drop ALL --security-opt no-new-privileges)
+
+set_up_containers() {
+  work=$(mktemp -d /var/tmp/rollgait-containers.XXXXXX)
+  logs=build/container-logs
+  rm -rf $logs
+  mkdir -p $logs "$work/out"
+  chmod 0777 "$work/out"
+  image=localhost/rollgait:test
+  network=rollgait-test
+  pod network create $network > "$logs/network.log" 2>&1 ||
+    { cat "$logs/network.log" >&2; fail "podman cannot make a network here; the container tests cannot run"; }
+}
+
+pod() {
+  podman --runtime runc --root "$work/storage" --runroot "$work/run" --tmpdir "$work/tmp" --network-config-dir "$work/networks" \
+    --cgroup-manager cgroupfs --events-backend file "$@"
+}
+
+tear_down_containers() {
+  for container in $(pod ps -aq 2> /dev/null); do
+    pod logs "$container" > "$logs/$(pod inspect --format '{{.Name}}' "$container").log" 2>&1 || true
+  done
+  [ "${failed:-0}" = 0 ] || echo "Logs of the containers are in $logs."
+  pod rm -fa -t 0 > /dev/null 2>&1 || true
+  pod network rm -f $network > /dev/null 2>&1 || true
+  umount -q "$work/storage/overlay" 2> /dev/null || true
+  rm -rf --one-file-system "$work" || true
+}
+
+# run_in NAME ARGUMENTS...: a container in the background.
+run_in() {
+  local name=$1
+  shift
+  pod run -d --name "$name" "${limits[@]}" --network "$network" "${confined[@]}" "$@" > /dev/null
+}
+# client ARGUMENTS...: the client in a container that ends with it, over the network; /out is $work/out.
+client() {
+  pod run --rm "${limits[@]}" --network "$network" "${confined[@]}" -v "$work/out:/out" "${client_options[@]}" "$image" rollgait "$@"
+}
+
+make_base_image() {
+  local root=$work/root
+  make_bare_root "$1"
+  cp -a "$roots/$1.base" "$root"
+  give_apt_settings "$1" "$root"
+  tar -C "$root" -c . | pod import - "localhost/debian:$1" > "$logs/import.log" 2>&1 ||
+    { cat "$logs/import.log" >&2; fail "podman cannot import an image here; the container tests cannot run"; }
+  rm -rf "$root"
+  base=localhost/debian:$1
+  pod run --rm "${limits[@]}" --network none "$base" true > "$logs/first.log" 2>&1 ||
+    { cat "$logs/first.log" >&2; fail "podman cannot run a container here; runc's reason is above"; }
+}
+
+build_image() {
+  if [ "$1" = prebuilt ]; then
+    [ -x build/release/bin/rollgaitd ] || fail "build/release/bin holds no programs; run scripts/build first"
+    docker/runtime-packages build/release/bin > build/release/runtime-packages
+  fi
+  local begun=$SECONDS
+  pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
+    --build-arg "BASE=$base" --build-arg "PROGRAMS=$1" . > "$logs/build.log" 2>&1 ||
+    { tail -n 30 "$logs/build.log" >&2; fail "the image could not be built; the end of $logs/build.log is above"; }
+  echo "  built in $((SECONDS - begun)) s"
+}
