@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/common.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,6 +39,10 @@ bool AtEnd(int fd) {
   char byte;
   const ssize_t count = read(fd, &byte, 1);
   return count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
+}
+
+void StoreFailed(const char* wanted, const Error& error) {
+  LogEvent(spdlog::level::warn, "store.failed", {{"wanted", wanted}, {"reason", error.message}});
 }
 
 bool Readable(int fd) {
@@ -119,13 +123,13 @@ bool Agent::Step(milliseconds at_most) {
 }
 
 void Agent::Drain() {
-  spdlog::warn("rollgaitd has gone; finishing {} solves", runs_.size());
+  LogEvent(spdlog::level::warn, "agent.drains", {{"reason", "rollgaitd has gone"}, {"running", runs_.size()}});
   draining_ = true;
   idle_.clear();
   const std::string mark = DataDir{options_.work_dir}.AgentDraining(owner_);
   const int fd = open(mark.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   if (fd < 0) {
-    spdlog::warn("cannot make {}: {}", mark, std::strerror(errno));  // the next agent may start more than its slots
+    LogEvent(spdlog::level::warn, "agent.mark_failed", {{"path", mark}, {"reason", std::strerror(errno)}});  // the next agent may start more than its slots
   } else {
     close(fd);
   }
@@ -187,7 +191,7 @@ void Agent::LookForCancels() {
   if (runs_.empty()) return;
   const Outcome<std::vector<std::string>> ids = store_.CancelRequests(owner_);
   if (!ids.ok()) {
-    spdlog::warn("cannot look for cancellations: {}", ids.error().message);
+    StoreFailed("cancellations", ids.error());
     return;
   }
   const SteadyTime now = std::chrono::steady_clock::now();
@@ -201,7 +205,7 @@ void Agent::LookAfterOthers(SteadyTime now) {
   ReclaimDeadOwners();
   const Outcome<std::vector<std::string>> expired = store_.ReclaimExpired();
   if (!expired.ok()) {
-    spdlog::warn("cannot look for expired leases: {}", expired.error().message);
+    StoreFailed("expired leases", expired.error());
     return;
   }
   for (const std::string& id : expired.value()) context_.poke(id);
@@ -228,7 +232,7 @@ bool Agent::LivesElsewhere(const std::string& owner) const {
 void Agent::ReclaimDeadOwners() {
   const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
   if (!owners.ok()) {
-    spdlog::warn("cannot look for dead agents: {}", owners.error().message);
+    StoreFailed("dead agents", owners.error());
     return;
   }
   const DataDir directory{options_.work_dir};
@@ -239,10 +243,10 @@ void Agent::ReclaimDeadOwners() {
     ReplayDead(owner);
     const Outcome<std::vector<std::string>> ids = store_.ReclaimOwner(owner);
     if (!ids.ok()) {
-      spdlog::warn("cannot take over from {}: {}", owner, ids.error().message);
+      StoreFailed("a dead agent's solves", ids.error());
       continue;
     }
-    spdlog::info("{} is dead; {} of its solves are queued again", owner, ids.value().size());
+    LogEvent(spdlog::level::info, "agent.found_dead", {{"owner", owner}, {"solves", ids.value().size()}});
     for (const std::string& id : ids.value()) context_.poke(id);
     poked_ = true;
     unlink(directory.AgentDraining(owner).c_str());
@@ -259,7 +263,7 @@ void Agent::HearIdleProcesses(SteadyTime now) {
     const FrameStatus status = idle.process.Receive(&payloads);
     if (!payloads.empty() && !idle.ready) idle.ready = poked_ = true;
     if (idle.process.Reap()) {
-      spdlog::error("a solver died before it had work: {}", idle.process.LastOutput());
+      LogEvent(spdlog::level::err, "solver.died_idle", {{"reason", idle.process.LastOutput()}});
       return true;
     }
     if (status != FrameStatus::kNeedMore || (!idle.ready && now > idle.since + kStartLimit)) idle.process.Kill(SIGKILL);
@@ -274,7 +278,7 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
   while (idle_.size() < wanted && now >= spawn_at_) {
     Outcome<SolverProcess> process = SolverProcess::Spawn(options_.solver);
     if (!process.ok()) {
-      spdlog::error("{}", process.error().message);
+      LogEvent(spdlog::level::err, "solver.start_failed", {{"reason", process.error().message}});
       spawn_at_ = now + kSpawnRetry;
       return;
     }
@@ -305,7 +309,7 @@ void Agent::ClaimWork(SteadyTime now) {
     if (idle == idle_.end() || running() + RunByDrainingAgents() >= options_.slots) return;
     Outcome<std::optional<ClaimedSolve>> claimed = store_.ClaimNext(owner_, options_.lease);
     if (!claimed.ok()) {
-      spdlog::warn("cannot claim work: {}", claimed.error().message);
+      StoreFailed("a claim", claimed.error());
       return;
     }
     if (!claimed.value()) return;

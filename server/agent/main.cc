@@ -168,10 +168,10 @@ int Main(int argc, char** argv) {
     if (!address.ok()) return Fail(address.error().message);
     LogEvent(spdlog::level::info, "metrics.served", {{"address", address.value()}});
   }
-  spdlog::info("{} works with {} slots on {}", agent.value()->owner(), options.slots,
-               location.value().Name());
+  LogEvent(spdlog::level::info, "agent.started",
+           {{"owner", agent.value()->owner()}, {"slots", options.slots}, {"store", location.value().Name()}});
   agent.value()->Run();
-  spdlog::info("{} stops", agent.value()->owner());
+  LogEvent(spdlog::level::info, "agent.stopped", {{"owner", agent.value()->owner()}});
   return 0;
 }
 

@@ -2,7 +2,7 @@
 
 #include <google/protobuf/util/time_util.h>
 #include <signal.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/common.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +27,14 @@ milliseconds WallTime(const v1::SolveSpec& spec) {
   return milliseconds(std::llround(1000 * std::min(seconds, kMaxWallTime)));
 }
 
+void Warn(const char* event, const std::string& reason) { LogEvent(spdlog::level::warn, event, {{"reason", reason}}); }
+
 }  // namespace
 
 SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
     : context_(context),
       lease_(std::move(claimed.lease)),
+      fields_{{"solve", lease_.solve_id}, {"traceparent", claimed.record.traceparent}, {"tenant", claimed.record.tenant}},
       other_solver_(!context.solver_fingerprint.empty() && !claimed.record.solver_fingerprint.empty() &&
                     claimed.record.solver_fingerprint != context.solver_fingerprint),
       process_(std::move(process)),
@@ -42,11 +45,13 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess p
   wall_end_ = now + WallTime(spec) + context_.wall_grace;
   process_.Send(claimed.record.spec);
   if (!spec.warm_start().empty()) process_.Send(claimed.warm_start);
-  spdlog::info("solves/{}: attempt {} in process {}", id(), claimed.record.attempts, process_.pid());
+  const LogScope scope(fields_);
+  LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_.pid()}});
   if (claimed.record.cancel_requested) Cancel(now);
 }
 
 void SolveRun::Service(SteadyTime now) {
+  const LogScope scope(fields_);
   if (state_ == State::kSolving) {
     process_.Write();
     process_.ReadOutput();
@@ -76,6 +81,7 @@ void SolveRun::Cancel(SteadyTime now) {
 }
 
 void SolveRun::GiveUp() {
+  const LogScope scope(fields_);
   process_.Kill(SIGKILL);
   if (state_ == State::kOver) return;
   if (state_ == State::kCommitting) {
@@ -85,7 +91,7 @@ void SolveRun::GiveUp() {
   }
   state_ = State::kOver;
   const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kStopping, "its agent stops");
-  if (!given.ok()) spdlog::warn("solves/{}: {}", id(), given.error().message);
+  if (!given.ok()) Warn("solve.give_back_failed", given.error().message);
   context_.poke(id());
 }
 
@@ -131,10 +137,11 @@ void SolveRun::AddIteration(const v1::Iteration& iteration, SteadyTime now) {
 }
 
 void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now) {
+  const LogScope scope(fields_);
   flush_at_.reset();
   if (!appended.ok() && appended.error().code == ErrorCode::kLeaseLost) return LoseLease(appended.error().message);
   if (!appended.ok()) {
-    spdlog::warn("solves/{}: {} events wait: {}", id(), pending_.size(), appended.error().message);
+    LogEvent(spdlog::level::warn, "solve.events_wait", {{"events", pending_.size()}, {"reason", appended.error().message}});
     flush_at_ = now + kRetry;
     return;
   }
@@ -148,7 +155,7 @@ void SolveRun::RenewLease(SteadyTime now) {
   const Outcome<LeaseState> renewed = context_.store.RenewLease(lease_, context_.lease);
   if (!renewed.ok() && renewed.error().code == ErrorCode::kLeaseLost) return LoseLease(renewed.error().message);
   if (!renewed.ok()) {
-    spdlog::warn("solves/{}: the lease is not renewed: {}", id(), renewed.error().message);
+    Warn("lease.renewal_failed", renewed.error().message);
     renew_at_ = now + kRetry;
     return;
   }
@@ -157,7 +164,7 @@ void SolveRun::RenewLease(SteadyTime now) {
 }
 
 void SolveRun::LoseLease(const std::string& reason) {
-  spdlog::warn("solves/{}: {}", id(), reason);
+  Warn("lease.lost", reason);
   process_.Kill(SIGKILL);
   if (state_ == State::kCommitting) context_.spool.Remove(lease_);
   state_ = State::kOver;
@@ -201,13 +208,13 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
 void SolveRun::PutIntoSpool() {
   const Outcome<Done> put = context_.spool.Put({lease_, pending_, std::get<SolveEnd>(outcome_)});
   spooled_ = put.ok();
-  if (!spooled_) spdlog::error("solves/{}: {}", id(), put.error().message);
+  if (!spooled_) Warn("solve.spool_failed", put.error().message);
 }
 
 void SolveRun::Commit(SteadyTime now) {
   std::optional<Error> failure;
   if (const Crash* crash = std::get_if<Crash>(&outcome_)) {
-    spdlog::warn("solves/{}: the solver died: {}", id(), crash->detail);
+    Warn("solver.died", crash->detail);
     const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kCrashed, crash->detail);
     if (!given.ok()) failure = given.error();
   } else {
@@ -217,13 +224,13 @@ void SolveRun::Commit(SteadyTime now) {
   }
   if (failure && failure->code == ErrorCode::kLeaseLost) return LoseLease(failure->message);
   if (failure) {
-    spdlog::error("solves/{}: its end is not stored yet: {}", id(), failure->message);
+    LogEvent(spdlog::level::err, "solve.end_waits", {{"reason", failure->message}});
     commit_at_ = now + kRetry;
     return;
   }
   context_.spool.Remove(lease_);
   state_ = State::kOver;
-  spdlog::info("solves/{}: {}", id(), std::holds_alternative<Crash>(outcome_) ? "given back" : "ended");
+  LogEvent(spdlog::level::info, std::holds_alternative<Crash>(outcome_) ? "solve.given_back" : "solve.ended");
   context_.poke(id());
 }
 

@@ -12,6 +12,7 @@
 #include "server/agent/solver_process.h"
 #include "server/agent/spool.h"
 #include "server/base/clock.h"
+#include "server/base/logging.h"
 #include "server/store/solve_store.h"
 
 namespace rollgait::server {
@@ -76,6 +77,7 @@ class SolveRun {
 
   const Context& context_;
   Lease lease_;
+  const LogFields fields_;  // of every line about this run
   const bool other_solver_;  // the key was made for another one than ours
   SolverProcess process_;
   State state_ = State::kSolving;

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <utility>
 
+#include "server/base/logging.h"
 #include "server/base/process_limits.h"
 
 extern char** environ;
@@ -143,6 +144,8 @@ void SolverProcess::Swap(SolverProcess& other) noexcept {
   std::swap(parser_, other.parser_);
   std::swap(unsent_, other.unsent_);
   std::swap(output_, other.output_);
+  std::swap(line_, other.line_);
+  std::swap(logged_lines_, other.logged_lines_);
 }
 
 SolverProcess::~SolverProcess() {
@@ -200,7 +203,21 @@ void SolverProcess::ReadOutput() {
       return;
     }
     output_.append(buffer.data(), static_cast<size_t>(count));
+    LogLines({buffer.data(), static_cast<size_t>(count)});
     if (output_.size() > kKeptOutput) output_.erase(0, output_.size() - kKeptOutput);
+  }
+}
+
+void SolverProcess::LogLines(std::string_view text) {
+  for (const char c : text) {
+    if (c != '\n') {
+      if (line_.size() < kKeptOutput) line_ += c;
+      continue;
+    }
+    const std::string line = std::exchange(line_, std::string());
+    if (line.empty() || logged_lines_ > kMaxLoggedLines) continue;
+    const bool last = logged_lines_++ == kMaxLoggedLines;
+    LogEvent(spdlog::level::warn, "solver.printed", {{"pid", pid_}, {"text", last ? std::string("more lines are not logged") : line}});
   }
 }
 

@@ -40,6 +40,8 @@ class SolverProcess {
   SolverProcess& operator=(SolverProcess&& other) noexcept;
   ~SolverProcess();
 
+  static constexpr int kMaxLoggedLines = 100;
+
   pid_t pid() const { return pid_; }
   // Non-blocking descriptors to poll, and whether the stream waits to be writable.
   int stream_fd() const { return stream_fd_; }
@@ -53,7 +55,7 @@ class SolverProcess {
   // Appends the payloads that have arrived. kNeedMore: the stream goes on; else its end: kEnd, kTruncated, kGarbage,
   // kTooLarge, kError.
   FrameStatus Receive(std::vector<std::string>* payloads);
-  // Reads what the child has printed.
+  // Reads what the child has printed; whole lines go to the log too (event "solver.printed"), at most kMaxLoggedLines of them.
   void ReadOutput();
   // The last of what the child has printed, in one line of printable characters.
   std::string LastOutput() const;
@@ -66,6 +68,7 @@ class SolverProcess {
   SolverProcess(pid_t pid, int stream_fd, int output_fd) : pid_(pid), stream_fd_(stream_fd), output_fd_(output_fd) {}
 
   void Swap(SolverProcess& other) noexcept;
+  void LogLines(std::string_view text);
 
   pid_t pid_;  // 0: reaped
   int stream_fd_;
@@ -73,6 +76,8 @@ class SolverProcess {
   FrameParser parser_;
   std::string unsent_;
   std::string output_;  // the last kilobyte
+  std::string line_;    // printed, but not to its end
+  int logged_lines_ = 0;
 };
 
 }  // namespace rollgait::server

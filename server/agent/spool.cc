@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "server/base/logging.h"
 #include "server/base/framing.h"
 #include "server/base/wire.pb.h"
 
@@ -125,7 +126,8 @@ std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store,
     if (finished.ok()) {
       committed.push_back(pending.lease.solve_id);
     } else if (finished.error().code != ErrorCode::kLeaseLost) {
-      spdlog::warn("solves/{}: its end stays in the spool: {}", pending.lease.solve_id, finished.error().message);
+      LogEvent(spdlog::level::warn, "solve.end_stays_in_spool",
+               {{"solve", pending.lease.solve_id}, {"reason", finished.error().message}});
       continue;
     }
     spool.Remove(pending.lease);

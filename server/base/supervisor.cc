@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/common.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "server/base/logging.h"
 
 extern char** environ;
 
@@ -81,7 +83,7 @@ Outcome<pid_t> Supervisor::Spawn() const {
   if (code != 0) {
     return Error{ErrorCode::kUnavailable, "cannot start " + options_.arguments[0] + ": " + std::strerror(code)};
   }
-  spdlog::info("{} started, pid {}", options_.name, pid);
+  LogEvent(spdlog::level::info, "child.started", {{"name", options_.name}, {"pid", pid}});
   return pid;
 }
 
@@ -106,8 +108,8 @@ void Supervisor::Loop() {
     if (Clock::now() - start >= options_.stable) pause = options_.first_pause;
     std::unique_lock<std::mutex> lock(mutex_);
     if (stopping_) return;
-    spdlog::error("{} died with {}; starting it again in {} ms", options_.name, DescribeWaitStatus(status),
-                  pause.count());
+    LogEvent(spdlog::level::err, "child.died",
+             {{"name", options_.name}, {"reason", DescribeWaitStatus(status)}, {"next_start_ms", pause.count()}});
     while (pid_ == 0) {
       if (changed_.wait_for(lock, pause, [this] { return stopping_; })) return;
       pause = std::min(2 * pause, options_.last_pause);
@@ -115,7 +117,7 @@ void Supervisor::Loop() {
       if (pid.ok()) {
         pid_ = pid.value();
       } else {
-        spdlog::error("{}; trying again in {} ms", pid.error().message, pause.count());
+        LogEvent(spdlog::level::err, "child.start_failed", {{"reason", pid.error().message}, {"next_start_ms", pause.count()}});
       }
     }
   }
@@ -128,7 +130,7 @@ void Supervisor::Stop(std::chrono::milliseconds grace) {
     changed_.notify_all();
     if (pid_ != 0) kill(pid_, SIGTERM);
     if (!changed_.wait_for(lock, grace, [this] { return pid_ == 0; })) {
-      spdlog::error("{} did not stop within {} ms and is killed", options_.name, grace.count());
+      LogEvent(spdlog::level::err, "child.killed", {{"name", options_.name}, {"grace_ms", grace.count()}});
       kill(pid_, SIGKILL);
     }
   }
