@@ -113,20 +113,11 @@ class MessageMutator {
   }
 
   void AddElement(google::protobuf::Message* message, const Reflection* reflection, const Field* field) {
-    switch (field->cpp_type()) {
-      case Field::CPPTYPE_MESSAGE:
-        return Mutate(reflection->AddMessage(message, field));
-      case Field::CPPTYPE_DOUBLE:
-        return reflection->AddDouble(message, field, Number());
-      case Field::CPPTYPE_FLOAT:
-        return reflection->AddFloat(message, field, static_cast<float>(Number()));
-      case Field::CPPTYPE_INT32:
-        return reflection->AddInt32(message, field, Integer());
-      case Field::CPPTYPE_STRING:
-        return reflection->AddString(message, field, Text());
-      default:
-        return;
-    }
+    if (field->cpp_type() == Field::CPPTYPE_MESSAGE) Mutate(reflection->AddMessage(message, field));
+    if (field->cpp_type() == Field::CPPTYPE_DOUBLE) reflection->AddDouble(message, field, Number());
+    if (field->cpp_type() == Field::CPPTYPE_FLOAT) reflection->AddFloat(message, field, static_cast<float>(Number()));
+    if (field->cpp_type() == Field::CPPTYPE_INT32) reflection->AddInt32(message, field, Integer());
+    if (field->cpp_type() == Field::CPPTYPE_STRING) reflection->AddString(message, field, Text());
   }
 
   void MutateSingle(google::protobuf::Message* message, const Reflection* reflection, const Field* field) {
