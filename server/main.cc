@@ -31,6 +31,7 @@
 #include "server/service/watch_hub.h"
 #include "server/store/measured_store.h"
 #include "server/store/open_store.h"
+#include "server/store/retention_task.h"
 
 namespace rollgait::server {
 namespace {
@@ -40,6 +41,8 @@ constexpr std::chrono::milliseconds kAgentGrace{10'000};
 
 struct Flags {
   std::string data_dir, store;
+  double keep_solves_days = 0, keep_events_days = 0, keep_audit_days = 0;
+  int64_t keep_solves_mb = 0, reserve_mb = 64;
   std::string listen = "127.0.0.1:50051";
   bool insecure_listen = false;
   int solver_slots = -1;  // -1: not said
@@ -100,6 +103,28 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->check(CLI::IsMember(LogLevels()))
       ->capture_default_str();
   app.set_version_flag("--version", SolverBuild());
+}
+
+void AddRetentionFlags(CLI::App& app, Flags& flags) {
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    app.add_option(name, value, text)->check(CLI::Range(0.0, 1e9))->capture_default_str();
+  };
+  add("--keep-solves-days", flags.keep_solves_days, "Days after its end that a solve is deleted; 0: never");
+  add("--keep-solves-mb", flags.keep_solves_mb, "MiB of finished solves above which the oldest are deleted; 0: no limit");
+  add("--keep-events-days", flags.keep_events_days,
+      "Days after the end of a solve that its event log is reduced to the terminal event; 0: never");
+  add("--keep-audit-days", flags.keep_audit_days, "Days that audit rows are kept; 0: for ever");
+  add("--reserve-mb", flags.reserve_mb, "MiB of the SQLite file's disk kept for solves that were accepted");
+}
+
+RetentionLimits Retention(const Flags& flags) {
+  const auto days = [](double count) { return std::chrono::seconds(static_cast<int64_t>(86400 * count)); };
+  RetentionLimits limits;
+  limits.solves = days(flags.keep_solves_days);
+  limits.events = days(flags.keep_events_days);
+  limits.audit = days(flags.keep_audit_days);
+  limits.solve_bytes = flags.keep_solves_mb << 20;
+  return limits;
 }
 
 int Fail(const std::string& reason) {
@@ -187,8 +212,9 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const Outcome<std::string> fingerprint = Sha256HexOfFile(solver.value().program);
   if (!fingerprint.ok()) return Fail("the solver: " + fingerprint.error().message);
   const SystemClock clock;
-  const Outcome<StoreLocation> location = LocateStore(flags.store, data_dir.path);
+  Outcome<StoreLocation> location = LocateStore(flags.store, data_dir.path);
   if (!location.ok()) return Fail(location.error().message);
+  location.value().reserve_bytes = flags.reserve_mb << 20;
   if (location.value().is_postgres()) setenv(kStoreVariable, flags.store.c_str(), 1);
   const int solver_slots = SolverSlots(flags, location.value());
   const auto store = OpenStore(location.value(), clock);
@@ -233,6 +259,8 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   std::printf("rollgaitd listening on %s\n", server.value()->address().c_str());
   std::fflush(stdout);
 
+  const RetentionTask retention(measured_store, Retention(flags), std::chrono::minutes(1));
+
   int received = 0;
   sigwait(&end_signals, &received);
   spdlog::info("signal {}: stopping", received);
@@ -246,6 +274,7 @@ int Main(int argc, char** argv) {
   Flags flags;
   CLI::App app("Optimal gaits over gRPC.", "rollgaitd");
   AddFlags(app, flags);
+  AddRetentionFlags(app, flags);
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
   StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});

@@ -8,7 +8,7 @@ namespace {
 const prometheus::Histogram::BucketBoundaries kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                           0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
 constexpr const char* kOperations[] = {"create", "get", "list", "delete", "request_cancel", "read_events", "counts", "read_audit", "claim", "renew_lease",
-                                       "append_events", "finish", "give_back", "cancel_requests", "lease_owners", "reclaim"};
+                                       "append_events", "finish", "give_back", "cancel_requests", "lease_owners", "reclaim", "retain"};
 
 }  // namespace
 
@@ -73,6 +73,10 @@ Outcome<SolveCounts> MeasuredStore::Counts(const std::optional<std::string>& ten
 
 Outcome<std::vector<AuditRow>> MeasuredStore::ReadAudit(int64_t after_number, int max_rows) {
   return Measure("read_audit", [&] { return store_.ReadAudit(after_number, max_rows); });
+}
+
+Outcome<Removed> MeasuredStore::Retain(const RetentionLimits& limits) {
+  return Measure("retain", [&] { return store_.Retain(limits); });
 }
 
 Outcome<std::optional<ClaimedSolve>> MeasuredStore::ClaimNext(const std::string& owner, std::chrono::milliseconds duration) {

@@ -25,6 +25,7 @@ class MeasuredStore : public SolveStore {
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
   Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant) override;
   Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) override;
+  Outcome<Removed> Retain(const RetentionLimits& limits) override;
   Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) override;

@@ -1,5 +1,6 @@
 #include "server/store/open_store.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "server/base/data_dir.h"
@@ -21,7 +22,12 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
     options.group_writes = true;
     options.connect = [path = location.sqlite_path, &clock] { return std::make_unique<SqliteConnection>(path, clock); };
   }
-  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock);
+  DiskRoom room;
+  if (!location.is_postgres()) {
+    const std::string folder = std::filesystem::path(location.sqlite_path).parent_path().string();
+    room = DiskRoom(folder.empty() ? "." : folder, location.reserve_bytes);
+  }
+  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, std::move(room));
 }
 
 Outcome<std::unique_ptr<HintChannel>> OpenHints(const StoreLocation& location, const std::string& data_dir,

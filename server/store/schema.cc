@@ -1,5 +1,6 @@
 #include "server/store/schema.h"
 
+#include <iterator>
 #include <string>
 
 namespace rollgait::server {
@@ -125,12 +126,16 @@ CREATE TABLE IF NOT EXISTS warm_starts (
   payload BLOB NOT NULL);
 )";
 
-void MakeAll(SqlConnection& connection) {
-  for (const char* part : {kVersionTable, kResults, kSolves, kSolveIndexes, kPartsOfSolves, kAccess}) {
-    connection.Execute(part);
-  }
-  Query(connection, "INSERT INTO schema_version (version) VALUES (?)", kSchemaVersion).Run();
-}
+// What a solve takes, for retention by size; a shared result counts once.
+constexpr char kBytes[] = R"(
+ALTER TABLE solves ADD COLUMN bytes BIGINT NOT NULL DEFAULT 0;
+UPDATE solves SET bytes = LENGTH(spec) + COALESCE(LENGTH(error), 0)
+  + COALESCE((SELECT SUM(LENGTH(payload)) FROM events WHERE solve = number), 0)
+  + CASE WHEN from_cache = 1 THEN 0
+    ELSE COALESCE((SELECT LENGTH(payload) FROM results WHERE results.id = result_id), 0) END;
+DROP INDEX solves_by_end;
+CREATE INDEX solves_by_end ON solves (end_time_us, bytes) WHERE end_time_us > 0;
+)";
 
 void From1To2(SqlConnection& connection) {
   for (const char* part : {kWarmStartsOf1, kMoveSolves, kSolves, kCopySolves, kSolveIndexes, kAccess}) {
@@ -138,10 +143,20 @@ void From1To2(SqlConnection& connection) {
   }
 }
 
+void From2To3(SqlConnection& connection) { connection.Execute(kBytes); }
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2};
+constexpr Step kSteps[] = {From1To2, From2To3};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
+
+// An empty database gets version 2, where the steps of both engines begin.
+void MakeVersion2(SqlConnection& connection) {
+  for (const char* part : {kVersionTable, kResults, kSolves, kSolveIndexes, kPartsOfSolves, kAccess}) {
+    connection.Execute(part);
+  }
+  Query(connection, "INSERT INTO schema_version (version) VALUES (2)").Run();
+}
 
 void BringUp(SqlConnection& connection) {
   int64_t version = 0;
@@ -164,11 +179,8 @@ void BringUp(SqlConnection& connection) {
 void EnsureSchema(SqlConnection& connection) {
   connection.BeginSchemaChange();
   try {
-    if (connection.HasSchema()) {
-      BringUp(connection);
-    } else {
-      MakeAll(connection);
-    }
+    if (!connection.HasSchema()) MakeVersion2(connection);
+    BringUp(connection);
     connection.Commit();
   } catch (...) {
     connection.Rollback();

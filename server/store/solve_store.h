@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/base/outcome.h"
+#include "server/store/retention_limits.h"
 #include "server/store/solve_record.h"
 
 namespace rollgait::server {
@@ -39,6 +40,9 @@ class SolveStore {
   virtual Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) = 0;
   // Rows with a larger number, in order, at most max_rows.
   virtual Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) = 0;
+  // One small step towards the limits, oldest first: what was removed, nothing if all is within them. Solves that have
+  // not finished stay; so do results that a solve within the limits shares.
+  virtual Outcome<Removed> Retain(const RetentionLimits& limits) = 0;
 
   // For agents.
 

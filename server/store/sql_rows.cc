@@ -70,6 +70,7 @@ SolveRow ReadSolve(const Query& query) {
   record.solver_fingerprint = query.Bytes(20);
   record.traceparent = query.Bytes(21);
   record.trimmed_sequence = query.Int(22);
+  row.bytes = query.Int(23);
   return row;
 }
 
@@ -88,14 +89,15 @@ void SaveSolve(SqlConnection& connection, const SolveRow& row) {
   Query(connection,
         "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
         "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
-        "owner = NULLIF(?, ''), epoch = ?, lease_boot_id = ?, lease_end_ns = ? WHERE number = ?",
+        "owner = NULLIF(?, ''), epoch = ?, lease_boot_id = ?, lease_end_ns = ?, bytes = ? WHERE number = ?",
         static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
         record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error}, row.owner,
-        row.epoch, row.lease_boot_id, row.lease_end_ns, row.number)
+        row.epoch, row.lease_boot_id, row.lease_end_ns, row.bytes, row.number)
       .Run();
 }
 
 void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
+  row.bytes += static_cast<int64_t>(payload.size());
   Query(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", row.number,
         ++row.record.last_sequence, static_cast<int>(kind), Blob{payload})
       .Run();
@@ -116,6 +118,7 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_
   row.record.state = state;
   row.record.end_time_us = now_us;
   row.record.error = error;
+  row.bytes += static_cast<int64_t>(error.size());
   row.result_id = result_id;
   DropLease(row);
   Query(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number).Run();
@@ -133,6 +136,13 @@ void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& d
   DropLease(row);
   ChangeState(connection, row, SolveState::kQueued, detail, now_us);
   SaveSolve(connection, row);
+}
+
+void RemoveSolve(SqlConnection& connection, const SolveRow& row) {
+  Query(connection, "DELETE FROM solves WHERE number = ?", row.number).Run();
+  Query(connection, "DELETE FROM results WHERE id = ? AND NOT EXISTS (SELECT 1 FROM solves WHERE result_id = ?)",
+        row.result_id, row.result_id)
+      .Run();
 }
 
 int64_t FindReusableResult(SqlConnection& connection, const std::string& solve_key) {

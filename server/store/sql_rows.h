@@ -19,6 +19,7 @@ struct SolveRow {
   int64_t epoch = 0;
   std::string lease_boot_id;
   int64_t lease_end_ns = 0;
+  int64_t bytes = 0;  // spec, events, error, and a result of its own
   SolveRecord record;
 };
 
@@ -26,7 +27,7 @@ struct SolveRow {
 #define ROLLGAIT_SOLVE_COLUMNS                                                                          \
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
   "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, lease_boot_id, lease_end_ns, " \
-  "tenant, solver_fingerprint, traceparent, trimmed_sequence "
+  "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
@@ -56,6 +57,9 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_
 
 // Puts a running solve back into the queue, or ends it if it was to be cancelled; saves the row.
 void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us);
+
+// Removes the solve, its events, and its result unless another solve shares it.
+void RemoveSolve(SqlConnection& connection, const SolveRow& row);
 
 // A reusable result of this key; 0: none. An empty key has none.
 int64_t FindReusableResult(SqlConnection& connection, const std::string& solve_key);

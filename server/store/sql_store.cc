@@ -74,6 +74,7 @@ void InsertSolve(SqlConnection& connection, const NewSolve& solve, SolveRow& row
   SolveRecord& record = row.record;
   record.id = solve.id;
   record.spec = solve.spec;
+  row.bytes = static_cast<int64_t>(solve.spec.size());
   record.solve_key = solve.solve_key;
   record.tenant = solve.actor.tenant;
   record.solver_fingerprint = solve.solver_fingerprint;
@@ -121,12 +122,13 @@ Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) 
 
 }  // namespace
 
-Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> database, const Clock& clock) {
+Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> database, const Clock& clock,
+                                                           DiskRoom room) {
   const Outcome<Done> ready = database->PrepareSchema();
   if (!ready.ok()) {
     return Error{ErrorCode::kUnavailable, "cannot use the store " + database->name() + ": " + ready.error().message};
   }
-  return std::unique_ptr<SqlStore>(new SqlStore(std::move(database), clock));
+  return std::unique_ptr<SqlStore>(new SqlStore(std::move(database), clock, std::move(room)));
 }
 
 Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
@@ -138,6 +140,7 @@ Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
                                                     old->record.id + ", which has another spec; use a new request_id"};
       }
     }
+    if (std::optional<Error> full = room_.Refusal()) return *full;
     const int64_t reusable = FindReusableResult(connection, solve.solve_key);
     if (reusable == 0) {
       if (std::optional<Error> full = QueueFull(connection, solve)) return *full;
@@ -203,10 +206,7 @@ Outcome<Done> SqlStore::Delete(const std::string& id, const Actor& actor) {
     if (!IsTerminal(row->record.state)) {
       return Error{ErrorCode::kFailedPrecondition, "solves/" + id + " has not finished; cancel it first"};
     }
-    Query(connection, "DELETE FROM solves WHERE number = ?", row->number).Run();
-    Query(connection, "DELETE FROM results WHERE id = ? AND NOT EXISTS (SELECT 1 FROM solves WHERE result_id = ?)",
-          row->result_id, row->result_id)
-        .Run();
+    RemoveSolve(connection, *row);
     AddAudit(connection, {actor, "delete", id, "deleted"}, clock_.WallMicros());
     return Done{};
   });

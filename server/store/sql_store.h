@@ -8,6 +8,7 @@
 
 #include "server/base/clock.h"
 #include "server/store/database.h"
+#include "server/store/disk_room.h"
 #include "server/store/solve_store.h"
 
 namespace rollgait::server {
@@ -16,9 +17,10 @@ namespace rollgait::server {
 // SQLite, on any for PostgreSQL. Leases expire by SqlConnection::Now.
 class SqlStore : public SolveStore {
  public:
-  // Makes the tables or brings them up to date. kUnavailable with the reason if that fails. The clock outlives the
+  // Makes the tables or brings them up to date. New solves are refused when there is no room. kUnavailable with the reason if that fails. The clock outlives the
   // store.
-  static Outcome<std::unique_ptr<SqlStore>> Open(std::unique_ptr<Database> database, const Clock& clock);
+  static Outcome<std::unique_ptr<SqlStore>> Open(std::unique_ptr<Database> database, const Clock& clock,
+                                                 DiskRoom room = {});
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
@@ -28,6 +30,7 @@ class SqlStore : public SolveStore {
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
   Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) override;
   Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) override;
+  Outcome<Removed> Retain(const RetentionLimits& limits) override;
 
   Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) override;
@@ -44,10 +47,12 @@ class SqlStore : public SolveStore {
   Database& database() { return *database_; }
 
  private:
-  SqlStore(std::unique_ptr<Database> database, const Clock& clock) : database_(std::move(database)), clock_(clock) {}
+  SqlStore(std::unique_ptr<Database> database, const Clock& clock, DiskRoom room)
+      : database_(std::move(database)), clock_(clock), room_(std::move(room)) {}
 
   const std::unique_ptr<Database> database_;
   const Clock& clock_;
+  const DiskRoom room_;
 };
 
 }  // namespace rollgait::server

@@ -180,6 +180,7 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
       ROLLGAIT_CHECK(query.Step());
       result_id = query.Int(0);
       query.Run();
+      row.value().bytes += static_cast<int64_t>(end.result.size());
     }
     EndSolve(connection, row.value(), end.state, result_id, end.error, now_us);
     if (result_id != 0 && end.reusable) AnswerQueued(connection, key, result_id, now_us);

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_STORE_STORE_LOCATION_H_
 #define ROLLGAIT_SERVER_STORE_STORE_LOCATION_H_
 
+#include <cstdint>
 #include <string>
 
 #include "server/base/outcome.h"
@@ -12,6 +13,8 @@ struct StoreLocation {
   std::string sqlite_path = {};
   std::string postgres_url = {};  // empty: SQLite
   int connections = 8;            // most at once for writing, and as many for reading; SQLite has one writer
+
+  int64_t reserve_bytes = 0;       // SQLite: new solves are refused while the disk has less free
 
   bool is_postgres() const { return !postgres_url.empty(); }
   // For logs: without a password.

@@ -1,7 +1,11 @@
 // What is SQLite's own.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
+#include <atomic>
 #include <fstream>
+#include <thread>
 
 #include "server/store/open_store.h"
 #include "server/store/schema.h"
@@ -133,6 +137,86 @@ TEST(SqliteStoreTest, ARestartOfTheMachineEndsAllLeases) {
   bench.Restart();
   EXPECT_EQ(bench.store().ReclaimExpired().value(), std::vector<std::string>{"a"});
   EXPECT_EQ(bench.Get("a").state, SolveState::kQueued);
+}
+
+TEST(SqliteStoreTest, NewSolvesAreRefusedWhileTheReserveIsTouched) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  StoreLocation location{directory.path() + "/rollgait.db"};
+  ASSERT_TRUE(OpenStore(location, clock).value()->Create({"a", "request", "s", ""}).ok());
+  location.reserve_bytes = int64_t{1} << 60;
+  const auto store = OpenStore(location, clock).value();
+  const auto refused = store->Create({"b", "", "s", ""});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kResourceExhausted);
+  EXPECT_TRUE(refused.error().retry_after.has_value());
+  EXPECT_FALSE(store->Create({"c", "request", "s", ""}).value().created) << "a retry of one that was accepted";
+  const ClaimedSolve claimed = store->ClaimNext("agent", kLeaseDuration).value().value();
+  EXPECT_TRUE(store->Finish(claimed.lease, {}, {SolveState::kSucceeded, "result", "", true}).ok());
+}
+
+// The limit of a file's size stands for a full disk: SQLite meets the same failed writes.
+TEST(SqliteStoreTest, AFullDiskRefusesNewWorkLosesNothingAndIsGoodAgainWhenThereIsRoom) {
+  signal(SIGXFSZ, SIG_IGN);
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const auto store = OpenStore({directory.path() + "/rollgait.db"}, clock).value();
+  ASSERT_TRUE(store->Create({"first", "", "s", ""}).ok());
+  const Lease lease = store->ClaimNext("agent", kLeaseDuration).value().value().lease;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 1 << 20;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string spec(50'000, 's');
+  std::vector<std::string> accepted;
+  std::optional<Error> refusal;
+  for (size_t i = 0; i < 1000 && !refusal.has_value(); ++i) {
+    const std::string id = Numbered("s", i);
+    const auto created = store->Create({id, "", spec, ""});
+    if (created.ok()) accepted.push_back(id);
+    if (!created.ok()) refusal = created.error();
+  }
+  const bool readable = store->Get("first").ok() && store->ReadEvents("first", 0, 10).ok();
+  const auto unfinished = store->Finish(lease, {}, {SolveState::kSucceeded, std::string(2 << 20, 'r'), "", true});
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_EQ(refusal->code, ErrorCode::kResourceExhausted) << refusal->message;
+  EXPECT_NE(refusal->message.find("no room"), std::string::npos) << refusal->message;
+  EXPECT_TRUE(readable);
+  ASSERT_FALSE(unfinished.ok());
+  EXPECT_EQ(unfinished.error().code, ErrorCode::kResourceExhausted) << unfinished.error().message;
+  EXPECT_GT(accepted.size(), 3u);
+  for (const std::string& id : accepted) EXPECT_EQ(store->Get(id).value().spec, spec);
+  EXPECT_TRUE(store->Finish(lease, {}, kAnswer).ok()) << "the agent's next attempt";
+  EXPECT_TRUE(store->Create({"after", "", spec, ""}).ok());
+}
+
+TEST(SqliteStoreTest, WritesThatShareACommitFailByThemselves) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const auto store = OpenStore({directory.path() + "/rollgait.db"}, clock).value();
+  constexpr int kThreads = 8, kEach = 40;
+  std::vector<std::thread> threads;
+  std::atomic<int> created{0}, refused{0};
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < kEach; ++i) {
+        // Every second one asks for a place in a queue that has none.
+        NewSolve solve{"t" + std::to_string(t) + "-" + std::to_string(i), "", "s", ""};
+        solve.max_queued = i % 2 == 0 ? 100'000 : 0;
+        const auto outcome = store->Create(solve);
+        created += outcome.ok() ? 1 : 0;
+        refused += !outcome.ok() && outcome.error().code == ErrorCode::kResourceExhausted ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(created, kThreads * kEach / 2);
+  EXPECT_EQ(refused, kThreads * kEach / 2);
+  EXPECT_EQ(store->Counts().value().queued, kThreads * kEach / 2);
+  EXPECT_FALSE(store->Get("t0-1").ok());
+  EXPECT_EQ(store->ReadEvents("t7-38", 0, 10).value().events.size(), 1u);
 }
 
 TEST(SqliteStoreTest, CommitsAreSynchronisedToDisk) {

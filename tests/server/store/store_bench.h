@@ -23,6 +23,8 @@ class StoreBench {
   // For leases; by more than a test takes, on engines whose clock cannot be stopped.
   void PassTime(std::chrono::milliseconds time) { kind_.pass_time(directory_.path(), clock_, time); }
   std::unique_ptr<SolveStore> OpenAgain() { return kind_.open(directory_.path(), clock_); }
+  // Nobody of this process has the store open; before fork.
+  void Close() { store_.reset(); }
   void Restart() {
     store_.reset();
     store_ = OpenAgain();

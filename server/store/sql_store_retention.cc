@@ -1,0 +1,100 @@
+// What SqlStore removes in time.
+#include "server/store/sql_rows.h"
+#include "server/store/sql_store.h"
+
+namespace rollgait::server {
+namespace {
+
+constexpr int kSolvesAtOnce = 50;
+constexpr int kAuditRowsAtOnce = 1000;
+
+int64_t Micros(std::chrono::seconds time) { return std::chrono::microseconds(time).count(); }
+
+// The oldest finished solves that ended before a time.
+std::vector<SolveRow> Oldest(SqlConnection& connection, int64_t before_us) {
+  std::vector<SolveRow> rows;
+  Query query(connection,
+              "SELECT " ROLLGAIT_SOLVE_COLUMNS
+              "FROM solves WHERE end_time_us > 0 AND end_time_us < ? ORDER BY end_time_us LIMIT ? {skip_locked}",
+              before_us, kSolvesAtOnce);
+  while (query.Step()) rows.push_back(ReadSolve(query));
+  return rows;
+}
+
+// By how much finished solves are above the limit.
+int64_t Excess(SqlConnection& connection, int64_t limit) {
+  Query query(connection, "SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM solves WHERE end_time_us > 0");
+  return query.Step() ? query.Int(0) - limit : 0;
+}
+
+void Expire(SqlConnection& connection, const SolveRow& row, const std::string& why, int64_t now_us) {
+  RemoveSolve(connection, row);
+  AddAudit(connection, {Actor{row.record.tenant, "", ""}, "expire", row.record.id, "deleted", why}, now_us);
+}
+
+int ExpireSolves(SqlConnection& connection, const RetentionLimits& limits, int64_t now_us) {
+  int count = 0;
+  if (limits.solves.count() > 0) {
+    for (const SolveRow& row : Oldest(connection, now_us - Micros(limits.solves))) {
+      Expire(connection, row, "age", now_us);
+      ++count;
+    }
+  }
+  if (count > 0 || limits.solve_bytes <= 0) return count;
+  int64_t excess = Excess(connection, limits.solve_bytes);
+  if (excess <= 0) return 0;
+  for (const SolveRow& row : Oldest(connection, INT64_MAX)) {
+    if (excess <= 0) break;
+    Expire(connection, row, "size", now_us);
+    excess -= row.bytes;
+    ++count;
+  }
+  return count;
+}
+
+// The terminal event stays: whoever watches the solve learns how it ended.
+int TrimEvents(SqlConnection& connection, int64_t before_us) {
+  std::vector<SolveRow> rows;
+  {
+    Query query(connection,
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                "FROM solves WHERE end_time_us > 0 AND end_time_us < ? AND trimmed_sequence < last_sequence - 1 "
+                "ORDER BY end_time_us LIMIT ? {skip_locked}",
+                before_us, kSolvesAtOnce);
+    while (query.Step()) rows.push_back(ReadSolve(query));
+  }
+  for (const SolveRow& row : rows) {
+    const int64_t last = row.record.last_sequence - 1;
+    int64_t bytes = 0;
+    {
+      Query size(connection, "SELECT CAST(COALESCE(SUM(LENGTH(payload)), 0) AS BIGINT) FROM events WHERE solve = ? AND sequence <= ?",
+                 row.number, last);
+      if (size.Step()) bytes = size.Int(0);
+    }
+    Query(connection, "DELETE FROM events WHERE solve = ? AND sequence <= ?", row.number, last).Run();
+    Query(connection, "UPDATE solves SET trimmed_sequence = ?, bytes = bytes - ? WHERE number = ?", last, bytes, row.number)
+        .Run();
+  }
+  return static_cast<int>(rows.size());
+}
+
+}  // namespace
+
+Outcome<Removed> SqlStore::Retain(const RetentionLimits& limits) {
+  return database_->Write([&](SqlConnection& connection) -> Outcome<Removed> {
+    const int64_t now_us = clock_.WallMicros();
+    Removed removed;
+    removed.solves = ExpireSolves(connection, limits, now_us);
+    if (limits.events.count() > 0) removed.event_logs = TrimEvents(connection, now_us - Micros(limits.events));
+    if (limits.audit.count() > 0) {
+      removed.audit_rows = Query(connection,
+                                 "DELETE FROM audit WHERE number IN "
+                                 "(SELECT number FROM audit WHERE time_us < ? ORDER BY number LIMIT ?)",
+                                 now_us - Micros(limits.audit), kAuditRowsAtOnce)
+                               .Run();
+    }
+    return removed;
+  });
+}
+
+}  // namespace rollgait::server
