@@ -25,12 +25,13 @@ set(core_gait base math geometry multibody nlp contact models ocp trajectory tra
 
 # The same for the parts of the server; "core" stands for core/, "proto" for the generated headers. Result and the
 # contract checks of core/base are common property of the server.
-set(SERVER_PARTS base convert store service rpc agent solve simulate)
+set(SERVER_PARTS base convert store access service rpc agent solve simulate)
 set(server_base proto)
 set(server_convert base proto core)
 set(server_store convert base proto)
-set(server_service store convert base proto core)
-set(server_rpc service simulate store convert base proto)
+set(server_access store base)  # knows no gRPC
+set(server_service access store convert base proto core)
+set(server_rpc service access simulate store convert base proto)
 set(server_agent store convert base proto)
 set(server_solve convert base proto core)
 set(server_simulate agent convert base proto core)  # agent: the child process and its stream

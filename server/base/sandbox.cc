@@ -40,17 +40,30 @@ constexpr int kAllowed[] = {
     SCMP_SYS(exit_group), SCMP_SYS(set_robust_list), SCMP_SYS(rseq)};
 
 // What no accident of a library calls: the process has been taken over.
-constexpr int kDeadly[] = {SCMP_SYS(execve),    SCMP_SYS(execveat),        SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
-                           SCMP_SYS(mount),     SCMP_SYS(umount2),         SCMP_SYS(pivot_root),       SCMP_SYS(setns),
-                           SCMP_SYS(unshare),   SCMP_SYS(bpf),             SCMP_SYS(init_module),      SCMP_SYS(finit_module),
-                           SCMP_SYS(kexec_load), SCMP_SYS(kexec_file_load), SCMP_SYS(keyctl),          SCMP_SYS(userfaultfd)};
+constexpr int kDeadly[] = {SCMP_SYS(execve),
+                           SCMP_SYS(execveat),
+                           SCMP_SYS(process_vm_readv),
+                           SCMP_SYS(process_vm_writev),
+                           SCMP_SYS(mount),
+                           SCMP_SYS(umount2),
+                           SCMP_SYS(pivot_root),
+                           SCMP_SYS(setns),
+                           SCMP_SYS(unshare),
+                           SCMP_SYS(bpf),
+                           SCMP_SYS(init_module),
+                           SCMP_SYS(finit_module),
+                           SCMP_SYS(kexec_load),
+                           SCMP_SYS(kexec_file_load),
+                           SCMP_SYS(keyctl),
+                           SCMP_SYS(userfaultfd)};
 
 // The leak checker's: it clones itself, stops its creator with ptrace and reads /proc/self.
-constexpr int kForSanitizers[] = {
-    SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(readlink), SCMP_SYS(readlinkat), SCMP_SYS(clone), SCMP_SYS(ptrace),
-    SCMP_SYS(wait4), SCMP_SYS(prctl), SCMP_SYS(getppid), SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(getdents64),
-    SCMP_SYS(stat), SCMP_SYS(newfstatat), SCMP_SYS(access), SCMP_SYS(pread64), SCMP_SYS(prlimit64), SCMP_SYS(ioctl),
-    SCMP_SYS(pipe), SCMP_SYS(pipe2), SCMP_SYS(dup), SCMP_SYS(dup2)};
+constexpr int kForSanitizers[] = {SCMP_SYS(open),       SCMP_SYS(openat),    SCMP_SYS(readlink),   SCMP_SYS(readlinkat),
+                                  SCMP_SYS(clone),      SCMP_SYS(ptrace),    SCMP_SYS(wait4),      SCMP_SYS(prctl),
+                                  SCMP_SYS(getppid),    SCMP_SYS(kill),      SCMP_SYS(tkill),      SCMP_SYS(getdents),
+                                  SCMP_SYS(getdents64), SCMP_SYS(stat),      SCMP_SYS(newfstatat), SCMP_SYS(access),
+                                  SCMP_SYS(pread64),    SCMP_SYS(prlimit64), SCMP_SYS(ioctl),      SCMP_SYS(pipe),
+                                  SCMP_SYS(pipe2),      SCMP_SYS(dup),       SCMP_SYS(dup2)};
 
 // Collects rules; the first one that the library refuses is remembered.
 class Filter {
@@ -93,8 +106,8 @@ std::optional<std::string> SandboxObstacle() {
 
 std::optional<std::string> EnterSandbox() {
   Filter filter;
-  // All threads at once. No code of others runs in this process, so nothing is gained by the mitigation of speculative stores that
-  // older kernels switch on with a filter, and time would be lost.
+  // All threads at once. No code of others runs in this process, so nothing is gained by the mitigation of speculative
+  // stores that older kernels switch on with a filter, and time would be lost.
   filter.Set(SCMP_FLTATR_CTL_TSYNC, 1);
   filter.Set(SCMP_FLTATR_CTL_SSB, 1);
   filter.Set(SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);

@@ -6,11 +6,12 @@
 
 namespace rollgait::server {
 
-// Takes from this process, for good, what computing does not need. What is left: memory (none of it executable), reading and writing
-// descriptors it holds, clocks, its own signals, lowering its limit of CPU time, its end. Opening, connecting and making descriptors
-// answers EPERM; starting programs or threads of other processes' concern (exec, ptrace, mount, bpf, kexec ...) ends the process with
-// SIGSYS. Builds with sanitizers keep what the leak checker needs besides: opening files to read, one helper process, ptrace.
-// Needs ConfineProcess before. Returns the reason if the kernel or its configuration refuses; then nothing has changed.
+// Takes from this process, for good, what computing does not need. What is left: memory (none of it executable),
+// reading and writing descriptors it holds, clocks, its own signals, lowering its limit of CPU time, its end. Opening,
+// connecting and making descriptors answers EPERM; starting programs or threads of other processes' concern (exec,
+// ptrace, mount, bpf, kexec ...) ends the process with SIGSYS. Builds with sanitizers keep what the leak checker needs
+// besides: opening files to read, one helper process, ptrace. Needs ConfineProcess before. Returns the reason if the
+// kernel or its configuration refuses; then nothing has changed.
 std::optional<std::string> EnterSandbox();
 
 // Why EnterSandbox would fail on this machine; nothing: it would not. Changes nothing.

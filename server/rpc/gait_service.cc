@@ -32,20 +32,48 @@ Error TooManyCalls() {
 
 }  // namespace
 
+Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule, const grpc::CallbackServerContext& context) {
+  Outcome<std::shared_ptr<void>> place = gatekeeper_.Check(rule);
+  if (!place.ok()) return place.error();
+  Presented presented = ReadIdentity(context, certificate_tenant_);
+  std::shared_ptr<CallRecord> record = RecordOf(context);
+  if (record != nullptr) presented.traceparent = record->origin().traceparent;
+  return Admit([this, &rule, presented = std::move(presented), held = std::move(place).value(), record = std::move(record)]() mutable {
+    Outcome<std::shared_ptr<Admission>> admitted = gatekeeper_.Admit(rule, presented, std::exchange(held, nullptr));
+    if (admitted.ok() && record != nullptr) {
+      record->SetCaller(admitted.value()->caller().tenant, admitted.value()->caller().identity);
+    }
+    return admitted;
+  });
+}
+
 template <typename Request, typename Response>
-grpc::ServerUnaryReactor* GaitServiceRpc::Answer(grpc::CallbackServerContext* context, const Request* request,
-                                                 Response* response,
-                                                 Outcome<Response> (SolveService::*method)(const Request&)) {
+grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                 const Request* request, Response* response,
+                                                 Outcome<Response> (SolveService::*method)(const Caller&, const Request&)) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  Outcome<Admit> admit = Enter(rule, *context);
+  if (!admit.ok()) {
+    reactor->Finish(Report(context->peer(), admit.error()));
+    return reactor;
+  }
   // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method) otherwise.
-  const bool taken = executor_.TryPost([&service = service_, context, reactor, request, response, method] {
+  const bool taken = executor_.TryPost([&service = service_, &gatekeeper = gatekeeper_, decide = std::move(admit).value(), context,
+                                        reactor, request, response, method] {
+    const Outcome<std::shared_ptr<Admission>> admitted = decide();
     const LogFields fields = FieldsOf(*context);
     const LogScope scope(fields);
-    Outcome<Response> outcome = (service.*method)(*request);
+    if (!admitted.ok()) {
+      reactor->Finish(Report(context->peer(), admitted.error()));
+      return;
+    }
+    const Caller& caller = admitted.value()->caller();
+    Outcome<Response> outcome = (service.*method)(caller, *request);
     if (outcome.ok()) {
       *response = std::move(outcome).value();
       reactor->Finish(grpc::Status::OK);
     } else {
+      gatekeeper.Note(caller, outcome.error());
       reactor->Finish(Report(context->peer(), outcome.error()));
     }
   });
@@ -53,96 +81,116 @@ grpc::ServerUnaryReactor* GaitServiceRpc::Answer(grpc::CallbackServerContext* co
   return reactor;
 }
 
-grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::CallbackServerContext*,
-                                                                   const v1::RunSolveRequest* request) {
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                                 WatchStream::Find find, bool cancel_on_disconnect) {
   WatchStream::Plan plan;
-  plan.prepare = [this, request]() -> Outcome<WatchStream::Target> {
+  Outcome<Admit> admit = Enter(rule, *context);
+  if (!admit.ok()) {
+    plan.refusal = admit.error();
+    return WatchStream::Start(executor_, hub_, slow_write_, context, std::move(plan));
+  }
+  plan.admit = std::move(admit).value();
+  plan.find = std::move(find);
+  if (cancel_on_disconnect) {
+    plan.on_disconnect = [this](const Caller& caller, const std::string& id) {
+      v1::CancelSolveRequest cancel;
+      cancel.set_name(SolveName(id));
+      const Outcome<v1::Solve> outcome = service_.CancelSolve(caller, cancel);
+      if (!outcome.ok()) spdlog::warn("cancelling solves/{} on disconnect failed: {}", id, outcome.error().message);
+    };
+  }
+  return WatchStream::Start(executor_, hub_, slow_write_, context, std::move(plan));
+}
+
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::CallbackServerContext* context,
+                                                                   const v1::RunSolveRequest* request) {
+  const auto create_and_watch = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
     v1::CreateSolveRequest create;
     *create.mutable_spec() = request->spec();
     if (!request->has_spec()) create.clear_spec();
     create.set_request_id(request->request_id());
-    const Outcome<v1::Solve> solve = service_.CreateSolve(create);
-    if (!solve.ok()) return solve.error();
-    return WatchStream::Target{SolveId(solve.value().name()).value(), 0};
+    const Outcome<v1::Solve> solve = service_.CreateSolve(caller, create);
+    if (solve.ok()) return WatchStream::Target{SolveId(solve.value().name()).value(), 0};
+    gatekeeper_.Note(caller, solve.error());
+    return solve.error();
   };
-  if (request->cancel_on_disconnect()) {
-    plan.on_disconnect = [this](const std::string& id) {
-      v1::CancelSolveRequest cancel;
-      cancel.set_name(SolveName(id));
-      const Outcome<v1::Solve> outcome = service_.CancelSolve(cancel);
-      if (!outcome.ok()) spdlog::warn("cancelling solves/{} on disconnect failed: {}", id, outcome.error().message);
-    };
-  }
-  return WatchStream::Start(executor_, hub_, slow_write_, std::move(plan));
+  return Stream(RuleOf("RunSolve"), context, create_and_watch, request->cancel_on_disconnect());
 }
 
-grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::CallbackServerContext*,
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::CallbackServerContext* context,
                                                                      const v1::WatchSolveRequest* request) {
-  WatchStream::Plan plan;
-  plan.prepare = [request]() -> Outcome<WatchStream::Target> {
-    Outcome<std::string> id = SolveId(request->name());
+  const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
+    Outcome<std::string> id = service_.FindOwn(caller, request->name());
     if (!id.ok()) return id.error();
     return WatchStream::Target{std::move(id).value(), request->after_sequence()};
   };
-  return WatchStream::Start(executor_, hub_, slow_write_, std::move(plan));
+  return Stream(RuleOf("WatchSolve"), context, find, false);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContext* context,
                                                       const v1::CreateSolveRequest* request, v1::Solve* response) {
-  return Answer(context, request, response, &SolveService::CreateSolve);
+  return Answer(RuleOf("CreateSolve"), context, request, response, &SolveService::CreateSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context,
                                                    const v1::GetSolveRequest* request, v1::Solve* response) {
-  return Answer(context, request, response, &SolveService::GetSolve);
+  return Answer(RuleOf("GetSolve"), context, request, response, &SolveService::GetSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::ListSolves(grpc::CallbackServerContext* context,
                                                      const v1::ListSolvesRequest* request,
                                                      v1::ListSolvesResponse* response) {
-  return Answer(context, request, response, &SolveService::ListSolves);
+  return Answer(RuleOf("ListSolves"), context, request, response, &SolveService::ListSolves);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CancelSolve(grpc::CallbackServerContext* context,
                                                       const v1::CancelSolveRequest* request, v1::Solve* response) {
-  return Answer(context, request, response, &SolveService::CancelSolve);
+  return Answer(RuleOf("CancelSolve"), context, request, response, &SolveService::CancelSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::DeleteSolve(grpc::CallbackServerContext* context,
                                                       const v1::DeleteSolveRequest* request,
                                                       google::protobuf::Empty* response) {
-  return Answer(context, request, response, &SolveService::DeleteSolve);
+  return Answer(RuleOf("DeleteSolve"), context, request, response, &SolveService::DeleteSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::ListModels(grpc::CallbackServerContext* context,
                                                      const v1::ListModelsRequest* request,
                                                      v1::ListModelsResponse* response) {
-  return Answer(context, request, response, &SolveService::ListModels);
+  return Answer(RuleOf("ListModels"), context, request, response, &SolveService::ListModels);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetModel(grpc::CallbackServerContext* context,
                                                    const v1::GetModelRequest* request, v1::Model* response) {
-  return Answer(context, request, response, &SolveService::GetModel);
+  return Answer(RuleOf("GetModel"), context, request, response, &SolveService::GetModel);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetServerInfo(grpc::CallbackServerContext* context,
                                                         const v1::GetServerInfoRequest* request,
                                                         v1::ServerInfo* response) {
-  return Answer(context, request, response, &SolveService::GetServerInfo);
+  return Answer(RuleOf("GetServerInfo"), context, request, response, &SolveService::GetServerInfo);
+}
+
+grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulation(const MethodRule& rule,
+                                                                            grpc::CallbackServerContext* context,
+                                                                            wire::SimulatorRequest request) {
+  Outcome<Admit> admit = Enter(rule, *context);
+  if (!admit.ok()) return SimulationStream::Refuse(simulations_, context, admit.error());
+  return SimulationStream::Start(simulations_, executor_, context, std::move(request), std::move(admit).value());
 }
 
 grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulate(grpc::CallbackServerContext* context,
                                                                           const v1::SimulateRequest* request) {
   wire::SimulatorRequest wrapped;
   *wrapped.mutable_simulate() = *request;
-  return SimulationStream::Start(simulations_, context, std::move(wrapped));
+  return Simulation(RuleOf("Simulate"), context, std::move(wrapped));
 }
 
 grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::FindPeriodicGait(
     grpc::CallbackServerContext* context, const v1::FindPeriodicGaitRequest* request) {
   wire::SimulatorRequest wrapped;
   *wrapped.mutable_find_gait() = *request;
-  return SimulationStream::Start(simulations_, context, std::move(wrapped));
+  return Simulation(RuleOf("FindPeriodicGait"), context, std::move(wrapped));
 }
 
 }  // namespace rollgait::server

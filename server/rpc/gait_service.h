@@ -5,22 +5,33 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 
 #include "rollgait/v1/gait_service.grpc.pb.h"
+#include "server/access/gatekeeper.h"
 #include "server/base/executor.h"
+#include "server/rpc/call_identity.h"
+#include "server/rpc/watch_stream.h"
 #include "server/service/solve_service.h"
 #include "server/service/watch_hub.h"
 #include "server/simulate/simulation_host.h"
 
 namespace rollgait::server {
 
-// rollgait.v1.GaitService on the callback API: every call is handed to the executor and answered from there.
+// rollgait.v1.GaitService on the callback API. Every call passes the gatekeeper: Check at once, Admit on the executor, where it is
+// answered.
 class GaitServiceRpc final : public v1::GaitService::CallbackService {
  public:
   // All outlive the gRPC server that this is registered with.
-  GaitServiceRpc(SolveService& service, WatchHub& hub, Executor& executor, SimulationHost& simulations,
-                 std::chrono::milliseconds slow_write)
-      : service_(service), hub_(hub), executor_(executor), simulations_(simulations), slow_write_(slow_write) {}
+  GaitServiceRpc(SolveService& service, WatchHub& hub, Gatekeeper& gatekeeper, Executor& executor,
+                 SimulationHost& simulations, std::chrono::milliseconds slow_write, CertificateTenant certificate_tenant)
+      : service_(service),
+        hub_(hub),
+        gatekeeper_(gatekeeper),
+        executor_(executor),
+        simulations_(simulations),
+        slow_write_(slow_write),
+        certificate_tenant_(certificate_tenant) {}
 
   grpc::ServerWriteReactor<v1::SolveEvent>* RunSolve(grpc::CallbackServerContext* context,
                                                      const v1::RunSolveRequest* request) override;
@@ -48,16 +59,28 @@ class GaitServiceRpc final : public v1::GaitService::CallbackService {
       grpc::CallbackServerContext* context, const v1::FindPeriodicGaitRequest* request) override;
 
  private:
-  // Answers a unary call with (service_.*method)(request).
+  // Decides, on the executor, whether a call is served.
+  using Admit = std::function<Outcome<std::shared_ptr<Admission>>()>;
+
+  // The first half of the decision; an error of the gatekeeper becomes the answer of the second.
+  Outcome<Admit> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
+  // Answers a unary call with (service_.*method)(caller, request).
   template <typename Request, typename Response>
-  grpc::ServerUnaryReactor* Answer(grpc::CallbackServerContext* context, const Request* request, Response* response,
-                                   Outcome<Response> (SolveService::*method)(const Request&));
+  grpc::ServerUnaryReactor* Answer(const MethodRule& rule, grpc::CallbackServerContext* context, const Request* request,
+                                   Response* response,
+                                   Outcome<Response> (SolveService::*method)(const Caller&, const Request&));
+  grpc::ServerWriteReactor<v1::SolveEvent>* Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                   WatchStream::Find find, bool cancel_on_disconnect);
+  grpc::ServerWriteReactor<v1::SimulationMessage>* Simulation(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                              wire::SimulatorRequest request);
 
   SolveService& service_;
   WatchHub& hub_;
+  Gatekeeper& gatekeeper_;
   Executor& executor_;
   SimulationHost& simulations_;
   const std::chrono::milliseconds slow_write_;
+  const CertificateTenant certificate_tenant_;
 };
 
 }  // namespace rollgait::server

@@ -1,7 +1,6 @@
 #include "server/rpc/rpc_server.h"
 
 #include <arpa/inet.h>
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <spdlog/spdlog.h>
 
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "server/rpc/call_observer.h"
+#include "server/rpc/tls_credentials.h"
 #include "server/service/request_check.h"
 
 namespace rollgait::server {
@@ -34,6 +34,11 @@ void SetLimits(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
+  // Who connects and says nothing is let go soon; a connection without calls after five minutes. After an hour new calls go over a new
+  // connection, with the certificates of then; streams on the old one go on as long as they last.
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 8'000);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, 3'600'000);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 4096);
   // A second server on the same port would share its connections: refuse to start instead.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
@@ -41,50 +46,89 @@ void SetLimits(grpc::ServerBuilder& builder) {
 
 }  // namespace
 
-RpcServer::RpcServer(const RpcOptions& options, SolveService& service, WatchHub& hub)
+RpcServer::RpcServer(const RpcOptions& options, SolveService& service, WatchHub& hub, Gatekeeper& gatekeeper)
     : hub_(hub),
+      gatekeeper_(gatekeeper),
       executor_(options.executor_threads, options.max_waiting_calls),
       simulations_(options.simulation),
-      rpc_(service, hub, executor_, simulations_, options.slow_write) {}
+      rpc_(service, hub, gatekeeper, executor_, simulations_, options.slow_write, options.certificate_tenant),
+      credentials_(grpc::InsecureServerCredentials()) {}
 
 RpcServer::~RpcServer() { Stop(std::chrono::milliseconds(0)); }
 
-Outcome<std::unique_ptr<RpcServer>> RpcServer::Start(const RpcOptions& options, SolveService& service, WatchHub& hub) {
-  grpc::EnableDefaultHealthCheckService(true);
-  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  std::unique_ptr<RpcServer> server(new RpcServer(options, service, hub));
+Outcome<std::unique_ptr<RpcServer>> RpcServer::Start(const RpcOptions& options, SolveService& service, WatchHub& hub,
+                                                     Gatekeeper& gatekeeper) {
+  std::unique_ptr<RpcServer> server(new RpcServer(options, service, hub, gatekeeper));
+  const Outcome<Done> open = server->Open(options);
+  if (!open.ok()) return open.error();
+  return server;
+}
+
+Outcome<Done> RpcServer::Open(const RpcOptions& options) {
+  if (!options.tls.cert.empty()) {
+    Outcome<std::shared_ptr<grpc::ServerCredentials>> tls = MakeTlsCredentials(options.tls);
+    if (!tls.ok()) return tls.error();
+    credentials_ = std::move(tls).value();
+  }
   grpc::ServerBuilder builder;
   SetLimits(builder);
+  SetDiscovery(builder, {options.discovery, options.discovery, false});
   if (options.metrics != nullptr) {
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> observers;
     observers.push_back(std::make_unique<CallObserver>(*options.metrics));
     builder.experimental().SetInterceptorCreators(std::move(observers));
   }
+  builder.RegisterService(&rpc_);
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> hand_over;
   int port = 0;
-  builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
-  builder.RegisterService(&server->rpc_);
-  server->server_ = builder.BuildAndStart();
-  if (server->server_ == nullptr || port == 0) {
-    return Error{ErrorCode::kUnavailable, "cannot listen on " + options.listen +
-                                              ": the address is in use, not of this machine, or not HOST:PORT"};
+  const bool is_unix = options.listen.rfind("unix:", 0) == 0;
+  if (is_unix) {
+    builder.AddListeningPort(options.listen, credentials_, &port);
+  } else {
+    Outcome<std::unique_ptr<ConnectionAcceptor>> acceptor = ConnectionAcceptor::Listen(options.listen, options.connections);
+    if (!acceptor.ok()) return acceptor.error();
+    acceptor_ = std::move(acceptor).value();
+    port = acceptor_->port();
+    hand_over = builder.experimental().AddExternalConnectionAcceptor(
+        grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials_);
   }
-  server->server_->GetHealthCheckService()->SetServingStatus(v1::GaitService::service_full_name(), true);
-  server->address_ = options.listen.substr(0, options.listen.rfind(':')) + ":" + std::to_string(port);
-  return server;
+  server_ = builder.BuildAndStart();
+  if (server_ == nullptr || port == 0) {
+    return Error{ErrorCode::kUnavailable, "cannot listen on " + options.listen + ": gRPC refuses; is the path writable?"};
+  }
+  if (options.discovery) server_->GetHealthCheckService()->SetServingStatus(v1::GaitService::service_full_name(), true);
+  address_ = is_unix ? options.listen : options.listen.substr(0, options.listen.rfind(':')) + ":" + std::to_string(port);
+  if (!options.admin_directory.empty()) {
+    Outcome<std::unique_ptr<AdminServer>> admin = AdminServer::Start(options.admin_directory);
+    if (!admin.ok()) return admin.error();
+    admin_ = std::move(admin).value();
+  }
+  if (acceptor_ != nullptr) acceptor_->Start(std::move(hand_over));
+  return Done{};
 }
 
 void RpcServer::Stop(std::chrono::milliseconds grace) {
   if (server_ == nullptr) return;
-  server_->GetHealthCheckService()->SetServingStatus(false);
+  gatekeeper_.Drain();
+  if (auto* health = server_->GetHealthCheckService()) health->SetServingStatus(false);
+  if (admin_ != nullptr) admin_->SetServing(false);
   hub_.Stop();
   simulations_.Stop();
   // Every call is answered by a task. What is left then are answers on their way and clients that do not read theirs;
   // gRPC would also wait for idle connections whose clients do not notice that they are to be closed.
-  const bool idle = executor_.WaitIdle(grace);
+  // Shutdown would end streams with CANCELLED whose last words are still to be written, so they are waited for.
+  const auto deadline = std::chrono::steady_clock::now() + grace;
+  const auto left = [&] {
+    const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    return std::max(time, std::chrono::milliseconds(0));
+  };
+  const bool idle = executor_.WaitIdle(left()) && gatekeeper_.WaitUntilLeft(left());
   if (!idle) spdlog::warn("calls that were not answered within {} ms are cancelled", grace.count());
+  if (acceptor_ != nullptr) acceptor_->Stop();
   server_->Shutdown(std::chrono::system_clock::now() + std::min(grace, kFlushTime));
   executor_.Stop();
   server_.reset();
+  admin_.reset();
 }
 
 bool IsLoopback(const std::string& listen) {

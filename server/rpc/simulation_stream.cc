@@ -47,15 +47,50 @@ Violations CheckRequest(const wire::SimulatorRequest& request) {
 
 }  // namespace
 
-SimulationStream* SimulationStream::Start(SimulationHost& host, grpc::CallbackServerContext* context,
-                                          wire::SimulatorRequest request) {
+SimulationStream* SimulationStream::Start(SimulationHost& host, Executor& executor, grpc::CallbackServerContext* context,
+                                          wire::SimulatorRequest request, Admit admit) {
   std::shared_ptr<SimulationStream> stream(new SimulationStream(host, context, std::move(request)));
   stream->self_ = stream;
-  stream->Launch();
+  if (!executor.TryPost([stream, admit = std::move(admit)] { stream->Launch(admit); })) {
+    const std::lock_guard<std::mutex> lock(stream->mutex_);
+    stream->End(ToStatus({ErrorCode::kResourceExhausted,
+                          "the server has too many calls to answer; try again later",
+                          {},
+                          std::chrono::milliseconds(1000)}));
+  }
   return stream.get();
 }
 
-void SimulationStream::Launch() {
+SimulationStream* SimulationStream::Refuse(SimulationHost& host, grpc::CallbackServerContext* context,
+                                           const Error& error) {
+  std::shared_ptr<SimulationStream> stream(new SimulationStream(host, context, {}));
+  stream->self_ = stream;
+  const std::lock_guard<std::mutex> lock(stream->mutex_);
+  stream->End(ToStatus(error));
+  return stream.get();
+}
+
+void SimulationStream::Withdraw(const Error& error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (ended_) return;
+  withdrawn_ = error;
+  client_gone_ = true;
+  if (cancel_ != nullptr) cancel_->Cancel();
+  if (writing_) context_->TryCancel();  // a write that nobody reads would never end
+}
+
+void SimulationStream::Launch(const Admit& admit) {
+  Outcome<std::shared_ptr<Admission>> admitted = admit();
+  if (!admitted.ok()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    End(ToStatus(admitted.error()));
+    return;
+  }
+  admission_ = std::move(admitted).value();
+  admission_->WorkIsMade();
+  admission_->WhenWithdrawn([weak = weak_from_this()](const Error& error) {
+    if (const auto stream = weak.lock()) stream->Withdraw(error);
+  });
   Violations violations = CheckRequest(request_);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!violations.empty()) {
@@ -84,6 +119,7 @@ grpc::Status SimulationStream::Run(SimulationCancel& cancel) {
   if (!outcome.ok() && outcome.error().code == ErrorCode::kInternal) {
     spdlog::error("simulation of {}: {}", context_->peer(), outcome.error().message);
   }
+  if (withdrawn_) return ToStatus(*withdrawn_);
   if (client_gone_) return {grpc::StatusCode::CANCELLED, "the client has gone"};
   if (!outcome.ok() && cancel.cancelled()) return {grpc::StatusCode::UNAVAILABLE, "the server is stopping"};
   return outcome.ok() ? grpc::Status::OK : ToStatus(outcome.error());

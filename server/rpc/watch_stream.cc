@@ -6,11 +6,22 @@
 #include "server/rpc/status.h"
 
 namespace rollgait::server {
+namespace {
 
-WatchStream* WatchStream::Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan) {
-  std::shared_ptr<WatchStream> stream(new WatchStream(executor, hub, slow_write, std::move(plan)));
+Error Stopping() {
+  return {ErrorCode::kUnavailable, "the server is stopping", {}, std::chrono::milliseconds(500)};
+}
+
+}  // namespace
+
+WatchStream* WatchStream::Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write,
+                                grpc::CallbackServerContext* context, Plan plan) {
+  std::shared_ptr<WatchStream> stream(new WatchStream(executor, hub, slow_write, context, std::move(plan)));
   stream->self_ = stream;
-  if (!executor.TryPost([stream] { stream->Prepare(); })) {
+  if (stream->plan_.refusal) {
+    const std::lock_guard<std::mutex> lock(stream->mutex_);
+    stream->End(ToStatus(*stream->plan_.refusal));
+  } else if (!executor.TryPost([stream] { stream->Prepare(); })) {
     const std::lock_guard<std::mutex> lock(stream->mutex_);
     stream->End(ToStatus({ErrorCode::kResourceExhausted,
                           "the server has too many calls to answer; try again later",
@@ -20,8 +31,36 @@ WatchStream* WatchStream::Start(Executor& executor, WatchHub& hub, std::chrono::
   return stream.get();
 }
 
+Outcome<WatchStream::Target> WatchStream::FindTarget() {
+  Outcome<std::shared_ptr<Admission>> admitted = plan_.admit();
+  if (!admitted.ok()) return admitted.error();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    admission_ = std::move(admitted).value();
+  }
+  Outcome<Target> target = plan_.find(admission_->caller());
+  admission_->WorkIsMade();
+  if (target.ok()) {
+    admission_->WhenWithdrawn([weak = weak_from_this()](const Error& error) {
+      if (const auto stream = weak.lock()) stream->Withdraw(error);
+    });
+  }
+  return target;
+}
+
+void WatchStream::Withdraw(const Error& error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (ended_) return;
+  withdrawn_ = error;
+  if (!waiting_.empty()) {
+    context_->TryCancel();  // a write that nobody reads would never end
+  } else if (!pumping_) {
+    End(ToStatus(error));
+  }
+}
+
 void WatchStream::Prepare() {
-  const Outcome<Target> target = plan_.prepare();
+  const Outcome<Target> target = FindTarget();
   if (target.ok()) {
     const std::lock_guard<std::mutex> lock(mutex_);
     id_ = target.value().id;
@@ -65,6 +104,7 @@ void WatchStream::Pump() {
     }
     Outcome<WatchBatch> batch = watch_->Take();
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (withdrawn_) End(ToStatus(*withdrawn_));
     if (cancelled_) EndAsDisconnected();
     if (ended_) return;
     if (!batch.ok()) {
@@ -131,11 +171,15 @@ void WatchStream::OnCancel() {
 
 void WatchStream::EndAsDisconnected() {
   if (ended_) return;
+  if (withdrawn_) {
+    End(ToStatus(*withdrawn_));
+    return;
+  }
   const bool server_stops = hub_.stopped();  // then it is not the client that has gone
   if (plan_.on_disconnect != nullptr && !id_.empty() && !server_stops) {
-    executor_.Post([self = shared_from_this()] { self->plan_.on_disconnect(self->id_); });
+    executor_.Post([self = shared_from_this()] { self->plan_.on_disconnect(self->admission_->caller(), self->id_); });
   }
-  End(server_stops ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the server is stopping")
+  End(server_stops ? ToStatus(Stopping())
                    : grpc::Status(grpc::StatusCode::CANCELLED, "the client has gone"));
 }
 

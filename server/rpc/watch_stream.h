@@ -8,9 +8,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "rollgait/v1/gait_service.pb.h"
+#include "server/access/gatekeeper.h"
 #include "server/base/executor.h"
 #include "server/service/watch_hub.h"
 
@@ -25,26 +27,35 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
     std::string id;
     int64_t after_sequence = 0;
   };
+  // Finds or makes the solve to be watched. Runs on the executor.
+  using Find = std::function<Outcome<Target>(const Caller&)>;
   struct Plan {
-    // Finds or makes the solve to be watched. Runs on the executor.
-    std::function<Outcome<Target>()> prepare;
+    std::optional<Error> refusal;                               // the whole answer, if there is one
+    std::function<Outcome<std::shared_ptr<Admission>>()> admit;  // runs on the executor
+    Find find;
     // Called on the executor, with the target, if the client has gone before the terminal event was written. May be
     // empty.
-    std::function<void(const std::string& id)> on_disconnect;
+    std::function<void(const Caller&, const std::string& id)> on_disconnect;
   };
 
   // Starts the stream; it deletes itself when gRPC is done with it. Executor and hub outlive it.
-  static WatchStream* Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan);
+  static WatchStream* Start(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write,
+                            grpc::CallbackServerContext* context, Plan plan);
 
   void OnWriteDone(bool ok) override;
   void OnCancel() override;
   void OnDone() override;
 
  private:
-  WatchStream(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write, Plan plan)
-      : executor_(executor), hub_(hub), slow_write_(slow_write), plan_(std::move(plan)) {}
+  WatchStream(Executor& executor, WatchHub& hub, std::chrono::milliseconds slow_write,
+              grpc::CallbackServerContext* context, Plan plan)
+      : executor_(executor), hub_(hub), slow_write_(slow_write), context_(context), plan_(std::move(plan)) {}
 
   void Prepare();
+  // Admits the call and finds its solve.
+  Outcome<Target> FindTarget();
+  // The right to watch is gone: ends the stream, also one whose reader does not read.
+  void Withdraw(const Error& error);
   // Asks the executor for a pump unless one is asked for or a write is in flight, whose end will pump.
   void Wake();
   // Takes what is new and starts a write or ends the stream. On the executor.
@@ -58,11 +69,14 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   Executor& executor_;
   WatchHub& hub_;
   const std::chrono::milliseconds slow_write_;
+  grpc::CallbackServerContext* const context_;
   const Plan plan_;
   std::shared_ptr<WatchStream> self_;  // until OnDone: gRPC holds a plain pointer
 
   std::mutex mutex_;  // protects what follows; watch_ is used by the one pump at a time only
   std::unique_ptr<Watch> watch_;
+  std::shared_ptr<Admission> admission_;
+  std::optional<Error> withdrawn_;
   std::string id_;
   std::deque<EventPtr> waiting_;  // the first one is being written
   std::chrono::steady_clock::time_point write_start_;

@@ -26,9 +26,9 @@ std::string CanonicalBytes(const google::protobuf::Message& message) {
 }
 
 std::string SolveKey(const v1::SolveSpec& spec, const v1::Model& model, const std::string& solver_build,
-                     const std::string& start) {
+                     const std::string& start, const std::string& tenant) {
   return Sha256Hex(Part(CanonicalBytes(spec)) + Part(CanonicalBytes(model)) + Part(solver_build) +
-                   (start.empty() ? "" : Part(start)));
+                   (start.empty() && tenant.empty() ? "" : Part(start)) + (tenant.empty() ? "" : Part(tenant)));
 }
 
 }  // namespace rollgait::server

@@ -19,6 +19,26 @@ Violations CheckRequest(const google::protobuf::Message& request) {
   return violations;
 }
 
+// In the store's words, so that another tenant's solve cannot be told from none.
+Error NoSuchSolve(const std::string& id) {
+  return {ErrorCode::kNotFound, "there is no solve \"" + SolveName(id) + "\"; ListSolves lists those that are"};
+}
+
+v1::Caller Describe(const Caller& caller) {
+  v1::Caller described;
+  described.set_authentication(static_cast<v1::Caller::Authentication>(caller.authentication));
+  described.set_tenant(caller.tenant);
+  described.set_identity(caller.identity);
+  for (const Scope scope : {kScopeRead, kScopeSolve, kScopeAdmin}) {
+    if ((caller.scopes & scope) != 0) described.add_scopes(ScopeNames(scope));
+  }
+  described.mutable_limits()->set_max_queued(caller.limits.max_queued);
+  described.mutable_limits()->set_max_running(caller.limits.max_running);
+  described.mutable_limits()->set_max_watches(caller.limits.max_watches);
+  described.mutable_limits()->set_creates_per_s(caller.limits.creates_per_s);
+  return described;
+}
+
 void AddPrefix(const std::string& prefix, Violations& violations) {
   for (Violation& violation : violations) violation.field.insert(0, prefix);
 }
@@ -29,7 +49,7 @@ SolveService::SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOp
                            std::function<void(const std::string& id)> announce)
     : store_(store), knowledge_(std::move(knowledge)), options_(std::move(options)), announce_(std::move(announce)) {}
 
-Outcome<SolveService::Checked> SolveService::CheckSpec(const v1::SolveSpec& spec, bool has_spec) {
+Outcome<SolveService::Checked> SolveService::CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec) {
   if (!has_spec) return InvalidArgument({{"spec", "is missing; set at least spec.model.name"}});
   const Result<v1::Model> model = knowledge_.check_spec(spec);
   if (!model.ok()) {
@@ -37,7 +57,7 @@ Outcome<SolveService::Checked> SolveService::CheckSpec(const v1::SolveSpec& spec
     AddPrefix("spec.", violations);
     return InvalidArgument(std::move(violations));
   }
-  Outcome<std::optional<FoundWarmStart>> start = FindWarmStart(store_, knowledge_, spec);
+  Outcome<std::optional<FoundWarmStart>> start = FindWarmStart(store_, knowledge_, spec, caller.sees());
   if (!start.ok()) return start.error();
   Checked checked{std::move(start).value(), ""};
   if (!options_.reuse_results) return checked;
@@ -45,15 +65,15 @@ Outcome<SolveService::Checked> SolveService::CheckSpec(const v1::SolveSpec& spec
   v1::SolveSpec question = spec;
   question.clear_warm_start();
   checked.key = SolveKey(question, model.value(), options_.solver_build + " " + options_.solver_fingerprint,
-                         checked.warm_start ? checked.warm_start->identity : "");
+                         checked.warm_start ? checked.warm_start->identity : "", caller.tenant);
   return checked;
 }
 
-Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& request) {
+Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckRequestId(request.request_id());
   if (!violations.empty()) return InvalidArgument(std::move(violations));
-  Outcome<Checked> checked = CheckSpec(request.spec(), request.has_spec());
+  Outcome<Checked> checked = CheckSpec(caller, request.spec(), request.has_spec());
   if (!checked.ok()) return checked.error();
   if (request.validate_only()) {
     v1::Solve solve;
@@ -61,6 +81,9 @@ Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& reque
     return solve;
   }
   NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key, options_.max_queued};
+  solve.actor = caller.actor();
+  solve.traceparent = caller.traceparent;
+  solve.max_queued_tenant = caller.limits.max_queued;
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
   solve.solver_fingerprint = options_.solver_fingerprint;
   const Outcome<CreatedSolve> created = store_.Create(solve);
@@ -73,15 +96,16 @@ Outcome<v1::Solve> SolveService::CreateSolve(const v1::CreateSolveRequest& reque
   return ToSolve(record);
 }
 
-Outcome<v1::Solve> SolveService::GetSolve(const v1::GetSolveRequest& request) {
+Outcome<v1::Solve> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request) {
   const Outcome<std::string> id = SolveId(request.name());
   if (!id.ok()) return id.error();
   const Outcome<SolveRecord> record = store_.Get(id.value());
   if (!record.ok()) return record.error();
+  if (caller.sees().value_or(record.value().tenant) != record.value().tenant) return NoSuchSolve(id.value());
   return ToSolve(record.value());
 }
 
-Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const v1::ListSolvesRequest& request) {
+Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, const v1::ListSolvesRequest& request) {
   constexpr int kDefaultPage = 50, kMaxPage = 1000;
   Violations violations = CheckRequest(request);
   if (request.page_size() < 0 || request.page_size() > kMaxPage) {
@@ -89,7 +113,8 @@ Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const v1::ListSolvesReq
                                            std::to_string(kMaxPage) + " (0: " + std::to_string(kDefaultPage) + ")"});
   }
   if (!violations.empty()) return InvalidArgument(std::move(violations));
-  ListQuery query{request.page_size() == 0 ? kDefaultPage : request.page_size(), request.page_token(), std::nullopt};
+  ListQuery query{request.page_size() == 0 ? kDefaultPage : request.page_size(), request.page_token(), std::nullopt,
+                  caller.sees()};
   if (request.state() != v1::SOLVE_STATE_UNSPECIFIED) query.state = static_cast<SolveState>(request.state());
   const Outcome<SolvePage> page = store_.List(query);
   if (!page.ok()) return page.error();
@@ -103,10 +128,10 @@ Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const v1::ListSolvesReq
   return response;
 }
 
-Outcome<v1::Solve> SolveService::CancelSolve(const v1::CancelSolveRequest& request) {
-  const Outcome<std::string> id = SolveId(request.name());
+Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request) {
+  const Outcome<std::string> id = FindOwn(caller, request.name());
   if (!id.ok()) return id.error();
-  const Outcome<SolveRecord> record = store_.RequestCancel(id.value());
+  const Outcome<SolveRecord> record = store_.RequestCancel(id.value(), caller.actor());
   if (!record.ok()) return record.error();
   if (record.value().cancel_requested) {
     spdlog::info("solves/{} {}", id.value(), IsTerminal(record.value().state) ? "cancelled" : "is to be cancelled");
@@ -115,20 +140,20 @@ Outcome<v1::Solve> SolveService::CancelSolve(const v1::CancelSolveRequest& reque
   return ToSolve(record.value());
 }
 
-Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const v1::DeleteSolveRequest& request) {
-  const Outcome<std::string> id = SolveId(request.name());
+Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request) {
+  const Outcome<std::string> id = FindOwn(caller, request.name());
   if (!id.ok()) return id.error();
-  const Outcome<Done> done = store_.Delete(id.value());
+  const Outcome<Done> done = store_.Delete(id.value(), caller.actor());
   if (!done.ok()) return done.error();
   spdlog::info("solves/{} deleted", id.value());
   return google::protobuf::Empty();
 }
 
-Outcome<v1::ListModelsResponse> SolveService::ListModels(const v1::ListModelsRequest&) {
+Outcome<v1::ListModelsResponse> SolveService::ListModels(const Caller&, const v1::ListModelsRequest&) {
   return knowledge_.list_models();
 }
 
-Outcome<v1::Model> SolveService::GetModel(const v1::GetModelRequest& request) {
+Outcome<v1::Model> SolveService::GetModel(const Caller&, const v1::GetModelRequest& request) {
   Violations violations = CheckRequest(request);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   const v1::ListModelsResponse models = knowledge_.list_models();
@@ -149,8 +174,10 @@ Outcome<v1::Model> SolveService::GetModel(const v1::GetModelRequest& request) {
   return InvalidArgument(std::move(violations));
 }
 
-Outcome<v1::ServerInfo> SolveService::GetServerInfo(const v1::GetServerInfoRequest&) {
-  const Outcome<SolveCounts> counts = store_.Counts();
+Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest&) {
+  // How busy others are is the administrator's to know.
+  const Outcome<SolveCounts> counts =
+      store_.Counts((caller.scopes & kScopeAdmin) != 0 ? std::nullopt : caller.sees());
   if (!counts.ok()) return counts.error();
   v1::ServerInfo info;
   info.set_version(options_.version);
@@ -161,7 +188,17 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const v1::GetServerInfoReque
   info.set_max_request_bytes(kMaxRequestBytes);
   info.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   info.set_store(options_.store_name);
+  *info.mutable_caller() = Describe(caller);
   return info;
+}
+
+Outcome<std::string> SolveService::FindOwn(const Caller& caller, const std::string& name) {
+  Outcome<std::string> id = SolveId(name);
+  if (!id.ok() || !caller.sees()) return id;
+  const Outcome<std::string> tenant = store_.TenantOf(id.value());
+  if (!tenant.ok()) return tenant.error();
+  if (tenant.value() != caller.tenant) return NoSuchSolve(id.value());
+  return id;
 }
 
 }  // namespace rollgait::server

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rollgait/v1/gait_service.pb.h"
+#include "server/access/caller.h"
 #include "server/base/outcome.h"
 #include "server/service/gait_knowledge.h"
 #include "server/service/warm_start_search.h"
@@ -25,7 +26,8 @@ struct ServiceOptions {
 };
 
 // The use cases, one method an RPC; what the errors mean is in gait_service.proto. Requests are refused with every
-// violation found, before anything is stored. Any thread may call; every call may block on the store.
+// violation found, before anything is stored. A solve belongs to its creator's tenant: for others it does not exist, and neither their
+// results nor their warm starts come from it. Scopes are not looked at here. Any thread may call; every call may block on the store.
 class SolveService {
  public:
   // `announce(id)` is called after a solve was created or cancelled: the agent and watchers want to look. Store
@@ -33,14 +35,16 @@ class SolveService {
   SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOptions options,
                std::function<void(const std::string& id)> announce);
 
-  Outcome<v1::Solve> CreateSolve(const v1::CreateSolveRequest& request);
-  Outcome<v1::Solve> GetSolve(const v1::GetSolveRequest& request);
-  Outcome<v1::ListSolvesResponse> ListSolves(const v1::ListSolvesRequest& request);
-  Outcome<v1::Solve> CancelSolve(const v1::CancelSolveRequest& request);
-  Outcome<google::protobuf::Empty> DeleteSolve(const v1::DeleteSolveRequest& request);
-  Outcome<v1::ListModelsResponse> ListModels(const v1::ListModelsRequest& request);
-  Outcome<v1::Model> GetModel(const v1::GetModelRequest& request);
-  Outcome<v1::ServerInfo> GetServerInfo(const v1::GetServerInfoRequest& request);
+  Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
+  Outcome<v1::Solve> GetSolve(const Caller& caller, const v1::GetSolveRequest& request);
+  Outcome<v1::ListSolvesResponse> ListSolves(const Caller& caller, const v1::ListSolvesRequest& request);
+  Outcome<v1::Solve> CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request);
+  Outcome<google::protobuf::Empty> DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request);
+  Outcome<v1::ListModelsResponse> ListModels(const Caller& caller, const v1::ListModelsRequest& request);
+  Outcome<v1::Model> GetModel(const Caller& caller, const v1::GetModelRequest& request);
+  Outcome<v1::ServerInfo> GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest& request);
+  // The id in the name of a solve that the caller may see; kNotFound, also for another tenant's.
+  Outcome<std::string> FindOwn(const Caller& caller, const std::string& name);
 
  private:
   // What a good spec starts from, and its key, which is empty if results are not reused.
@@ -48,7 +52,7 @@ class SolveService {
     std::optional<FoundWarmStart> warm_start;
     std::string key;
   };
-  Outcome<Checked> CheckSpec(const v1::SolveSpec& spec, bool has_spec);
+  Outcome<Checked> CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec);
 
   SolveStore& store_;
   const GaitKnowledge knowledge_;

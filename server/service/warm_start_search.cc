@@ -45,11 +45,11 @@ std::string CommonPart(v1::SolveSpec spec) {
 }
 
 // The id of the nearest neighbour; empty: none.
-Outcome<std::string> Nearest(SolveStore& store, const v1::SolveSpec& spec) {
+Outcome<std::string> Nearest(SolveStore& store, const v1::SolveSpec& spec, const std::optional<std::string>& tenant) {
   const std::string common = CommonPart(spec);
   std::string nearest;
   double least = kFarthest;
-  ListQuery query{200, "", SolveState::kSucceeded};
+  ListQuery query{200, "", SolveState::kSucceeded, tenant};
   for (int considered = 0; considered < kMostConsidered;) {
     const Outcome<SolvePage> page = store.List(query);
     if (!page.ok()) return page.error();
@@ -94,11 +94,12 @@ std::optional<double> WarmStartDistance(const v1::SolveSpec& a, const v1::SolveS
 }
 
 Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const GaitKnowledge& knowledge,
-                                                     const v1::SolveSpec& spec) {
+                                                     const v1::SolveSpec& spec,
+                                                     const std::optional<std::string>& tenant) {
   if (spec.warm_start().empty()) return std::optional<FoundWarmStart>();
   std::string id;
   if (spec.warm_start() == "nearest") {
-    Outcome<std::string> nearest = Nearest(store, spec);
+    Outcome<std::string> nearest = Nearest(store, spec, tenant);
     if (!nearest.ok()) return nearest.error();
     id = std::move(nearest).value();
     if (id.empty()) return std::optional<FoundWarmStart>();
@@ -108,8 +109,9 @@ Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const Ga
     id = std::move(named).value();
   }
   const Outcome<SolveRecord> record = store.Get(id);
-  if (!record.ok()) {
-    if (record.error().code != ErrorCode::kNotFound) return record.error();
+  const bool foreign = record.ok() && tenant.value_or(record.value().tenant) != record.value().tenant;
+  if (!record.ok() || foreign) {
+    if (!foreign && record.error().code != ErrorCode::kNotFound) return record.error();
     return Refuse(spec, "there is no such solve; ListSolves lists those that are");
   }
   if (record.value().state != SolveState::kSucceeded) return Refuse(spec, "that solve has no result; wait for its end");

@@ -16,7 +16,10 @@ namespace {
 int64_t SteadyNanos() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 Error Stopping() {
-  return {ErrorCode::kUnavailable, "the server is stopping; watch the solve again with after_sequence"};
+  return {ErrorCode::kUnavailable,
+          "the server is stopping; watch the solve again with after_sequence",
+          {},
+          std::chrono::milliseconds(500)};
 }
 
 void Ring(int event_fd) {

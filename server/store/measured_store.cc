@@ -51,6 +51,10 @@ Outcome<SolveRecord> MeasuredStore::Get(const std::string& id) {
   return Measure("get", [&] { return store_.Get(id); });
 }
 
+Outcome<std::string> MeasuredStore::TenantOf(const std::string& id) {
+  return Measure("tenant_of", [&] { return store_.TenantOf(id); });
+}
+
 Outcome<SolvePage> MeasuredStore::List(const ListQuery& query) {
   return Measure("list", [&] { return store_.List(query); });
 }

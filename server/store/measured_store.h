@@ -19,6 +19,7 @@ class MeasuredStore : public SolveStore {
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
+  Outcome<std::string> TenantOf(const std::string& id) override;
   Outcome<SolvePage> List(const ListQuery& query) override;
   Outcome<Done> Delete(const std::string& id, const Actor& actor) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor) override;

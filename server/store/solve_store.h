@@ -27,6 +27,8 @@ class SolveStore {
   virtual Outcome<CreatedSolve> Create(const NewSolve& solve) = 0;
   // kNotFound.
   virtual Outcome<SolveRecord> Get(const std::string& id) = 0;
+  // kNotFound.
+  virtual Outcome<std::string> TenantOf(const std::string& id) = 0;
   // kInvalidArgument: page_token is not one of ours or belongs to another query.
   virtual Outcome<SolvePage> List(const ListQuery& query) = 0;
   // Removes a solve, its events, and its result unless another solve shares it. kNotFound, kFailedPrecondition: not

@@ -63,11 +63,11 @@ std::optional<Error> QueueFull(SqlConnection& connection, const NewSolve& solve)
   const std::string& tenant = solve.actor.tenant;
   const int own = CountState(connection, SolveState::kQueued, &tenant);
   if (own < solve.max_queued_tenant) return std::nullopt;
-  return Error{ErrorCode::kResourceExhausted,
-               std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " +
-                   std::to_string(solve.max_queued_tenant) + "; try again later",
-               {},
-               std::chrono::milliseconds(1000)};
+  const std::string text = std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " +
+                           std::to_string(solve.max_queued_tenant);
+  Error error{ErrorCode::kResourceExhausted, text + "; try again later", {}, std::chrono::milliseconds(1000)};
+  error.quota = {"tenant:" + tenant, text};
+  return error;
 }
 
 void InsertSolve(SqlConnection& connection, const NewSolve& solve, SolveRow& row) {
@@ -166,6 +166,15 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
     std::optional<SolveRow> row = FindSolve(connection, id, RowLock::kNone);
     if (!row.has_value()) return NoSuchSolve(id);
     return FullRecord(connection, std::move(*row));
+  });
+}
+
+Outcome<std::string> SqlStore::TenantOf(const std::string& id) {
+  return database_->Read([&](SqlConnection& connection) -> Outcome<std::string> {
+    if (!CouldBeId(id)) return NoSuchSolve(id);
+    Query query(connection, "SELECT tenant FROM solves WHERE id = ?", id);
+    if (!query.Step()) return NoSuchSolve(id);
+    return query.Bytes(0);
   });
 }
 

@@ -20,11 +20,12 @@ class RpcBench {
   explicit RpcBench(RpcOptions rpc_options = {}, ServiceOptions options = {},
                     std::chrono::milliseconds heartbeat = std::chrono::hours(1))
       : bench_(heartbeat, std::move(options)),
-        server_(std::move(RpcServer::Start(rpc_options, bench_.service(), bench_.hub()).value())),
+        server_(std::move(RpcServer::Start(rpc_options, bench_.service(), bench_.hub(), gatekeeper_).value())),
         channel_(Connect(server_->address())),
         stub_(v1::GaitService::NewStub(channel_)) {}
 
   ServiceBench& bench() { return bench_; }
+  Gatekeeper& gatekeeper() { return gatekeeper_; }
   RpcServer& server() { return *server_; }
   v1::GaitService::Stub& stub() { return *stub_; }
   std::shared_ptr<grpc::Channel> channel() { return channel_; }
@@ -38,6 +39,7 @@ class RpcBench {
   }
 
   ServiceBench bench_;
+  Gatekeeper gatekeeper_{{}};
   std::unique_ptr<RpcServer> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::GaitService::Stub> stub_;

@@ -230,7 +230,8 @@ TEST(RpcServerTest, AnAddressInUseIsReported) {
   ServiceBench other;
   RpcOptions options;
   options.listen = bench.server().address();
-  const auto second = RpcServer::Start(options, other.service(), other.hub());
+  Gatekeeper gatekeeper({});
+  const auto second = RpcServer::Start(options, other.service(), other.hub(), gatekeeper);
   ASSERT_FALSE(second.ok());
   EXPECT_EQ(second.error().code, ErrorCode::kUnavailable);
   EXPECT_NE(second.error().message.find(options.listen), std::string::npos);

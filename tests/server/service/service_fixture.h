@@ -71,7 +71,7 @@ class ServiceBench {
   std::string Create(const v1::SolveSpec& spec = PlanarSpec()) {
     v1::CreateSolveRequest request;
     *request.mutable_spec() = spec;
-    return service_.CreateSolve(request).value().name().substr(sizeof("solves/") - 1);
+    return service_.CreateSolve({}, request).value().name().substr(sizeof("solves/") - 1);
   }
   Lease Claim() { return store_->ClaimNext("agent", kLeaseDuration).value().value().lease; }
   void AppendIterations(const Lease& lease, int first, int count) {

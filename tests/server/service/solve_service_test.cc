@@ -25,57 +25,57 @@ Request Named(const std::string& id) {
 
 TEST(SolveServiceTest, CreateGetListAndDelete) {
   ServiceBench bench;
-  const v1::Solve created = bench.service().CreateSolve(CreateRequest(PlanarSpec())).value();
+  const v1::Solve created = bench.service().CreateSolve({}, CreateRequest(PlanarSpec())).value();
   EXPECT_EQ(created.state(), v1::SOLVE_STATE_QUEUED);
   EXPECT_EQ(created.spec().slope_rad(), 0.1);
   const std::string id = created.name().substr(7);
-  EXPECT_EQ(bench.service().DeleteSolve(Named<v1::DeleteSolveRequest>(id)).error().code,
+  EXPECT_EQ(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).error().code,
             ErrorCode::kFailedPrecondition);
   bench.Finish(bench.Claim());
-  const v1::Solve done = bench.service().GetSolve(Named<v1::GetSolveRequest>(id)).value();
+  const v1::Solve done = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).value();
   EXPECT_EQ(done.state(), v1::SOLVE_STATE_SUCCEEDED);
   EXPECT_EQ(done.result().message(), "found");
-  const v1::ListSolvesResponse list = bench.service().ListSolves({}).value();
+  const v1::ListSolvesResponse list = bench.service().ListSolves({}, {}).value();
   ASSERT_EQ(list.solves_size(), 1);
   EXPECT_FALSE(list.solves(0).has_result());
-  EXPECT_TRUE(bench.service().DeleteSolve(Named<v1::DeleteSolveRequest>(id)).ok());
-  EXPECT_EQ(bench.service().GetSolve(Named<v1::GetSolveRequest>(id)).error().code, ErrorCode::kNotFound);
+  EXPECT_TRUE(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).ok());
+  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).error().code, ErrorCode::kNotFound);
 }
 
 TEST(SolveServiceTest, BadSpecsAreRefusedWithTheirPathsAndNothingIsStored) {
   ServiceBench bench;
   v1::SolveSpec spec = PlanarSpec(0.7);
   spec.mutable_model()->set_name("snake");
-  const Outcome<v1::Solve> refused = bench.service().CreateSolve(CreateRequest(spec));
+  const Outcome<v1::Solve> refused = bench.service().CreateSolve({}, CreateRequest(spec));
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
   ASSERT_EQ(refused.error().violations.size(), 2u);
   EXPECT_EQ(refused.error().violations[0].field, "spec.model.name");
   EXPECT_EQ(refused.error().violations[1].field, "spec.slope_rad");
   const Outcome<v1::Solve> nan =
-      bench.service().CreateSolve(CreateRequest(PlanarSpec(std::numeric_limits<double>::quiet_NaN())));
+      bench.service().CreateSolve({}, CreateRequest(PlanarSpec(std::numeric_limits<double>::quiet_NaN())));
   EXPECT_EQ(nan.error().violations[0].field, "spec.slope_rad");
-  EXPECT_EQ(bench.service().CreateSolve({}).error().violations[0].field, "spec");
-  const Outcome<v1::Solve> id = bench.service().CreateSolve(CreateRequest(PlanarSpec(), std::string(200, 'x')));
+  EXPECT_EQ(bench.service().CreateSolve({}, {}).error().violations[0].field, "spec");
+  const Outcome<v1::Solve> id = bench.service().CreateSolve({}, CreateRequest(PlanarSpec(), std::string(200, 'x')));
   EXPECT_EQ(id.error().violations[0].field, "request_id");
-  EXPECT_EQ(bench.service().ListSolves({}).value().solves_size(), 0);
+  EXPECT_EQ(bench.service().ListSolves({}, {}).value().solves_size(), 0);
 }
 
 TEST(SolveServiceTest, ADryRunChecksAndStoresNothing) {
   ServiceBench bench;
   v1::CreateSolveRequest request = CreateRequest(PlanarSpec());
   request.set_validate_only(true);
-  EXPECT_EQ(bench.service().CreateSolve(request).value().name(), "");
+  EXPECT_EQ(bench.service().CreateSolve({}, request).value().name(), "");
   request.mutable_spec()->set_slope_rad(3);
-  EXPECT_EQ(bench.service().CreateSolve(request).error().code, ErrorCode::kInvalidArgument);
-  EXPECT_EQ(bench.service().ListSolves({}).value().solves_size(), 0);
+  EXPECT_EQ(bench.service().CreateSolve({}, request).error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(bench.service().ListSolves({}, {}).value().solves_size(), 0);
 }
 
 TEST(SolveServiceTest, TheSameRequestIdIsTheSameSolve) {
   ServiceBench bench;
-  const std::string name = bench.service().CreateSolve(CreateRequest(PlanarSpec(), "r")).value().name();
-  EXPECT_EQ(bench.service().CreateSolve(CreateRequest(PlanarSpec(), "r")).value().name(), name);
-  EXPECT_EQ(bench.service().CreateSolve(CreateRequest(PlanarSpec(0.2), "r")).error().code, ErrorCode::kAlreadyExists);
+  const std::string name = bench.service().CreateSolve({}, CreateRequest(PlanarSpec(), "r")).value().name();
+  EXPECT_EQ(bench.service().CreateSolve({}, CreateRequest(PlanarSpec(), "r")).value().name(), name);
+  EXPECT_EQ(bench.service().CreateSolve({}, CreateRequest(PlanarSpec(0.2), "r")).error().code, ErrorCode::kAlreadyExists);
 }
 
 TEST(SolveServiceTest, AnEqualRequestIsAnsweredFromTheStoreUnlessForbidden) {
@@ -85,11 +85,11 @@ TEST(SolveServiceTest, AnEqualRequestIsAnsweredFromTheStoreUnlessForbidden) {
     ServiceBench bench(std::chrono::hours(1), options);
     bench.Create();
     bench.Finish(bench.Claim());
-    const v1::Solve again = bench.service().CreateSolve(CreateRequest(PlanarSpec())).value();
+    const v1::Solve again = bench.service().CreateSolve({}, CreateRequest(PlanarSpec())).value();
     EXPECT_EQ(again.from_cache(), reuse);
     EXPECT_EQ(again.state(), reuse ? v1::SOLVE_STATE_SUCCEEDED : v1::SOLVE_STATE_QUEUED);
     EXPECT_EQ(again.result().message(), reuse ? "found" : "");
-    const v1::Solve other = bench.service().CreateSolve(CreateRequest(PlanarSpec(0.3))).value();
+    const v1::Solve other = bench.service().CreateSolve({}, CreateRequest(PlanarSpec(0.3))).value();
     EXPECT_EQ(other.state(), v1::SOLVE_STATE_QUEUED);
   }
 }
@@ -97,25 +97,25 @@ TEST(SolveServiceTest, AnEqualRequestIsAnsweredFromTheStoreUnlessForbidden) {
 TEST(SolveServiceTest, CancelEndsAQueuedSolve) {
   ServiceBench bench;
   const std::string id = bench.Create();
-  const v1::Solve solve = bench.service().CancelSolve(Named<v1::CancelSolveRequest>(id)).value();
+  const v1::Solve solve = bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>(id)).value();
   EXPECT_EQ(solve.state(), v1::SOLVE_STATE_CANCELLED);
   EXPECT_EQ(solve.error().kind(), v1::SolveError::KIND_CANCELLED);
-  EXPECT_EQ(bench.service().CancelSolve(Named<v1::CancelSolveRequest>("none")).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>("none")).error().code, ErrorCode::kNotFound);
 }
 
 TEST(SolveServiceTest, ListRefusesBadPages) {
   ServiceBench bench;
   v1::ListSolvesRequest request;
   request.set_page_size(1001);
-  EXPECT_EQ(bench.service().ListSolves(request).error().violations[0].field, "page_size");
+  EXPECT_EQ(bench.service().ListSolves({}, request).error().violations[0].field, "page_size");
   request.set_page_size(-1);
-  EXPECT_EQ(bench.service().ListSolves(request).error().violations[0].field, "page_size");
+  EXPECT_EQ(bench.service().ListSolves({}, request).error().violations[0].field, "page_size");
   request.set_page_size(10);
   request.set_page_token("forged");
-  EXPECT_EQ(bench.service().ListSolves(request).error().violations[0].field, "page_token");
+  EXPECT_EQ(bench.service().ListSolves({}, request).error().violations[0].field, "page_token");
   request.clear_page_token();
   request.set_state(static_cast<v1::SolveState>(42));
-  EXPECT_EQ(bench.service().ListSolves(request).error().violations[0].field, "state");
+  EXPECT_EQ(bench.service().ListSolves({}, request).error().violations[0].field, "state");
 }
 
 TEST(SolveServiceTest, ModelsAndServerInfo) {
@@ -123,18 +123,18 @@ TEST(SolveServiceTest, ModelsAndServerInfo) {
   options.solver_slots = 7;
   options.solver_build = "a build";
   ServiceBench bench(std::chrono::hours(1), options);
-  EXPECT_EQ(bench.service().ListModels({}).value().models(0).name(), "planar");
+  EXPECT_EQ(bench.service().ListModels({}, {}).value().models(0).name(), "planar");
   v1::GetModelRequest request;
   request.mutable_model()->set_name("snake");
-  EXPECT_EQ(bench.service().GetModel(request).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().GetModel({}, request).error().code, ErrorCode::kNotFound);
   request.mutable_model()->set_name("planar");
-  EXPECT_TRUE(bench.service().GetModel(request).ok());
+  EXPECT_TRUE(bench.service().GetModel({}, request).ok());
   request.mutable_model()->set_stature_m(9);
-  EXPECT_EQ(bench.service().GetModel(request).error().violations[0].field, "model.stature_m");
+  EXPECT_EQ(bench.service().GetModel({}, request).error().violations[0].field, "model.stature_m");
   bench.Create();
   bench.Create(PlanarSpec(0.2));
   bench.Claim();
-  const v1::ServerInfo info = bench.service().GetServerInfo({}).value();
+  const v1::ServerInfo info = bench.service().GetServerInfo({}, {}).value();
   EXPECT_EQ(info.solver_slots(), 7);
   EXPECT_EQ(info.solver_build(), "a build");
   EXPECT_EQ(info.running(), 1);

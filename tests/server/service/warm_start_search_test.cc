@@ -39,7 +39,7 @@ class WarmStartSearchTest : public ::testing::Test {
     EXPECT_TRUE(bench_.store().Finish(lease, {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
     return id;
   }
-  Outcome<v1::Solve> Create(const v1::CreateSolveRequest& request) { return bench_.service().CreateSolve(request); }
+  Outcome<v1::Solve> Create(const v1::CreateSolveRequest& request) { return bench_.service().CreateSolve({}, request); }
   // What the agent would hand to the solver.
   wire::WarmStart Claimed() {
     wire::WarmStart start;
@@ -59,7 +59,7 @@ class WarmStartSearchTest : public ::testing::Test {
 TEST_F(WarmStartSearchTest, ANamedSolveIsHandedOver) {
   const std::string id = Solved(PlanarSpec(0.1));
   ASSERT_TRUE(Create(From("solves/" + id, 0.1 + kDegree)).ok());
-  EXPECT_TRUE(bench_.service().DeleteSolve([&] {
+  EXPECT_TRUE(bench_.service().DeleteSolve({}, [&] {
     v1::DeleteSolveRequest request;
     request.set_name("solves/" + id);
     return request;

@@ -1,0 +1,98 @@
+#include "server/access/quotas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace rollgait::server {
+namespace {
+
+constexpr double kBurstSeconds = 2;
+constexpr size_t kMostBuckets = 10'000;  // idle ones are full and may be forgotten
+
+Error Exhausted(const std::string& tenant, const std::string& text, std::chrono::milliseconds retry) {
+  Error error{ErrorCode::kResourceExhausted, text + "; try again later", {}, retry};
+  error.quota = {"tenant:" + tenant, text};
+  return error;
+}
+
+}  // namespace
+
+std::optional<Error> Quotas::TakeCreate(const std::string& tenant, double creates_per_s) {
+  if (creates_per_s <= 0) return std::nullopt;
+  const double most = std::max(1.0, kBurstSeconds * creates_per_s);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Clock::time_point now = now_();
+  if (buckets_.size() >= kMostBuckets) {
+    std::erase_if(buckets_, [&](const auto& entry) { return now - entry.second.filled > std::chrono::minutes(1); });
+  }
+  const auto [place, is_new] = buckets_.try_emplace(tenant, Bucket{most, now});
+  Bucket& bucket = place->second;
+  bucket.level =
+      std::min(most, bucket.level + creates_per_s * std::chrono::duration<double>(now - bucket.filled).count());
+  bucket.filled = now;
+  if (bucket.level >= 1) {
+    bucket.level -= 1;
+    return std::nullopt;
+  }
+  const auto wait =
+      std::chrono::milliseconds(static_cast<int64_t>(std::ceil(1000 * (1 - bucket.level) / creates_per_s)));
+  std::ostringstream text;
+  text << "tenant \"" << tenant << "\" creates more than its limit of " << creates_per_s << " solves a second";
+  return Exhausted(tenant, text.str(), wait);
+}
+
+Outcome<std::shared_ptr<void>> Quotas::TakeWatch(const std::string& tenant, int max_watches) {
+  const std::shared_ptr<Watches> watches = watches_;
+  const std::lock_guard<std::mutex> lock(watches->mutex);
+  const auto known = watches->of.find(tenant);
+  const int count = known == watches->of.end() ? 0 : known->second;
+  if (max_watches > 0 && count >= max_watches) {
+    return Exhausted(tenant,
+                     std::to_string(count) + " streams of tenant \"" + tenant + "\" are open, its limit is " +
+                         std::to_string(max_watches),
+                     std::chrono::milliseconds(1000));
+  }
+  watches->of[tenant] = count + 1;
+  return std::shared_ptr<void>(nullptr, [watches, tenant](void*) {
+    const std::lock_guard<std::mutex> release(watches->mutex);
+    const auto place = watches->of.find(tenant);
+    if (--place->second == 0) watches->of.erase(place);
+  });
+}
+
+int Quotas::watches(const std::string& tenant) const {
+  const std::lock_guard<std::mutex> lock(watches_->mutex);
+  const auto place = watches_->of.find(tenant);
+  return place == watches_->of.end() ? 0 : place->second;
+}
+
+Outcome<std::shared_ptr<void>> Backpressure::Enter() {
+  if (inside_->fetch_add(1) >= most_at_once_) {
+    inside_->fetch_sub(1);
+    return Error{ErrorCode::kResourceExhausted,
+                 "the server is answering " + std::to_string(most_at_once_) +
+                     " calls that make work, the most it does at once; "
+                     "try again later",
+                 {},
+                 std::chrono::milliseconds(500)};
+  }
+  return std::shared_ptr<void>(nullptr, [inside = inside_](void*) { inside->fetch_sub(1); });
+}
+
+void Backpressure::QueueWasFull(const std::string& tenant, const Error& error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  std::erase_if(full_, [&](const auto& entry) { return entry.second.until < now; });
+  full_.insert_or_assign(tenant, Full{error, now + kMemory});
+}
+
+std::optional<Error> Backpressure::QueueIsFull(const std::string& tenant) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto place = full_.find(tenant);
+  if (place == full_.end() || place->second.until < Clock::now()) return std::nullopt;
+  return place->second.error;
+}
+
+}  // namespace rollgait::server

@@ -1,0 +1,80 @@
+#ifndef ROLLGAIT_SERVER_ACCESS_QUOTAS_H_
+#define ROLLGAIT_SERVER_ACCESS_QUOTAS_H_
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "server/access/caller.h"
+#include "server/base/outcome.h"
+
+namespace rollgait::server {
+
+// What tenants use of this server now, held against their limits, in memory. Any thread may call; nothing blocks.
+class Quotas {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Now = std::function<Clock::time_point()>;
+
+  explicit Quotas(Now now = Clock::now) : now_(std::move(now)) {}
+
+  // Takes one creation from the tenant's bucket, which holds two seconds' worth, at least one. kResourceExhausted with
+  // the quota and the time until there is one.
+  std::optional<Error> TakeCreate(const std::string& tenant, double creates_per_s);
+  // Takes a watch until the hold is released. kResourceExhausted.
+  Outcome<std::shared_ptr<void>> TakeWatch(const std::string& tenant, int max_watches);
+  int watches(const std::string& tenant) const;
+
+ private:
+  struct Bucket {
+    double level = 0;
+    Clock::time_point filled;
+  };
+  struct Watches {
+    std::mutex mutex;
+    std::map<std::string, int> of;
+  };
+
+  const Now now_;
+  std::mutex mutex_;  // protects what follows
+  std::map<std::string, Bucket> buckets_;
+  const std::shared_ptr<Watches> watches_ = std::make_shared<Watches>();
+};
+
+// Refuses calls that make work before they cost anything: when too many of them are being answered, and for a moment
+// after the store said that the queue is full. Any thread may call; nothing blocks.
+class Backpressure {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit Backpressure(int most_at_once) : most_at_once_(most_at_once) {}
+
+  // A place for one call until the hold is released. kResourceExhausted.
+  Outcome<std::shared_ptr<void>> Enter();
+  // The queue was full, as the error says; `tenant` empty: for everyone.
+  void QueueWasFull(const std::string& tenant, const Error& error);
+  // That error, if it was a moment ago.
+  std::optional<Error> QueueIsFull(const std::string& tenant);
+
+ private:
+  static constexpr std::chrono::milliseconds kMemory{100};
+
+  struct Full {
+    Error error;
+    Clock::time_point until;
+  };
+
+  const int most_at_once_;
+  const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);
+  std::mutex mutex_;  // protects what follows
+  std::map<std::string, Full> full_;
+};
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_SERVER_ACCESS_QUOTAS_H_
