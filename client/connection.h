@@ -15,17 +15,25 @@ namespace rollgait::client {
 // What applies to every command.
 struct GlobalOptions {
   std::string server = "127.0.0.1:50051";
+  // PEM files: who signs the server (empty: the system's authorities), and who this client is.
+  std::string tls_ca, tls_cert, tls_key;
+  // File with a bearer token in its first line; empty: the token of `token`.
+  std::string token_file, token;
+  // Plain text beyond loopback.
+  bool insecure = false;
   bool json = false;
   bool quiet = false;
   // Longest wait for the answer of one call, s. Streams have no such limit.
   double timeout_s = 30.0;
 };
 
-// A channel in plain text with keepalive, quick reconnection and no bound on the size of an answer.
+// A channel with keepalive, quick reconnection and no bound on the size of an answer: TLS if the server is beyond loopback or a flag of
+// TLS is given, plain text else. Every call carries the token, if there is one.
 // Cheap to make: nothing is sent before the first call.
 class Connection {
  public:
-  // Throws Failure(kUsage) if the address is not HOST:PORT with a port in [1, 65535] (or unix:PATH).
+  // Throws Failure(kUsage) if the address is not HOST:PORT with a port in [1, 65535] (or unix:PATH), a file cannot be read, or a token
+  // would go over a network in plain text.
   explicit Connection(const GlobalOptions& options);
 
   v1::GaitService::StubInterface& stub() { return *stub_; }

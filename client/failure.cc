@@ -43,17 +43,44 @@ std::string SceneAdvice(grpc::StatusCode code) {
          "--duration, a looser --tolerance. What came before is valid.";
 }
 
-std::string Advice(grpc::StatusCode code, const std::string& server, CallKind kind) {
+// What a connection that TLS did not let through says; empty: it was not TLS.
+std::string TlsAdvice(const std::string& message) {
+  const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
+  if (says("certificate verify failed") || says("CERTIFICATE_VERIFY_FAILED")) {
+    return "The server's certificate is not one that --tls-ca (or the system's authorities) signed, or it has expired: give the right "
+           "--tls-ca FILE, or renew the server's certificate.";
+  }
+  if (says("is not in peer certificate") || says("Hostname Verification")) {
+    return "The server's certificate is for another name: call the server by a name in its certificate.";
+  }
+  if (says("wrong version number") || says("WRONG_VERSION_NUMBER") || says("packet length too long")) {
+    return "The server does not speak TLS: leave --tls-ca and --tls-cert away (beyond loopback with --insecure).";
+  }
+  if (says("handshake") || says("SSL_ERROR")) return "TLS failed: check --tls-ca, --tls-cert and --tls-key.";
+  if (says("Invalid cert chain file") || says("key values mismatch")) return "--tls-cert and --tls-key do not belong together.";
+  return "";
+}
+
+std::string Advice(grpc::StatusCode code, const std::string& message, const std::string& server, CallKind kind) {
   if (kind == CallKind::kScene &&
       (code == grpc::StatusCode::INVALID_ARGUMENT || code == grpc::StatusCode::DEADLINE_EXCEEDED)) {
     return SceneAdvice(code);
   }
   switch (code) {
     case grpc::StatusCode::UNAVAILABLE:
+      if (message.find("Socket closed") != std::string::npos || message.find("onnection reset") != std::string::npos) {
+        return "The server at " + server + " closed the connection. If it speaks TLS, give --tls-ca FILE; if it asks for the client's "
+               "certificate, give --tls-cert and --tls-key that it accepts.";
+      }
       return "Is a server running at " + server + "? Start one with `rollgaitd --data-dir DIR --listen " + server +
              "`, or name another with --server HOST:PORT.";
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return "No answer from " + server + " in time; raise --timeout or check the address.";
+    case grpc::StatusCode::UNAUTHENTICATED:
+      return "Give a valid token with --token-file FILE or ROLLGAIT_TOKEN; the server's administrator makes one with "
+             "`rollgaitd token create`.";
+    case grpc::StatusCode::PERMISSION_DENIED:
+      return "The token does not allow this; the server's administrator can make one that does: `rollgaitd token create --scopes ...`.";
     case grpc::StatusCode::INVALID_ARGUMENT:
       return "Correct the values named above; `rollgait solve --help` gives the ranges.";
     case grpc::StatusCode::NOT_FOUND:
@@ -125,7 +152,8 @@ std::string Describe(const grpc::Status& status, const std::string& action, cons
   std::string text = "cannot " + action + ": " + StatusCodeName(status.error_code());
   if (!status.error_message().empty()) text += ": " + status.error_message();
   text += Details(status);
-  const std::string advice = Advice(status.error_code(), server, kind);
+  std::string advice = TlsAdvice(status.error_code() == grpc::StatusCode::UNAVAILABLE ? status.error_message() : "");
+  if (advice.empty()) advice = Advice(status.error_code(), status.error_message(), server, kind);
   if (!advice.empty()) text += "\n" + advice;
   return text;
 }

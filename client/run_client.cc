@@ -1,6 +1,7 @@
 #include "client/run_client.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 
 #include "client/commands/commands.h"
 
@@ -10,7 +11,7 @@ namespace {
 constexpr char kExitCodes[] = R"(Exit codes:
   0  done; a solve that was waited for is optimal or acceptable
   1  internal error, here or in the server, or a file that could not be written
-  2  wrong command line, or a request that the server refuses (INVALID_ARGUMENT and the like)
+  2  wrong command line, or a request that the server refuses (INVALID_ARGUMENT, a token that is missing or not enough)
   3  no server, no answer in time, or a server too busy to answer
   4  the solve ended without a solution: infeasible or not converged; a simulation ended early; no periodic gait found
   5  the run failed: crash, CPU limit or memory limit
@@ -19,6 +20,7 @@ constexpr char kExitCodes[] = R"(Exit codes:
 
 Environment:
   ROLLGAIT_SERVER  HOST:PORT of the server, as --server
+  ROLLGAIT_TOKEN   token for the server, unless --token-file is given
   NO_COLOR         any non-empty value: no colours
 
 Progress goes to standard error, data to standard output.)";
@@ -49,6 +51,12 @@ void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.add_option("--server", global.server, "HOST:PORT of the server")
       ->envname("ROLLGAIT_SERVER")
       ->capture_default_str();
+  app.add_option("--tls-ca", global.tls_ca, "Speak TLS; who signs the server, PEM; default beyond loopback: the system's authorities");
+  app.add_option("--tls-cert", global.tls_cert, "Certificate of this client, PEM");
+  app.add_option("--tls-key", global.tls_key, "Private key of --tls-cert, PEM");
+  app.add_option("--token-file", global.token_file, "File with the token for the server; default: ROLLGAIT_TOKEN");
+  app.add_flag("--insecure", global.insecure, "Speak plain text beyond loopback");
+  if (const char* token = std::getenv("ROLLGAIT_TOKEN")) global.token = token;
   app.add_flag("--json", global.json,
                "Proto3 JSON on standard output; solve and watch: one object a line, the Solve last");
   app.add_flag("-q,--quiet", global.quiet, "No progress, no summary: data and errors only");

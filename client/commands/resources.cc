@@ -134,6 +134,21 @@ ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& g
   });
 }
 
+namespace {
+
+std::string AuthenticationName(const v1::Caller& caller) {
+  switch (caller.authentication()) {
+    case v1::Caller::AUTHENTICATION_TOKEN:
+      return "token " + caller.identity();
+    case v1::Caller::AUTHENTICATION_CERTIFICATE:
+      return "certificate of " + caller.identity();
+    default:
+      return "nothing: the server does not ask who calls";
+  }
+}
+
+}  // namespace
+
 ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
   Connection connection(global);
   grpc::ClientContext context;
@@ -144,7 +159,11 @@ ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
     terminal.out << ToJsonText(info) << std::flush;
     return ExitCode::kSuccess;
   }
-  terminal.out << FormatTable({{"server", global.server},
+  const v1::Caller& caller = info.caller();
+  std::string scopes;
+  for (const std::string& scope : caller.scopes()) scopes += (scopes.empty() ? "" : ", ") + scope;
+  const auto limit = [](double value) { return value > 0 ? FormatNumber(value, 6) : std::string("none"); };
+  std::vector<std::vector<std::string>> rows = {{"server", global.server},
                                {"version", info.version()},
                                {"solver", info.solver_build()},
                                {"solver slots", std::to_string(info.solver_slots())},
@@ -152,9 +171,17 @@ ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
                                {"queued", std::to_string(info.queued())},
                                {"largest request", std::to_string(info.max_request_bytes()) + " bytes"},
                                {"up for", FormatDuration(info.uptime_s())},
-                               {"store", info.store()}},
-                              "l")
-               << std::flush;
+                               {"store", info.store()},
+                               {"authenticated by", AuthenticationName(caller)}};
+  if (!caller.tenant().empty()) {
+    rows.insert(rows.end(), {{"tenant", caller.tenant()},
+                             {"scopes", scopes},
+                             {"queued at most", limit(caller.limits().max_queued())},
+                             {"running at most", limit(caller.limits().max_running())},
+                             {"streams at most", limit(caller.limits().max_watches())},
+                             {"created at most", limit(caller.limits().creates_per_s()) + " /s"}});
+  }
+  terminal.out << FormatTable(rows, "l") << std::flush;
   return ExitCode::kSuccess;
 }
 

@@ -3,7 +3,7 @@
 _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
   local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info health help"
-  local global="--server --json --quiet --timeout --version --help"
+  local global="--server --tls-ca --tls-cert --tls-key --token-file --insecure --json --quiet --timeout --version --help"
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
   local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
@@ -27,7 +27,7 @@ _rollgait() {
     --preset) COMPREPLY=($(compgen -W "torque transport human" -- "$current")); return ;;
     --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;
     --state) COMPREPLY=($(compgen -W "queued running succeeded failed cancelled" -- "$current")); return ;;
-    --output | -o | --spec | --scene) COMPREPLY=($(compgen -f -- "$current")); return ;;
+    --output | -o | --spec | --scene | --tls-ca | --tls-cert | --tls-key | --token-file) COMPREPLY=($(compgen -f -- "$current")); return ;;
   esac
   if [[ $current == -* ]]; then
     local options=$global

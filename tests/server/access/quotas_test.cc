@@ -1,0 +1,64 @@
+#include "server/access/quotas.h"
+
+#include <gtest/gtest.h>
+
+namespace rollgait::server {
+namespace {
+
+TEST(QuotasTest, ABucketHoldsTwoSecondsAndFillsWithTime) {
+  Quotas::Clock::time_point now{};
+  Quotas quotas([&] { return now; });
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(quotas.TakeCreate("a", 5).has_value()) << i;
+  const std::optional<Error> refused = quotas.TakeCreate("a", 5);
+  ASSERT_TRUE(refused.has_value());
+  EXPECT_EQ(refused->code, ErrorCode::kResourceExhausted);
+  ASSERT_TRUE(refused->quota.has_value());
+  EXPECT_EQ(refused->quota->subject, "tenant:a");
+  ASSERT_TRUE(refused->retry_after.has_value());
+  EXPECT_EQ(refused->retry_after->count(), 200);
+  EXPECT_FALSE(quotas.TakeCreate("b", 5).has_value());  // another tenant's is another bucket
+  now += *refused->retry_after;
+  EXPECT_FALSE(quotas.TakeCreate("a", 5).has_value());
+  EXPECT_TRUE(quotas.TakeCreate("a", 5).has_value());
+  EXPECT_FALSE(quotas.TakeCreate("a", 0).has_value());  // 0: no limit
+}
+
+TEST(QuotasTest, WatchesAreGivenBack) {
+  Quotas quotas;
+  Outcome<std::shared_ptr<void>> first = quotas.TakeWatch("a", 2);
+  ASSERT_TRUE(first.ok());
+  {
+    const Outcome<std::shared_ptr<void>> second = quotas.TakeWatch("a", 2);
+    ASSERT_TRUE(second.ok());
+    const Outcome<std::shared_ptr<void>> third = quotas.TakeWatch("a", 2);
+    ASSERT_FALSE(third.ok());
+    EXPECT_EQ(third.error().quota->subject, "tenant:a");
+    EXPECT_TRUE(quotas.TakeWatch("b", 2).ok());
+    EXPECT_EQ(quotas.watches("a"), 2);
+  }
+  EXPECT_EQ(quotas.watches("a"), 1);
+  EXPECT_EQ(quotas.watches("b"), 0);
+  EXPECT_TRUE(quotas.TakeWatch("a", 2).ok());
+}
+
+TEST(BackpressureTest, TooManyAtOnceAreRefused) {
+  Backpressure pressure(1);
+  Outcome<std::shared_ptr<void>> inside = pressure.Enter();
+  ASSERT_TRUE(inside.ok());
+  EXPECT_EQ(pressure.Enter().error().code, ErrorCode::kResourceExhausted);
+  inside.value().reset();
+  EXPECT_TRUE(pressure.Enter().ok());
+}
+
+TEST(BackpressureTest, AFullQueueIsForgottenSoon) {
+  Backpressure pressure(1);
+  EXPECT_FALSE(pressure.QueueIsFull("a").has_value());
+  pressure.QueueWasFull("a", {ErrorCode::kResourceExhausted, "full"});
+  EXPECT_FALSE(pressure.QueueIsFull("b").has_value());
+  while (pressure.QueueIsFull("a").has_value()) {  // ends by itself, or the test does not
+  }
+  EXPECT_FALSE(pressure.QueueIsFull("a").has_value());
+}
+
+}  // namespace
+}  // namespace rollgait::server
