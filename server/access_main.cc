@@ -137,7 +137,8 @@ CLI::App* AddCommand(CLI::App& parent, const char* name, const char* help, Argum
                      Action action) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_option("--data-dir", arguments.data_dir, "Directory of the store, as of rollgaitd");
-  command->add_option("--store", arguments.store, "URL of the store, postgresql://..., as of rollgaitd")->envname(kStoreVariable);
+  command->add_option("--store", arguments.store, "URL of the store, postgresql://..., as of rollgaitd")
+      ->envname(kStoreVariable);
   command->callback([&chosen, action] { chosen = action; });
   return command;
 }
@@ -183,6 +184,38 @@ void AddTenantCommands(CLI::App& app, Arguments& arguments, Action& chosen) {
 }
 
 }  // namespace
+
+void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
+  auto* cert =
+      app.add_option("--tls-cert", flags.tls.cert, "Certificate chain of this server, PEM; read again when it changes");
+  auto* key = app.add_option("--tls-key", flags.tls.key, "Private key of --tls-cert, PEM")->needs(cert);
+  cert->needs(key);
+  auto* ca = app.add_option("--tls-client-ca", flags.tls.client_ca,
+                            "Every client must show a certificate signed by one of these, PEM")
+                 ->needs(cert);
+  app.add_option("--certificate-tenant", flags.certificate_tenant,
+                 "A client's certificate stands for the tenant in its cn (common name) or uri (alternative name); "
+                 "default: none")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, CertificateTenant>{{"none", CertificateTenant::kNone},
+                                                                           {"cn", CertificateTenant::kCommonName},
+                                                                           {"uri", CertificateTenant::kUri}}))
+      ->needs(ca);
+  app.add_flag("--require-token", flags.require_token, "Ask every call for a token; see `rollgaitd token --help`");
+  app.add_option("--tenant-max-queued", flags.limits.max_queued,
+                 "Solves of a tenant that may wait; 0: no limit of its own")
+      ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--tenant-max-watches", flags.limits.max_watches, "Streams of a tenant that may be open; 0: no limit")
+      ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--tenant-creates-per-s", flags.limits.creates_per_s,
+                 "Solves and simulations a tenant may ask for; 0: no limit")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--max-connections", flags.connections.total,
+                 "Connections at once; default: what the limit of open files leaves")
+      ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: all")
+      ->check(CLI::Range(1, 1'000'000));
+}
 
 std::optional<int> RunAccessCommand(int argc, char** argv) {
   const std::string_view first = argc > 1 ? argv[1] : "";

@@ -3,7 +3,28 @@
 
 #include <optional>
 
+#include "server/access/caller.h"
+#include "server/rpc/call_identity.h"
+#include "server/rpc/connection_acceptor.h"
+#include "server/rpc/tls_files.h"
+
+namespace CLI {
+class App;
+}
+
 namespace rollgait::server {
+
+// Who may use a server: docs/security.md.
+struct AccessFlags {
+  TlsFiles tls;
+  CertificateTenant certificate_tenant = CertificateTenant::kNone;
+  bool require_token = false;
+  TenantLimits limits;
+  ConnectionLimits connections;
+
+  bool asks_who_calls() const { return require_token || certificate_tenant != CertificateTenant::kNone; }
+};
+void AddAccessFlags(CLI::App& app, AccessFlags& flags);
 
 // `rollgaitd token|tenant|audit ...`: works on the store, beside a running server or without one. Returns the exit
 // code; nullopt if the arguments are not of these commands.

@@ -49,11 +49,7 @@ struct Flags {
   int64_t keep_solves_mb = 0, reserve_mb = 64;
   std::string listen = "127.0.0.1:50051";
   bool insecure_listen = false;
-  TlsFiles tls;
-  std::string certificate_tenant = "none";
-  bool require_token = false;
-  TenantLimits limits;
-  ConnectionLimits connections;
+  AccessFlags access;
   int solver_slots = -1;  // -1: not said
   int simulation_slots = 2;
   std::string agent, solver, simulator;
@@ -73,31 +69,6 @@ std::string Folder() {
 }
 std::string Sibling(const std::string& name) { return Folder() + "/" + name; }
 
-// Who may do what: docs/security.md.
-void AddAccessFlags(CLI::App& app, Flags& flags) {
-  auto* cert = app.add_option("--tls-cert", flags.tls.cert, "Certificate chain of this server, PEM; read again when it changes");
-  auto* key = app.add_option("--tls-key", flags.tls.key, "Private key of --tls-cert, PEM")->needs(cert);
-  cert->needs(key);
-  auto* ca = app.add_option("--tls-client-ca", flags.tls.client_ca, "Every client must show a certificate signed by one of these, PEM")
-                 ->needs(cert);
-  app.add_option("--certificate-tenant", flags.certificate_tenant,
-                 "A client's certificate stands for the tenant in its cn (common name) or uri (alternative name); none: it does not")
-      ->check(CLI::IsMember({"none", "cn", "uri"}))
-      ->capture_default_str()
-      ->needs(ca);
-  app.add_flag("--require-token", flags.require_token, "Ask every call for a token; see `rollgaitd token --help`");
-  app.add_option("--tenant-max-queued", flags.limits.max_queued, "Solves of a tenant that may wait; 0: no limit of its own")
-      ->check(CLI::Range(0, 1'000'000));
-  app.add_option("--tenant-max-watches", flags.limits.max_watches, "Streams of a tenant that may be open; 0: no limit")
-      ->check(CLI::Range(0, 1'000'000));
-  app.add_option("--tenant-creates-per-s", flags.limits.creates_per_s, "Solves and simulations a tenant may ask for; 0: no limit")
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--max-connections", flags.connections.total, "Connections at once; default: what the limit of open files leaves")
-      ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: all")
-      ->check(CLI::Range(1, 1'000'000));
-}
-
 void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--data-dir", flags.data_dir, "Directory of the store; made if need be")->required();
   app.add_option("--store", flags.store,
@@ -106,7 +77,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
       ->capture_default_str();
   app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
-  AddAccessFlags(app, flags);
+  AddAccessFlags(app, flags.access);
   app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
       ->check(CLI::Range(0, 1024));
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
@@ -238,8 +209,6 @@ std::optional<std::string> ServeMetrics(const Flags& flags, Metrics& metrics) {
   return std::nullopt;
 }
 
-bool AsksWhoCalls(const Flags& flags) { return flags.require_token || flags.certificate_tenant != "none"; }
-
 int Serve(const Flags& flags, const sigset_t& end_signals) {
   const Outcome<SolverChoice> solver = SolverOf(flags);
   if (!solver.ok()) return Fail(solver.error().message);
@@ -278,16 +247,14 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   });
   AccessStore access(store.value()->database(), clock);
   Gatekeeper::Options gate;
-  gate.require_identity = AsksWhoCalls(flags);
-  gate.limits = flags.limits;
+  gate.require_identity = flags.access.asks_who_calls();
+  gate.limits = flags.access.limits;
   Gatekeeper gatekeeper(gate, &access, &clock);
   RpcOptions rpc_options;
   rpc_options.listen = flags.listen;
-  rpc_options.tls = flags.tls;
-  rpc_options.certificate_tenant = flags.certificate_tenant == "cn"    ? CertificateTenant::kCommonName
-                                   : flags.certificate_tenant == "uri" ? CertificateTenant::kUri
-                                                                       : CertificateTenant::kNone;
-  rpc_options.connections = flags.connections;
+  rpc_options.tls = flags.access.tls;
+  rpc_options.certificate_tenant = flags.access.certificate_tenant;
+  rpc_options.connections = flags.access.connections;
   rpc_options.admin_directory = data_dir.path;
   rpc_options.discovery = !gate.require_identity;
   rpc_options.simulation.program = flags.simulator;
@@ -330,12 +297,12 @@ int Main(int argc, char** argv) {
   StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
-  if (!IsLoopback(flags.listen) && flags.tls.cert.empty() && !flags.insecure_listen) {
+  if (!IsLoopback(flags.listen) && flags.access.tls.cert.empty() && !flags.insecure_listen) {
     return Fail("--listen " + flags.listen +
                 " is not a loopback address and this server speaks plain text: anyone on the " +
                 "network could read and use it. Give --tls-cert and --tls-key, listen on 127.0.0.1, or say --insecure-listen");
   }
-  if (!IsLoopback(flags.listen) && !AsksWhoCalls(flags) && flags.tls.client_ca.empty()) {
+  if (!IsLoopback(flags.listen) && !flags.access.asks_who_calls() && flags.access.tls.client_ca.empty()) {
     spdlog::warn("everyone who reaches {} may use this server: give --require-token or --tls-client-ca", flags.listen);
   }
   if (const auto obstacle = flags.unconfined_solver ? std::nullopt : SandboxObstacle()) {
