@@ -24,8 +24,9 @@ class CertificateSource {
     if (!fresh_ && now != version_) Reload(now);
     if (!fresh_) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const grpc_ssl_pem_key_cert_pair pair{fresh_->key.c_str(), fresh_->cert.c_str()};
-    *config = grpc_ssl_server_certificate_config_create(fresh_->client_ca.empty() ? nullptr : fresh_->client_ca.c_str(),
-                                                        &pair, 1);
+    // gRPC wants roots even where it asks clients for nothing; then they are never looked at.
+    const std::string& roots = fresh_->client_ca.empty() ? fresh_->cert : fresh_->client_ca;
+    *config = grpc_ssl_server_certificate_config_create(roots.c_str(), &pair, 1);
     fresh_.reset();
     return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;
   }
