@@ -8,7 +8,7 @@
 
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
-#include "core/nlp/solve_nlp.h"
+#include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 namespace {
@@ -99,25 +99,16 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
                                         solution->accuracy->max_slip <= spec.max_slip;
 }
 
-// Observers see the objective of the problem, not that of the scaled NLP.
-SolveControl Unscaled(const SolveControl& control, double scale) {
-  SolveControl unscaled = control;
-  if (control.observer) {
-    unscaled.observer = [&control, scale](IterationInfo info) {
-      info.objective /= scale;
-      control.observer(info);
-    };
-  }
-  return unscaled;
-}
-
 }  // namespace
 
 bool Converged(Termination termination) {
   return termination == Termination::kOptimal || termination == Termination::kAcceptable;
 }
 
-bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) {
+namespace {
+
+// Whether surfaces slip between nodes at more than this share of the speed of the motion.
+bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
   if (!solution.accuracy) return false;
   double speed = solution.speed;
   if (spec.manoeuvre) {
@@ -127,31 +118,12 @@ bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) {
   }
   // A body at rest slips by rounding.
   const double rounding = spec.manoeuvre ? 1e-6 : 0;
-  return solution.accuracy->max_slip > 0.2 * speed + rounding;
+  return solution.accuracy->max_slip > share * speed + rounding;
 }
 
-SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control)
-    : control_(control),
-      begin_(std::chrono::steady_clock::now()),
-      max_wall_time_(spec.max_wall_time),
-      iterations_left_(spec.max_iterations) {}
+}  // namespace
 
-double SolveBudget::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
-bool SolveBudget::Left() const {
-  return iterations_left_ > 0 && elapsed() < max_wall_time_ && (control_.stop == nullptr || !control_.stop->requested());
-}
-
-NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
-  options.mesh = programs_++;
-  options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
-  options.max_wall_time_s = max_wall_time_ - elapsed();
-  NlpResult result = SolveNlp(nlp, start, options, Unscaled(control_, nlp.objective_scale()));
-  iterations_left_ -= result.iterations;
-  return result;
-}
+bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
 
 Mesh RequestedMesh(const GaitSpec& spec) {
   std::vector<int> intervals;
@@ -248,6 +220,45 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   return solution;
 }
 
+// What the requested mesh starts from, and the meshes that led there. Without a predecessor: the guess alone.
+struct Ascent {
+  MotionGuess guess;
+  Predecessor previous;
+  std::vector<MeshStatistics> meshes;
+};
+
+// From afar the iterations grow with the number of intervals, from the solution of half as many they do not: meshes with more than
+// kMostFromAfar intervals in a phase are reached by way of coarser ones.
+Ascent Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, const Mesh& mesh,
+              SolveBudget* budget) {
+  constexpr int kMostFromAfar = 24;
+  // A coarse mesh may slip at half the speed and still lead to a motion that does not; beyond that it leads astray.
+  constexpr double kLeadsAstray = 0.5;
+  std::vector<Mesh> coarser;
+  std::vector<int> intervals = mesh.Intervals();
+  while (*std::max_element(intervals.begin(), intervals.end()) > kMostFromAfar) {
+    for (int& count : intervals) count = (count + 1) / 2;
+    coarser.push_back(Mesh::Uniform(intervals));
+  }
+  Ascent ascent{guess, {}, {}};
+  for (auto next = coarser.rbegin(); next != coarser.rend(); ++next) {
+    auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, *next);
+    NlpStart start{nlp->MakeStart(ascent.guess), {}, {}, {}};
+    if (ascent.previous.nlp) nlp->TransferMultipliers(*ascent.previous.nlp, ascent.previous.result, &start);
+    const NlpResult result = budget->Run(*nlp, start, OptionsFor(spec, ascent.guess));
+    GaitSolution solution;
+    if (Converged(result.termination)) Adopt(spec, problem, *nlp, result, &solution);
+    ascent.meshes.push_back(Describe(*nlp, result));
+    if (!solution.trajectory || SlipsBy(kLeadsAstray, spec, solution)) return {guess, {}, std::move(ascent.meshes)};
+    ascent.meshes.back().objective = solution.objective;
+    ascent.meshes.back().max_gap = solution.accuracy->max_gap;
+    ascent.meshes.back().max_slip = solution.accuracy->max_slip;
+    ascent.guess = GuessFromTrajectory(*solution.trajectory);
+    ascent.previous = {std::move(nlp), result};
+  }
+  return ascent;
+}
+
 Mesh MeshOf(const Trajectory& trajectory) {
   Mesh mesh;
   for (const TrajectoryPhase& phase : trajectory.phases) {
@@ -286,7 +297,20 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget) {
-  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget);
+  Ascent ascent = Ascend(spec, problem, guess, mesh, budget);
+  std::vector<MeshStatistics> earlier = std::move(ascent.meshes);
+  const auto with_earlier = [&earlier](GaitSolution solution) {
+    solution.meshes.insert(solution.meshes.begin(), earlier.begin(), earlier.end());
+    return solution;
+  };
+  if (ascent.previous.nlp) {
+    const NlpOptions options = OptionsFor(spec, ascent.guess);
+    GaitSolution solution =
+        SolveFrom(spec, problem, std::move(ascent.guess), options, std::move(ascent.previous), mesh, budget);
+    if ((Converged(solution.termination) && !IsArtefact(spec, solution)) || !budget->Left()) return with_earlier(solution);
+    earlier.insert(earlier.end(), solution.meshes.begin(), solution.meshes.end());
+  }
+  return with_earlier(SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget));
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget) {

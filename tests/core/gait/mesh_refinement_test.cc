@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/optimizing_gait_solver.h"
@@ -62,6 +63,33 @@ TEST_F(MeshRefinementTest, CutsWholePhasesWhenItHasStalled) {
 
 TEST_F(MeshRefinementTest, LeavesWhatIsGoodEnough) {
   for (const bool stalled : {false, true}) EXPECT_EQ(Refined(100, stalled).fractions, mesh_.fractions);
+}
+
+// Half as many intervals come first, and what is returned is the solution on the mesh that was asked for.
+TEST(FineMesh, IsReachedByWayOfACoarserOne) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.motion.speed = 1.3;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  request.discretization.single_support_intervals = 30;
+  request.discretization.double_support_intervals = 9;
+  std::vector<int> meshes;
+  SolveControl control;
+  control.observer = [&meshes](const IterationInfo& info) {
+    if (info.index == 0) meshes.push_back(info.mesh);
+  };
+  const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(request).value(), control);
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  EXPECT_EQ(meshes, (std::vector<int>{0, 1}));
+  ASSERT_EQ(solution.meshes.size(), 2u);
+  std::vector<int> coarse = solution.meshes[0].intervals, fine = solution.meshes[1].intervals;
+  std::sort(coarse.begin(), coarse.end());
+  std::sort(fine.begin(), fine.end());
+  EXPECT_EQ(coarse, (std::vector<int>{5, 15}));
+  EXPECT_EQ(fine, (std::vector<int>{9, 30}));
+  EXPECT_LT(solution.meshes[1].iterations, solution.meshes[0].iterations);
+  EXPECT_EQ(solution.objective, solution.meshes[1].objective);
+  EXPECT_GT(solution.meshes[0].max_slip, 0);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#include "core/gait/solve_budget.h"
+
+#include <algorithm>
+
+#include "core/nlp/solve_nlp.h"
+
+namespace rollgait {
+namespace {
+
+// Observers see the objective of the problem, not that of the scaled NLP.
+SolveControl Unscaled(const SolveControl& control, double scale) {
+  SolveControl unscaled = control;
+  if (control.observer) {
+    unscaled.observer = [&control, scale](IterationInfo info) {
+      info.objective /= scale;
+      control.observer(info);
+    };
+  }
+  return unscaled;
+}
+
+}  // namespace
+
+SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control)
+    : control_(control),
+      begin_(std::chrono::steady_clock::now()),
+      max_wall_time_(spec.max_wall_time),
+      iterations_left_(spec.max_iterations) {}
+
+double SolveBudget::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+bool SolveBudget::Left() const {
+  return iterations_left_ > 0 && elapsed() < max_wall_time_ && (control_.stop == nullptr || !control_.stop->requested());
+}
+
+NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
+  options.mesh = programs_++;
+  options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
+  options.max_wall_time_s = max_wall_time_ - elapsed();
+  NlpResult result = SolveNlp(nlp, start, options, Unscaled(control_, nlp.objective_scale()));
+  iterations_left_ -= result.iterations;
+  return result;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,35 @@
+#ifndef ROLLGAIT_CORE_GAIT_SOLVE_BUDGET_H_
+#define ROLLGAIT_CORE_GAIT_SOLVE_BUDGET_H_
+
+#include <chrono>
+
+#include "core/gait/gait_request.h"
+#include "core/nlp/nlp_options.h"
+#include "core/nlp/result.h"
+#include "core/transcription/collocation_nlp.h"
+
+namespace rollgait {
+
+// What all nonlinear programs of one request share: observer and stop flag, the limits on iterations and time, and the
+// numbering of the programs (IterationInfo::mesh). Starts its clock when it is made.
+class SolveBudget {
+ public:
+  SolveBudget(const GaitSpec& spec, const SolveControl& control);
+
+  // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
+  NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
+  double elapsed() const;  // s
+  // False once the iterations or the time are used up, or the stop flag is set: what runs then ends at once.
+  bool Left() const;
+
+ private:
+  const SolveControl& control_;
+  std::chrono::steady_clock::time_point begin_;
+  double max_wall_time_;
+  int iterations_left_;
+  int programs_ = 0;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_SOLVE_BUDGET_H_
