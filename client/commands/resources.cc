@@ -179,7 +179,7 @@ ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
                              {"queued at most", limit(caller.limits().max_queued())},
                              {"running at most", limit(caller.limits().max_running())},
                              {"streams at most", limit(caller.limits().max_watches())},
-                             {"created at most", limit(caller.limits().creates_per_s()) + " /s"}});
+                             {"created at most", limit(caller.limits().creates_per_s()) + (caller.limits().creates_per_s() > 0 ? " /s" : "")}});
   }
   terminal.out << FormatTable(rows, "l") << std::flush;
   return ExitCode::kSuccess;

@@ -63,5 +63,16 @@ TEST(DescribeTest, DetailsThatAreNotAStatusAreIgnored) {
   EXPECT_THAT(Describe(status, "x", "host:1"), testing::StartsWith("cannot x: INVALID_ARGUMENT: no\n"));
 }
 
+TEST(FailureTest, WhatTlsRefusesIsSaidInWords) {
+  const auto text = [](const std::string& message) {
+    return Describe({grpc::StatusCode::UNAVAILABLE, message}, "ask the server", "gait.example:50051");
+  };
+  EXPECT_NE(text("Ssl handshake failed: error:0A000086:SSL routines::certificate verify failed").find("--tls-ca"), std::string::npos);
+  EXPECT_NE(text("error:0A00010B:SSL routines::wrong version number").find("does not speak TLS"), std::string::npos);
+  EXPECT_NE(text("Peer name gait.example is not in peer certificate").find("another name"), std::string::npos);
+  EXPECT_NE(text("Socket closed").find("If it speaks TLS"), std::string::npos);
+  EXPECT_NE(text("Connection refused").find("Is a server running"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rollgait::client
