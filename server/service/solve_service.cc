@@ -1,10 +1,11 @@
 #include "server/service/solve_service.h"
 
-#include <spdlog/spdlog.h>
+#include <spdlog/common.h>
 
 #include <utility>
 
 #include "server/base/digest.h"
+#include "server/base/logging.h"
 #include "server/service/request_check.h"
 #include "server/service/solve_key.h"
 #include "server/service/solve_message.h"
@@ -90,7 +91,7 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   if (!created.ok()) return created.error();
   const SolveRecord& record = created.value().record;
   if (created.value().created) {
-    spdlog::info("solves/{} created{}", record.id, record.from_cache ? ", answered from the store" : "");
+    LogEvent(spdlog::level::info, "solve.created", {{"solve", record.id}, {"from_cache", record.from_cache}});
     announce_(record.id);
   }
   return ToSolve(record);
@@ -134,7 +135,8 @@ Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::Can
   const Outcome<SolveRecord> record = store_.RequestCancel(id.value(), caller.actor());
   if (!record.ok()) return record.error();
   if (record.value().cancel_requested) {
-    spdlog::info("solves/{} {}", id.value(), IsTerminal(record.value().state) ? "cancelled" : "is to be cancelled");
+    LogEvent(spdlog::level::info, IsTerminal(record.value().state) ? "solve.cancelled" : "solve.cancel_requested",
+             {{"solve", id.value()}});
     announce_(id.value());
   }
   return ToSolve(record.value());
@@ -145,7 +147,7 @@ Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller,
   if (!id.ok()) return id.error();
   const Outcome<Done> done = store_.Delete(id.value(), caller.actor());
   if (!done.ok()) return done.error();
-  spdlog::info("solves/{} deleted", id.value());
+  LogEvent(spdlog::level::info, "solve.deleted", {{"solve", id.value()}});
   return google::protobuf::Empty();
 }
 

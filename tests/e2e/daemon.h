@@ -22,6 +22,7 @@ class Daemon {
     std::vector<std::string> flags;  // more of them
     std::vector<std::string> launcher =
         {};  // a command that the server's own is put behind and that becomes it: env, prlimit …
+    std::string log_file = {};  // of its and its agent's standard error; empty: that of the test
   };
   // Starts the server and waits until it listens. If it does not, address() is empty and ExitCode() tells why.
   explicit Daemon(const Options& options);
