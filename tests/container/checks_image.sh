@@ -1,7 +1,7 @@
 # To be sourced by run: what the image holds and may do.
 # shellcheck shell=bash
 
-in_image() { pod run --rm "${limits[@]}" --network none "${confined[@]}" "$image" "$@"; }
+in_image() { pod run --rm "${limits[@]}" "${unattended[@]}" --network none "${confined[@]}" "$image" "$@"; }
 # The command fails, and not because it is missing.
 refused() {
   local code=0
@@ -26,6 +26,6 @@ check_image() {
   check "the root file system cannot be written" refused touch /etc/x /usr/local/bin/x /x
   check "the data directory is the user's alone" equal "$(in_image stat -c '%u:%g %a' /var/lib/rollgait)" '10001:10001 700'
   check "it holds no compiler and no download tool" no_compiler
-  check "a health check is declared" equal "$(inspect '{{index .Config.Healthcheck.Test 1}}')" rollgait
+  check "a health check is declared" equal "$(inspect '{{index .HealthCheck.Test 1}}')" rollgait
   check "SIGTERM stops it" equal "$(inspect '{{.Config.StopSignal}}')" SIGTERM
 }

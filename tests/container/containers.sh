@@ -31,6 +31,8 @@ until_true() {
 
 # What is asked of every container; the limits are those that runc may set in a sandboxed CI.
 limits=(--ulimit nofile=10000:10000 --ulimit nproc=4000:4000)
+# podman has health checks run by systemd, which a container or CI has not; the test runs the image's own.
+unattended=(--no-healthcheck)
 # As docker/compose.yaml has it.
 confined=(--read-only --tmpfs /tmp:rw,size=64m --cap-drop ALL --security-opt no-new-privileges)
 
@@ -66,11 +68,12 @@ tear_down_containers() {
 run_in() {
   local name=$1
   shift
-  pod run -d --name "$name" "${limits[@]}" --network "$network" "${confined[@]}" "$@" > /dev/null
+  pod run -d --name "$name" "${limits[@]}" "${unattended[@]}" --network "$network" "${confined[@]}" "$@" > /dev/null
 }
 # client ARGUMENTS...: the client in a container that ends with it, over the network; /out is $work/out.
 client() {
-  pod run --rm "${limits[@]}" --network "$network" "${confined[@]}" -v "$work/out:/out" "${client_options[@]}" "$image" rollgait "$@"
+  pod run --rm "${limits[@]}" "${unattended[@]}" --network "$network" "${confined[@]}" -v "$work/out:/out" "${client_options[@]}" "$image" \
+    rollgait --tls-ca /run/secrets/ca.crt --token-file /run/secrets/token "$@"
 }
 
 make_base_image() {
