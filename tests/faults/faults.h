@@ -38,6 +38,8 @@ FaultReport FillDisk(const FaultOptions& options);
 FaultReport JumpClocks(const FaultOptions& options);
 FaultReport CutNetwork(const FaultOptions& options);
 FaultReport FloodDescriptors(const FaultOptions& options);
+// With the solves in PostgreSQL; each time a pair of its own.
+FaultReport FailOverPostgres(const FaultOptions& options);
 
 // A rollgaitd with the slow solver that can be started again on its address.
 class FaultyServer {

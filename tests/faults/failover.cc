@@ -1,0 +1,70 @@
+// kill -9 of PostgreSQL's primary under load, and its synchronous standby takes over.
+#include <algorithm>
+
+#include "tests/faults/faults.h"
+#include "tests/support/postgres_cluster.h"
+
+namespace rollgait::faults {
+namespace {
+
+// Seconds from the promotion until the server has stored a new solve.
+double SecondsToCreate(const std::string& address) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::unique_ptr<Stub> stub = Connect(address);
+  Await("a solve to be created", [&] {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(2));
+    v1::CreateSolveRequest request;
+    request.set_request_id("after-failover");
+    request.mutable_spec()->mutable_model()->set_name("planar");
+    v1::Solve solve;
+    return stub->CreateSolve(&context, request, &solve).ok();
+  });
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Round {
+  Verdict verdict;
+  double seconds = 0;
+};
+
+Round FailOver() {
+  PostgresCluster primary({.durable = true});
+  PostgresCluster standby({.durable = true, .primary = &primary});
+  primary.Execute("ALTER SYSTEM SET synchronous_standby_names = '*'");
+  primary.Execute("SELECT pg_reload_conf()");
+  Await("a synchronous standby",
+        [&] { return primary.Execute("SELECT COUNT(*) FROM pg_stat_replication WHERE sync_state = 'sync'") == "1"; });
+  server::Daemon::Options daemon;
+  daemon.flags = {"--store", "postgresql://rollgait@/postgres?host=" + primary.directory() + "," + standby.directory()};
+  FaultyServer server(daemon);
+  Load load({server.address()});
+  load.AwaitRound();
+  primary.Kill();
+  standby.Promote();
+  Round round;
+  round.seconds = SecondsToCreate(server.address());
+  load.AwaitRound();
+  round.verdict = load.Finish();
+  return round;
+}
+
+}  // namespace
+
+FaultReport FailOverPostgres(const FaultOptions& options) {
+  FaultReport report{"PostgreSQL: kill -9 of the primary, standby promoted × " + std::to_string(options.count),
+                     "0 acknowledged lost; serving ≤ 5 s after promotion", "", true, ""};
+  double longest = 0;
+  for (int i = 0; i < options.count; ++i) {
+    const Round round = FailOver();
+    longest = std::max(longest, round.seconds);
+    report.measured = round.verdict.Text();
+    report.good = round.verdict.good();
+    if (!report.good) break;
+  }
+  report.measured += "; serving " + SecondsText(longest) + " after promotion";
+  if (options.judge_times) report.good = report.good && longest <= 5;
+  return report;
+}
+
+}  // namespace rollgait::faults
