@@ -98,10 +98,11 @@ void Database::Alone(SqlConnection::Access access, Waiting& write) {
   write.failure.reset();
   try {
     connection = Take(access);
-    connection->Begin(access);
+    const bool single = access == SqlConnection::Access::kOne;
+    if (!single) connection->Begin(access);
     if (write.body(*connection)) {
       write.committing = access == SqlConnection::Access::kWrite;
-      connection->Commit();
+      if (!single) connection->Commit();
     } else {
       connection->Rollback();
     }

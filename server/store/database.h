@@ -40,6 +40,11 @@ class Database {
   auto Read(Body body) {
     return Run(SqlConnection::Access::kRead, body);
   }
+  // The same for a body of one query.
+  template <typename Body>
+  auto ReadOne(Body body) {
+    return Run(SqlConnection::Access::kOne, body);
+  }
   // EnsureSchema (schema.h) over one of the connections.
   Outcome<Done> PrepareSchema();
   const std::string& name() const { return options_.name; }

@@ -61,6 +61,7 @@ struct LeaseTime {
 class SqlConnection {
  public:
   enum class Access {
+    kOne,    // a single query that changes nothing: without a transaction around it
     kRead,   // one snapshot for several queries
     kWrite,  // SQLite: the writer's lock at once. PostgreSQL: READ COMMITTED, rows are locked by {for_update}
   };

@@ -74,12 +74,9 @@ SolveRow ReadSolve(const Query& query) {
   return row;
 }
 
-std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id, RowLock lock) {
+std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id) {
   if (!CouldBeId(id)) return std::nullopt;
-  Query query(connection,
-              lock == RowLock::kHeld ? "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ? {for_update}"
-                                     : "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ?",
-              id);
+  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ? {for_update}", id);
   if (!query.Step()) return std::nullopt;
   return ReadSolve(query);
 }

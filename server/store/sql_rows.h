@@ -28,6 +28,7 @@ struct SolveRow {
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
   "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, lease_boot_id, lease_end_ns, " \
   "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
+inline constexpr int kSolveColumns = 24;
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
@@ -35,11 +36,8 @@ bool CouldBeId(const std::string& text);
 // The row that a query over ROLLGAIT_SOLVE_COLUMNS stands on.
 SolveRow ReadSolve(const Query& query);
 
-enum class RowLock {
-  kNone,
-  kHeld,  // nobody else changes the row until the end of the transaction
-};
-std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id, RowLock lock);
+// Nobody else changes the row until the end of the transaction.
+std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id);
 
 // Writes everything that can change.
 void SaveSolve(SqlConnection& connection, const SolveRow& row);

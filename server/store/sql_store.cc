@@ -162,10 +162,16 @@ Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
 }
 
 Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<SolveRecord> {
-    std::optional<SolveRow> row = FindSolve(connection, id, RowLock::kNone);
-    if (!row.has_value()) return NoSuchSolve(id);
-    return FullRecord(connection, std::move(*row));
+  if (!CouldBeId(id)) return NoSuchSolve(id);
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveRecord> {
+    Query query(connection,
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                ", (SELECT payload FROM results WHERE results.id = solves.result_id) FROM solves WHERE id = ?",
+                id);
+    if (!query.Step()) return NoSuchSolve(id);
+    SolveRecord record = ReadSolve(query).record;
+    record.result = query.Bytes(kSolveColumns);
+    return record;
   });
 }
 
@@ -189,7 +195,7 @@ Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
     }
     before = *parsed;
   }
-  return database_->Read([&](SqlConnection& connection) -> Outcome<SolvePage> {
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolvePage> {
     Query rows = PageOf(connection, query, before);
     SolvePage page;
     int64_t last_number = 0;
@@ -210,7 +216,7 @@ Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
 
 Outcome<Done> SqlStore::Delete(const std::string& id, const Actor& actor) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
-    const std::optional<SolveRow> row = FindSolve(connection, id, RowLock::kHeld);
+    const std::optional<SolveRow> row = FindSolve(connection, id);
     if (!row.has_value()) return NoSuchSolve(id);
     if (!IsTerminal(row->record.state)) {
       return Error{ErrorCode::kFailedPrecondition, "solves/" + id + " has not finished; cancel it first"};
@@ -223,7 +229,7 @@ Outcome<Done> SqlStore::Delete(const std::string& id, const Actor& actor) {
 
 Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor& actor) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<SolveRecord> {
-    std::optional<SolveRow> row = FindSolve(connection, id, RowLock::kHeld);
+    std::optional<SolveRow> row = FindSolve(connection, id);
     if (!row.has_value()) return NoSuchSolve(id);
     const int64_t now_us = clock_.WallMicros();
     if (!IsTerminal(row->record.state) && !row->record.cancel_requested) {

@@ -10,7 +10,7 @@ namespace {
 
 // The solve of a lease that is still held.
 Outcome<SolveRow> FindLeased(SqlConnection& connection, const Lease& lease) {
-  std::optional<SolveRow> row = FindSolve(connection, lease.solve_id, RowLock::kHeld);
+  std::optional<SolveRow> row = FindSolve(connection, lease.solve_id);
   if (row.has_value() && row->record.state == SolveState::kRunning && row->owner == lease.owner &&
       row->epoch == lease.epoch) {
     return std::move(*row);
@@ -205,7 +205,7 @@ Outcome<SolveState> SqlStore::GiveBack(const Lease& lease, GiveBackReason reason
 }
 
 Outcome<std::vector<std::string>> SqlStore::CancelRequests(const std::string& owner) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
     std::vector<std::string> ids;
     Query query(connection, "SELECT id FROM solves WHERE state = 2 AND owner = ? AND cancel_requested = 1", owner);
     while (query.Step()) ids.push_back(query.Bytes(0));
@@ -214,7 +214,7 @@ Outcome<std::vector<std::string>> SqlStore::CancelRequests(const std::string& ow
 }
 
 Outcome<std::vector<LeaseOwner>> SqlStore::LeaseOwners() {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<std::vector<LeaseOwner>> {
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::vector<LeaseOwner>> {
     std::vector<LeaseOwner> owners;
     Query query(connection, "SELECT owner, COUNT(*) FROM solves WHERE state = 2 GROUP BY owner");
     while (query.Step()) owners.push_back({query.Bytes(0), static_cast<int>(query.Int(1))});

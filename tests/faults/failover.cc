@@ -7,20 +7,36 @@
 namespace rollgait::faults {
 namespace {
 
+// Takes a solve away that is none of the load's.
+void Remove(Stub& stub, const std::string& name) {
+  Await("the probe's solve to be deleted", [&] {
+    grpc::ClientContext to_cancel, to_delete;
+    v1::CancelSolveRequest cancel;
+    cancel.set_name(name);
+    v1::Solve solve;
+    v1::DeleteSolveRequest request;
+    request.set_name(name);
+    google::protobuf::Empty nothing;
+    return stub.CancelSolve(&to_cancel, cancel, &solve).ok() && stub.DeleteSolve(&to_delete, request, &nothing).ok();
+  });
+}
+
 // Seconds from the promotion until the server has stored a new solve.
 double SecondsToCreate(const std::string& address) {
   const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<Stub> stub = Connect(address);
+  v1::Solve solve;
   Await("a solve to be created", [&] {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(2));
     v1::CreateSolveRequest request;
     request.set_request_id("after-failover");
     request.mutable_spec()->mutable_model()->set_name("planar");
-    v1::Solve solve;
     return stub->CreateSolve(&context, request, &solve).ok();
   });
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Remove(*stub, solve.name());
+  return seconds;
 }
 
 struct Round {
