@@ -27,6 +27,7 @@
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
 #include "server/base/supervisor.h"
+#include "server/rpc/grpc_log.h"
 #include "server/rpc/rpc_server.h"
 #include "server/service/core_knowledge.h"
 #include "server/service/service_metrics.h"
@@ -295,6 +296,7 @@ int Main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
   StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});
+  LogWhatGrpcSays();
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
   if (!IsLoopback(flags.listen) && flags.access.tls.cert.empty() && !flags.insecure_listen) {
