@@ -75,10 +75,6 @@ void Target::Authorize(grpc::ClientContext& context) const {
 
 int64_t Target::ServerMemory() const { return daemon_ == nullptr ? 0 : ResidentBytes(daemon_->pid()); }
 
-std::string Target::Protection() const {
-  return std::string(tls_ ? "TLS" : "plain text") + (token_.empty() ? "" : ", token");
-}
-
 BusySlots::BusySlots(const Target& target, int slots) : target_(target), stub_(target.Connect()) {
   for (int i = 0; i < slots; ++i) {
     v1::CreateSolveRequest request;

@@ -45,8 +45,6 @@ class Target {
   // Resident memory of the server in bytes; 0 for a server that was not started here.
   int64_t ServerMemory() const;
   const std::string& address() const { return address_; }
-  // "TLS, token" or "plain text".
-  std::string Protection() const;
 
  private:
   std::string address_;

@@ -1,7 +1,9 @@
 // Processes that end at once: rollgaitd, its agent, a solver.
 #include <signal.h>
+#include <sys/syscall.h>
 
 #include <algorithm>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -15,6 +17,13 @@ using server::ChildrenOf;
 
 // Some time for the load to do something, different each time.
 void LetItWork(std::mt19937& random) { std::this_thread::sleep_for(std::chrono::milliseconds(100 + random() % 500)); }
+
+// True if a process waits in read: a solver that has no request yet.
+bool IsIdle(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/syscall");
+  long call = -1;
+  return file >> call && call == SYS_read;
+}
 
 FaultReport EndServer(const FaultOptions& options, bool politely) {
   FaultyServer server;
@@ -81,8 +90,9 @@ FaultReport KillSolver(const FaultOptions& options) {
     Await("a solver", [&] {
       std::vector<pid_t> solvers;
       for (const pid_t agent : AgentsOf(server.data_dir())) {
-        const std::vector<pid_t> children = ChildrenOf(agent);
-        solvers.insert(solvers.end(), children.begin(), children.end());
+        for (const pid_t child : ChildrenOf(agent)) {
+          if (!IsIdle(child)) solvers.push_back(child);
+        }
       }
       return !solvers.empty() && kill(solvers[random() % solvers.size()], SIGKILL) == 0;
     });
