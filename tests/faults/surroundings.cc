@@ -171,6 +171,7 @@ FaultReport FillDisk(const FaultOptions& options) {
   if (!report.skipped.empty()) return report;
   server::Daemon::Options daemon;
   daemon.data_dir = disk.path() + "/data";
+  daemon.flags = {"--reserve-mb", "2"};
   FaultyServer server(daemon);
   Load load({server.address()});
   Asker asker(server.address());
