@@ -68,12 +68,12 @@ check_postgres() {
   check "the server becomes healthy" until_true 60 healthy rollgaitd
   check "a token is made in its container, stored in PostgreSQL" prepare_clients "--store=$store_url"
   for slope in 1 2 3 4 5 6 7 8; do
-    names+=("$(client solve --model planar --slope $slope --speed 1.3 --detach | grep -o 'solves/[a-z0-9]*' | head -n 1)")
+    names+=("$(client solve --model planar --slope $slope --speed 1.3 --detach | grep -o 'solves/[a-z0-9]*' | head -n 1 || true)")
   done
   for name in "${names[@]}"; do client --json watch "$name" > /dev/null || true; done
   check "eight solves succeed" count_is SUCCEEDED 8
   check "both agents worked" both_worked
-  name=$(client solve "${long_solve[@]}" --detach | grep -o 'solves/[a-z0-9]*' | head -n 1)
+  name=$(client solve "${long_solve[@]}" --detach | grep -o 'solves/[a-z0-9]*' | head -n 1 || true)
   in_background moved client --json watch "$name" > "$work/out/moved.jsonl" 2> "$logs/watch-moved.log"
   check "a long solve runs: $name" until_true 120 iterations_seen moved.jsonl 5
   holder=$(holder_of_lease || true)

@@ -120,7 +120,7 @@ check_kill_and_reattach() {
   check "a server on a new volume starts" start_server rollgaitd fresh
   check "it becomes healthy" until_true 60 healthy rollgaitd
   check "a token is made in its container" prepare_clients
-  name=$(client solve "${long_solve[@]}" --detach | grep -o 'solves/[a-z0-9]*' | head -n 1)
+  name=$(client solve "${long_solve[@]}" --detach | grep -o 'solves/[a-z0-9]*' | head -n 1 || true)
   check "a long solve is running: $name" test -n "$name"
   in_background long client --json watch --reconnect 120 "$name" --output /out/interrupted.json \
     > "$work/out/interrupted.jsonl" 2> "$logs/watch.log"
