@@ -1,22 +1,31 @@
-# With ROLLGAIT_PRECOMPILE the headers of other projects are parsed once for all targets, which takes a third of the time
-# off the build with sanitizers. The Release build does without, so a missing include still fails there.
+# ROLLGAIT_PRECOMPILE: whose headers of other projects are parsed once for all targets. ALL takes a third of the time off the build with
+# sanitizers; TESTS leaves the libraries and programs of a Release build without, so a missing include still fails there.
 
-option(ROLLGAIT_PRECOMPILE "Precompile the headers of Eigen, GoogleTest and gRPC" OFF)
+set(ROLLGAIT_PRECOMPILE "" CACHE STRING "Precompile the headers of Eigen, GoogleTest and gRPC: empty, TESTS or ALL")
+set_property(CACHE ROLLGAIT_PRECOMPILE PROPERTY STRINGS "" TESTS ALL)
 
 if(ROLLGAIT_PRECOMPILE)
   # A precompiled header fits only where its macros are the same.
-  target_compile_definitions(rollgait_options INTERFACE GTEST_HAS_PTHREAD=1)
+  if(ROLLGAIT_PRECOMPILE STREQUAL "ALL")
+    target_compile_definitions(rollgait_options INTERFACE GTEST_HAS_PTHREAD=1)
+  endif()
   set(source "${CMAKE_BINARY_DIR}/precompiled.cc")
   file(CONFIGURE OUTPUT "${source}" CONTENT "")
-  foreach(part core wire)
+  set(parts core)
+  if(ROLLGAIT_PRECOMPILE STREQUAL "ALL")
+    list(APPEND parts wire)
+  endif()
+  foreach(part ${parts})
     add_library(rollgait_precompiled_${part} OBJECT "${source}")
     target_link_libraries(rollgait_precompiled_${part} PRIVATE rollgait_options Eigen3::Eigen GTest::gtest GTest::gmock)
     target_precompile_headers(rollgait_precompiled_${part} PRIVATE
       <Eigen/Dense> <functional> <memory> <optional> <random> <string> <variant> <vector> <gmock/gmock.h> <gtest/gtest.h>)
   endforeach()
-  target_link_libraries(rollgait_precompiled_wire PRIVATE rollgait::proto)
-  target_precompile_headers(rollgait_precompiled_wire PRIVATE
-    <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h>)
+  if(TARGET rollgait_precompiled_wire)
+    target_link_libraries(rollgait_precompiled_wire PRIVATE rollgait::proto)
+    target_precompile_headers(rollgait_precompiled_wire PRIVATE
+      <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h>)
+  endif()
 endif()
 
 # rollgait_precompile(TARGET): the target uses the precompiled headers of its part of the project.
@@ -25,8 +34,11 @@ function(rollgait_precompile TARGET)
     return()
   endif()
   file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  if(ROLLGAIT_PRECOMPILE STREQUAL "TESTS" AND NOT path MATCHES "^tests/")
+    return()
+  endif()
   set(part core)
-  if(path MATCHES "^(tests/)?(server/rpc|client|e2e)")
+  if(TARGET rollgait_precompiled_wire AND path MATCHES "^(tests/)?(server/rpc|client|e2e)")
     set(part wire)
   endif()
   target_precompile_headers(${TARGET} REUSE_FROM rollgait_precompiled_${part})
