@@ -144,7 +144,7 @@ grpc::Status FakeGaitService::WatchSolve(grpc::ServerContext* context, const v1:
     const auto broken = breaks_.find(event.sequence());
     if (broken != breaks_.end()) {
       breaks_.erase(broken);
-      return {grpc::StatusCode::UNAVAILABLE, "broken by the test"};
+      return {broken_++ % 2 == 0 ? grpc::StatusCode::UNAVAILABLE : grpc::StatusCode::CANCELLED, "broken by the test"};
     }
   }
   return grpc::Status::CANCELLED;

@@ -21,7 +21,8 @@ namespace rollgait::client {
 // model's name. Thread-safe.
 class FakeGaitService : public v1::GaitService::Service {
  public:
-  // Streams break with UNAVAILABLE after the event with this number, once for each entry.
+  // Streams break after the event with this number, once for each entry: with UNAVAILABLE, and every other time with CANCELLED,
+  // as gRPC ends what a stopping server has not taken up.
   void BreakAfter(std::multiset<int64_t> sequences);
   // Number of iterations of every solve made from now on; 5 if not called.
   void SetIterations(int iterations) { iterations_ = iterations; }
@@ -54,6 +55,7 @@ class FakeGaitService : public v1::GaitService::Service {
   int iterations_ = 5;
   std::map<std::string, Record> records_;
   std::multiset<int64_t> breaks_;
+  int broken_ = 0;
   std::vector<v1::CreateSolveRequest> created_;
   std::vector<v1::WatchSolveRequest> watched_;
   std::vector<std::string> cancelled_, deleted_;

@@ -13,10 +13,11 @@ std::chrono::system_clock::time_point Within(std::chrono::milliseconds time) {
   return std::chrono::system_clock::now() + time;
 }
 
-// The same call may succeed later.
+// The same call may succeed later. CANCELLED, which no call of this load asks for, is how gRPC ends those that a stopping server
+// has not taken up.
 bool TryAgain(grpc::StatusCode code) {
   return code == grpc::StatusCode::UNAVAILABLE || code == grpc::StatusCode::DEADLINE_EXCEEDED ||
-         code == grpc::StatusCode::RESOURCE_EXHAUSTED;
+         code == grpc::StatusCode::RESOURCE_EXHAUSTED || code == grpc::StatusCode::CANCELLED;
 }
 
 double TimeOf(const v1::SolveEvent& event) {
