@@ -1,4 +1,6 @@
 // Processes that work on one store, and one of them dies.
+#include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,15 +16,21 @@ namespace {
 
 constexpr size_t kSolves = 40;
 
-// A process that finishes solves and writes the number of each to a pipe once the store has acknowledged it.
+// What a process tells of a solve that the store has acknowledged: so long that its pipe holds no second one, and neither process runs
+// ahead of the test.
+struct Acknowledgement {
+  int number = -1;
+  char rest[PIPE_BUF - sizeof(int)] = {};
+};
+
 struct Worker {
   pid_t pid = 0;
   int acknowledged = -1;
 
   // The next number; -1: it has gone.
   int Next() const {
-    int number = -1;
-    return read(acknowledged, &number, sizeof number) == sizeof number ? number : -1;
+    Acknowledgement next;
+    return read(acknowledged, &next, sizeof next) == sizeof next ? next.number : -1;
   }
 };
 
@@ -31,16 +39,18 @@ struct Worker {
     const auto claimed = store.ClaimNext(owner, std::chrono::hours(1));
     if (!claimed.ok() || !claimed.value().has_value()) _exit(claimed.ok() ? 0 : 1);
     const Lease& lease = claimed.value()->lease;
-    const int number = std::stoi(lease.solve_id.substr(1));
+    Acknowledgement done;
+    done.number = std::stoi(lease.solve_id.substr(1));
     if (!store.AppendEvents(lease, {IterationEvent(0), IterationEvent(1)}).ok()) _exit(2);
     if (!store.Finish(lease, {IterationEvent(2)}, kAnswer).ok()) _exit(3);
-    if (write(out, &number, sizeof number) != sizeof number) _exit(4);
+    if (write(out, &done, sizeof done) != sizeof done) _exit(4);
   }
 }
 
 Worker Start(StoreBench& bench, const std::string& owner) {
   std::array<int, 2> ends;
   EXPECT_EQ(pipe(ends.data()), 0);
+  EXPECT_GE(fcntl(ends[1], F_SETPIPE_SZ, PIPE_BUF), PIPE_BUF);
   const pid_t pid = fork();
   if (pid == 0) {
     const std::unique_ptr<SolveStore> store = bench.OpenAgain();
@@ -56,7 +66,10 @@ TEST_P(SolveStoreConformance, KillOfAProcessLosesNothingItWasToldIsStored) {
   bench.Close();
   const Worker victim = Start(bench, "victim"), survivor = Start(bench, "survivor");
   std::multiset<int> acknowledged;
-  for (int i = 0; i < 3; ++i) acknowledged.insert(victim.Next());
+  for (int i = 0; i < 3; ++i) {
+    acknowledged.insert(victim.Next());
+    acknowledged.insert(survivor.Next());
+  }
   kill(victim.pid, SIGKILL);
   for (int number; (number = victim.Next()) >= 0;) acknowledged.insert(number);
   for (int number; (number = survivor.Next()) >= 0;) acknowledged.insert(number);
