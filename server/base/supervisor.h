@@ -25,7 +25,7 @@ class Supervisor {
     std::vector<std::string> arguments;  // [0] is the path of the program
     // Pause before a new start of a child that died: doubles from first to last, back to first after a life of
     // `stable`.
-    std::chrono::milliseconds first_pause{100}, last_pause{10'000}, stable{30'000};
+    std::chrono::milliseconds first_pause{100}, last_pause{4'000}, stable{30'000};
   };
 
   // Starts the child. kUnavailable with the reason if that fails.
