@@ -6,8 +6,8 @@
 namespace rollgait {
 
 // The inner loops of dense elimination. Matrices are column-major; `stride` is the distance between columns. All run with the
-// widest vectors that the processor has; fused multiply-add rounds differently, so the last bits of a result depend on whether it has
-// that, and on nothing else.
+// widest vectors that the processor has. The compiler fuses multiplications and additions where it finds that faster, so the last bits of
+// a result depend on the kind of processor.
 
 // y (n) −= Σ_k l_k w_k for `count` columns l_k and numbers w_k (`w_stride` apart). Columns whose number is zero are passed over.
 void SubtractProducts(const double* l, int l_stride, const double* w, int w_stride, int count, int n, double* y);

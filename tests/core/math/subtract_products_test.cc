@@ -89,29 +89,24 @@ TEST_P(SubtractProductsTest, Transposed) {
   EXPECT_LT((y - expected).cwiseAbs().sum(), 1e-13 * (1 + count));
 }
 
-// With fused multiply-add the width of the vectors changes no bit; without it only the last ones.
+// Every set that this processor has, not only the one that is called.
 TEST_P(SubtractProductsTest, InstructionSets) {
   const auto [n, columns, count] = GetParam();
   const int stride = n + kStrideExcess, w_stride = columns + kStrideExcess;
   const VectorX x = VectorX::Random(n);
   const VectorX dots = VectorX::Random(count);
-  std::vector<MatrixX> matrices, columnwise;
-  std::vector<VectorX> transposed;
   for (const ProductKernels* kernels : AvailableProductKernels()) {
-    kernels->matrix(l_.data(), stride, w_.data(), w_stride, count, n, columns, matrices.emplace_back(y_).data(), stride, 0);
-    ExpectRows(matrices.back(), expected_, n);
-    MatrixX& y = columnwise.emplace_back(y_);
+    MatrixX y = y_;
+    kernels->matrix(l_.data(), stride, w_.data(), w_stride, count, n, columns, y.data(), stride, 0);
+    ExpectRows(y, expected_, n);
+    y = y_;
     for (int j = 0; j < columns; ++j) {
       kernels->column(l_.data(), stride, nullptr, w_.data() + j, w_stride, count, n, y.col(j).data());
     }
     ExpectRows(y, expected_, n);
-    kernels->transposed(l_.data(), stride, count, n, x.data(), transposed.emplace_back(dots).data());
-    EXPECT_LT((transposed.back() - dots + l_.topRows(n).transpose() * x).cwiseAbs().sum(), 1e-13 * (1 + count));
-  }
-  for (size_t k = 2; k < matrices.size(); ++k) {
-    EXPECT_EQ(matrices[k], matrices[1]);
-    EXPECT_EQ(columnwise[k], columnwise[1]);
-    EXPECT_EQ(transposed[k], transposed[1]);
+    VectorX sums = dots;
+    kernels->transposed(l_.data(), stride, count, n, x.data(), sums.data());
+    EXPECT_LT((sums - dots + l_.topRows(n).transpose() * x).cwiseAbs().sum(), 1e-13 * (1 + count));
   }
 }
 
