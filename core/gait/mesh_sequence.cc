@@ -80,9 +80,9 @@ MeshStatistics Describe(const CollocationNlp& nlp, const NlpResult& result) {
   return statistics;
 }
 
-// The solution of one mesh, judged.
+// The solution of one mesh, judged; the judgement goes into its statistics too.
 void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, CollocationNlp& nlp, const NlpResult& result,
-           GaitSolution* solution) {
+           GaitSolution* solution, MeshStatistics* statistics) {
   const double* x = result.x.data();
   solution->objective = result.objective / nlp.objective_scale();
   solution->kkt_error = result.kkt_error;
@@ -97,6 +97,9 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
   solution->within_requested_accuracy = Converged(result.termination) && solution->accuracy->max_gap <= spec.max_gap &&
                                         solution->accuracy->max_slip <= spec.max_slip;
+  statistics->objective = solution->objective;
+  statistics->max_gap = solution->accuracy->max_gap;
+  statistics->max_slip = solution->accuracy->max_slip;
 }
 
 }  // namespace
@@ -173,17 +176,24 @@ bool Stalled(const std::vector<MeshStatistics>& meshes) {
   return meshes.size() > 1 && meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
 }
 
+// The program on one mesh, from a guess and the multipliers of its predecessor, if there is one.
+Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh, const MotionGuess& guess,
+                         const Predecessor& previous, const NlpOptions& options, SolveBudget* budget) {
+  Predecessor solved{std::make_unique<CollocationNlp>(problem, spec.scheme, mesh), {}};
+  NlpStart start{solved.nlp->MakeStart(guess), {}, {}, {}};
+  if (previous.nlp) solved.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
+  solved.result = budget->Run(*solved.nlp, start, options);
+  return solved;
+}
+
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess, NlpOptions options,
                        Predecessor previous, Mesh mesh, SolveBudget* budget) {
   GaitSolution solution;
 
   for (int level = 0; level <= spec.max_refinements; ++level) {
-    auto current = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
-    CollocationNlp& nlp = *current;
-    NlpStart start{nlp.MakeStart(guess), {}, {}, {}};
-    if (previous.nlp) nlp.TransferMultipliers(*previous.nlp, previous.result, &start);
-    const NlpResult result = budget->Run(nlp, start, options);
-
+    Predecessor current = SolveOneMesh(spec, problem, mesh, guess, previous, options, budget);
+    CollocationNlp& nlp = *current.nlp;
+    const NlpResult& result = current.result;
     MeshStatistics statistics = Describe(nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
     const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(spec, solution);
@@ -191,10 +201,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.termination = result.termination;
       solution.message = result.message;
       if (result.x.size() > 0 && result.x.allFinite()) {
-        Adopt(spec, problem, nlp, result, &solution);
-        statistics.objective = solution.objective;
-        statistics.max_gap = solution.accuracy->max_gap;
-        statistics.max_slip = solution.accuracy->max_slip;
+        Adopt(spec, problem, nlp, result, &solution, &statistics);
       }
     }
     solution.meshes.push_back(statistics);
@@ -212,7 +219,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     guess = GuessFromTrajectory(*solution.trajectory);
     mesh = RefineMesh(mesh, spec, *solution.trajectory, Stalled(solution.meshes));
     options = OptionsFor(spec, guess);
-    previous = {std::move(current), result};
+    previous = std::move(current);
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
@@ -242,19 +249,15 @@ Ascent Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, const 
   }
   Ascent ascent{guess, {}, {}};
   for (auto next = coarser.rbegin(); next != coarser.rend(); ++next) {
-    auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, *next);
-    NlpStart start{nlp->MakeStart(ascent.guess), {}, {}, {}};
-    if (ascent.previous.nlp) nlp->TransferMultipliers(*ascent.previous.nlp, ascent.previous.result, &start);
-    const NlpResult result = budget->Run(*nlp, start, OptionsFor(spec, ascent.guess));
+    Predecessor solved = SolveOneMesh(spec, problem, *next, ascent.guess, ascent.previous, OptionsFor(spec, ascent.guess), budget);
+    ascent.meshes.push_back(Describe(*solved.nlp, solved.result));
     GaitSolution solution;
-    if (Converged(result.termination)) Adopt(spec, problem, *nlp, result, &solution);
-    ascent.meshes.push_back(Describe(*nlp, result));
+    if (Converged(solved.result.termination)) {
+      Adopt(spec, problem, *solved.nlp, solved.result, &solution, &ascent.meshes.back());
+    }
     if (!solution.trajectory || SlipsBy(kLeadsAstray, spec, solution)) return {guess, {}, std::move(ascent.meshes)};
-    ascent.meshes.back().objective = solution.objective;
-    ascent.meshes.back().max_gap = solution.accuracy->max_gap;
-    ascent.meshes.back().max_slip = solution.accuracy->max_slip;
     ascent.guess = GuessFromTrajectory(*solution.trajectory);
-    ascent.previous = {std::move(nlp), result};
+    ascent.previous = std::move(solved);
   }
   return ascent;
 }

@@ -11,15 +11,10 @@
 #include <cstring>
 #include <string_view>
 
+#include "server/base/sanitized.h"
+
 namespace rollgait::server {
 namespace {
-
-// Sanitizers reserve terabytes of address space.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 constexpr int kNiceness = 10;
 

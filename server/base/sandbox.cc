@@ -12,14 +12,10 @@
 #include <cstring>
 #include <memory>
 
+#include "server/base/sanitized.h"
+
 namespace rollgait::server {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 constexpr int kAllowed[] = {
     // Held descriptors.

@@ -9,6 +9,8 @@
 
 #include <functional>
 
+#include "server/base/sanitized.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -42,9 +44,7 @@ TEST(ProcessLimits, ConfinedProcessesYieldTheProcessorAndNeverTakeNicenessBack) 
 }
 
 TEST(ProcessLimits, MemoryIsBounded) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need the address space";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers need the address space";
   EXPECT_TRUE(ExitedWith0(InChild([] {
     if (LimitMemory(int64_t{1} << 40)) return false;
     rlimit limit{};

@@ -17,15 +17,10 @@
 #include <vector>
 
 #include "server/base/process_limits.h"
+#include "server/base/sanitized.h"
 
 namespace rollgait::server {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 // The wait status of a child that does `probe` in the sandbox: exit code 0 if it holds, 1 if not, 2 without a sandbox.
 int InSandbox(const std::function<bool()>& probe) {

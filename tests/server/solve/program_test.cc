@@ -11,6 +11,7 @@
 
 #include "rollgait/v1/solve_spec.pb.h"
 #include "server/agent/solver_process.h"
+#include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
 
 namespace rollgait::server {
@@ -104,9 +105,7 @@ TEST(SolveProgram, SigtermEndsItWithACancelledResult) {
 }
 
 TEST(SolveProgram, TheMemoryLimitIsReported) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need the address space";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers need the address space";
   SolverProcess::Options options = Options();
   options.memory_limit_mb = 200;
   const Answer answer = Ask(options, Request(1000), [](SolverProcess&) {});

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "server/base/framing.h"
+#include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
 #include "tests/server/solve/scripted_solver.h"
 
@@ -170,9 +171,7 @@ TEST_F(WorkerTest, StopsWhenNobodyReads) {
 
 // In a child process, since the handler ends it: a `new` that a library would have caught.
 TEST_F(WorkerTest, AFailedNewAnywhereReportsTheMemoryLimit) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers end the process at a failed new";
-#endif
+  if (kSanitized) GTEST_SKIP() << "sanitizers end the process at a failed new";
   const pid_t pid = fork();
   if (pid == 0) {
     ReportMemoryLimitOn(child());
