@@ -16,6 +16,7 @@ using Kind = SqlFailure::Kind;
 
 constexpr int kConflicts = 30;  // in a row, before a call gives up
 constexpr int kLosses = 2;
+constexpr std::chrono::seconds kWaitForConnection(10);
 
 // Those that were in each other's way do not meet again at the same moment.
 void PauseAfterConflict(int conflicts) {
@@ -36,6 +37,10 @@ Error ToError(const SqlFailure& failure) {
     case Kind::kLost:
     case Kind::kUnavailable:
       return {ErrorCode::kUnavailable, std::string("the store cannot do this now: ") + failure.what()};
+    case Kind::kUnknown:
+      return {ErrorCode::kUnavailable,
+              std::string("the store was asked to commit and did not answer, so this has happened, happens yet or does not: ") +
+                  failure.what() + "; make the same call again, CreateSolve with its request_id"};
     case Kind::kInternal:
       break;
   }
@@ -47,9 +52,17 @@ Error ToError(const SqlFailure& failure) {
 std::unique_ptr<SqlConnection> Database::Take(SqlConnection::Access access) {
   const bool write = access == SqlConnection::Access::kWrite;
   Pool& pool = write ? writers_ : readers_;
+  const int most = write ? options_.writers : options_.readers;
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    returned_.wait(lock, [&] { return !pool.idle.empty() || pool.open < (write ? options_.writers : options_.readers); });
+    std::erase_if(pool.overdue, [](const auto& connection) { return !connection->AnswerDue(); });
+    // As many again as may be in use: enough for those of a host that is gone.
+    if (static_cast<int>(pool.overdue.size()) >= 2 * most) {
+      throw SqlFailure(Kind::kUnavailable, std::to_string(pool.overdue.size()) + " earlier calls are still waiting for the database");
+    }
+    if (!returned_.wait_for(lock, kWaitForConnection, [&] { return !pool.idle.empty() || pool.open < most; })) {
+      throw SqlFailure(Kind::kUnavailable, "all " + std::to_string(most) + " connections were busy for too long");
+    }
     if (!pool.idle.empty()) {
       std::unique_ptr<SqlConnection> connection = std::move(pool.idle.back());
       pool.idle.pop_back();
@@ -66,6 +79,7 @@ std::unique_ptr<SqlConnection> Database::Take(SqlConnection::Access access) {
 }
 
 void Database::Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection) {
+  const bool due = connection != nullptr && connection->AnswerDue();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     Pool& pool = access == SqlConnection::Access::kWrite ? writers_ : readers_;
@@ -73,6 +87,7 @@ void Database::Return(SqlConnection::Access access, std::unique_ptr<SqlConnectio
       pool.idle.push_back(std::move(connection));
     } else {
       --pool.open;
+      if (due) pool.overdue.push_back(std::move(connection));
     }
   }
   returned_.notify_all();
@@ -94,14 +109,12 @@ void Database::DropIdle() {
 
 void Database::Alone(SqlConnection::Access access, Waiting& write) {
   std::unique_ptr<SqlConnection> connection;
-  write.committing = false;
   write.failure.reset();
   try {
     connection = Take(access);
     const bool single = access == SqlConnection::Access::kOne;
     if (!single) connection->Begin(access);
     if (write.body(*connection)) {
-      write.committing = access == SqlConnection::Access::kWrite;
       if (!single) connection->Commit();
     } else {
       connection->Rollback();
@@ -117,8 +130,9 @@ void Database::Alone(SqlConnection::Access access, Waiting& write) {
     throw;
   }
   if (connection == nullptr) return;
+  const bool lost = connection->lost();
   Return(access, std::move(connection));
-  if (write.failure.has_value() && write.failure->kind() == Kind::kLost) DropIdle();
+  if (lost) DropIdle();
 }
 
 // All in one transaction, each undone by itself if it does not want to commit. False: something failed, nothing was
@@ -131,9 +145,9 @@ bool Database::TryTogether(const std::vector<Waiting*>& group) {
     connection = Take(kWrite);
     connection->Begin(kWrite);
     for (const Waiting* write : group) {
-      Query(*connection, "SAVEPOINT one").Run();
-      if (!write->body(*connection)) Query(*connection, "ROLLBACK TO one").Run();
-      Query(*connection, "RELEASE one").Run();
+      Query::Do(*connection, "SAVEPOINT one");
+      if (!write->body(*connection)) Query::Do(*connection, "ROLLBACK TO one");
+      Query::Do(*connection, "RELEASE one");
     }
     connection->Commit();
     committed = true;
@@ -189,7 +203,7 @@ std::optional<Error> Database::Transact(SqlConnection::Access access, const Body
     }
     if (!write.failure.has_value()) return std::nullopt;
     const SqlFailure& failure = *write.failure;
-    if (failure.kind() == Kind::kLost && !write.committing && ++losses <= kLosses) continue;
+    if (failure.kind() == Kind::kLost && ++losses <= kLosses) continue;
     if (failure.kind() != Kind::kConflict || ++conflicts > kConflicts) return ToError(failure);
     PauseAfterConflict(conflicts);
   }

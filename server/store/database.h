@@ -30,7 +30,8 @@ class Database {
 
   // Runs `body(SqlConnection&)`, which returns an Outcome, in a transaction; commits if the outcome is good. The body
   // may run more than once: again after a conflict with another transaction and, if the connection was lost before the
-  // commit was asked for, over a new one. kUnavailable also when it is not known whether the commit has happened.
+  // commit was asked for, over a new one. kUnavailable also when it is not known whether the commit has happened, and when
+  // no connection was free in time.
   template <typename Body>
   auto Write(Body body) {
     return Run(SqlConnection::Access::kWrite, body);
@@ -54,11 +55,13 @@ class Database {
   struct Waiting {
     const Body& body;
     std::optional<SqlFailure> failure = std::nullopt;
-    bool committing = false, done = false;
+    bool done = false;
   };
   struct Pool {
     std::vector<std::unique_ptr<SqlConnection>> idle;
-    int open = 0;
+    int open = 0;  // idle or in use
+    // Not in use any more, but the database works on an answer for them: kept, so that they are counted.
+    std::vector<std::unique_ptr<SqlConnection>> overdue = {};
   };
 
   template <typename Body>
@@ -73,11 +76,12 @@ class Database {
   }
 
   std::optional<Error> Transact(SqlConnection::Access access, const Body& body);
-  // One attempt; sets failure and whether that was in the commit.
+  // One attempt; sets failure.
   void Alone(SqlConnection::Access access, Waiting& write);
   void InGroup(Waiting& write);
   void RunGroup(const std::vector<Waiting*>& group);
   bool TryTogether(const std::vector<Waiting*>& group);
+  // Throws.
   std::unique_ptr<SqlConnection> Take(SqlConnection::Access access);
   void Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection);
   void DropIdle();

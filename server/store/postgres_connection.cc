@@ -1,10 +1,9 @@
 #include "server/store/postgres_connection.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <vector>
+#include <utility>
 
 #include "core/base/check.h"
 #include "server/store/sql_dialect.h"
@@ -15,31 +14,25 @@ namespace {
 // Types of parameters, from the server's pg_type.
 constexpr Oid kBytea = 17, kInt8 = 20, kText = 25, kFloat8 = 701;
 
+constexpr std::chrono::hours kNoLimit(24);
+
+constexpr char kBeginWrite[] = "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE";
+constexpr char kBeginRead[] = "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY";
+constexpr char kCommit[] = "COMMIT";
+constexpr char kRollback[] = "ROLLBACK";
+
 // One schema change at a time in a database.
 constexpr char kLockSchema[] = "SELECT pg_advisory_xact_lock(7310279081)";
 
-// Settings of every session. Whoever stops in the middle of a transaction does not hold its locks for long.
+// Other locks, one a name and schema.
+#define ROLLGAIT_LOCK_KEY "(hashtextextended(current_schema() || ' ' || ?, 7310279081))"
+
+// Settings of every session. Whoever stops in the middle of a transaction does not hold its locks for long, and no
+// statement works on for somebody who has given up.
 constexpr char kSettings[] =
     "SELECT set_config('synchronous_commit', 'on', false) WHERE current_setting('synchronous_commit') IN ('off', 'local');"
-    "SET lock_timeout = '10s'; SET idle_in_transaction_session_timeout = '15s';";
-
-SqlFailure::Kind KindOf(const std::string& state) {
-  for (const char* conflict : {"40001", "40P01", "23505", "23503"}) {
-    if (state == conflict) return SqlFailure::Kind::kConflict;
-  }
-  if (state == "53100") return SqlFailure::Kind::kFull;
-  // Gone, shut down, not a primary any more, or with plans of an older schema: a new connection is what helps.
-  const std::string group = state.substr(0, 2);
-  if (group == "08" || state == "25006" || state == "25P03" || state == "0A000") return SqlFailure::Kind::kLost;
-  if (state.rfind("57P", 0) == 0) return SqlFailure::Kind::kLost;
-  if (group == "53" || group == "57" || group == "58" || state == "55P03") return SqlFailure::Kind::kUnavailable;
-  return SqlFailure::Kind::kInternal;
-}
-
-std::string FirstLine(const char* text) {
-  const std::string all = text == nullptr ? "" : text;
-  return all.substr(0, all.find('\n'));
-}
+    "SET lock_timeout = '10s'; SET statement_timeout = '25s'; SET idle_in_transaction_session_timeout = '15s';"
+    "SELECT current_setting('max_connections')";
 
 // `?` becomes $1, $2, ...; our SQL has no question marks in strings.
 std::string Numbered(const std::string& sql) {
@@ -67,81 +60,75 @@ uint64_t FromBigEndian(const char* bytes, int size) {
   return value;
 }
 
+// An open connection; throws.
+PGconn* Connected(const std::string& url) {
+  PGconn* handle = ConnectPostgres(url, "rollgait");
+  if (PQstatus(handle) == CONNECTION_OK) return handle;
+  const std::string message = PQerrorMessage(handle);
+  PQfinish(handle);
+  throw SqlFailure(SqlFailure::Kind::kUnavailable, message.substr(0, message.find('\n')));
+}
+
+}  // namespace
+
 class PostgresStatement : public SqlStatement {
  public:
-  PostgresStatement(PostgresConnection& connection, PGconn* handle, const char* sql, std::string name)
-      : connection_(connection), handle_(handle), sql_(sql), name_(std::move(name)) {}
-  ~PostgresStatement() override { PQclear(result_); }
+  PostgresStatement(PostgresConnection& connection, PostgresPrepared& prepared)
+      : connection_(connection), prepared_(prepared) {}
 
   void Bind(int index, int64_t value) override { Put(index, kInt8, BigEndian(static_cast<uint64_t>(value))); }
   void Bind(int index, double value) override { Put(index, kFloat8, BigEndian(std::bit_cast<uint64_t>(value))); }
   void Bind(int index, const std::string& text) override { Put(index, kText, text); }
   void Bind(int index, const Blob& blob) override { Put(index, kBytea, blob.bytes); }
 
+  void Ask() override { run_ = connection_.Send(prepared_, values_); }
+  void Defer() override {
+    connection_.Send(prepared_, values_);
+    Reset();
+  }
   bool Step() override {
-    if (result_ == nullptr) Execute();
-    return ++row_ < PQntuples(result_);
+    if (result() == nullptr) connection_.Settle();
+    ROLLGAIT_CHECK(result() != nullptr);
+    return ++row_ < PQntuples(result());
   }
   int64_t Int(int column) const override {
-    const int size = PQgetlength(result_, row_, column);
-    const uint64_t value = FromBigEndian(PQgetvalue(result_, row_, column), size);
+    const int size = PQgetlength(result(), row_, column);
+    const uint64_t value = FromBigEndian(PQgetvalue(result(), row_, column), size);
     return size == 4 ? static_cast<int32_t>(value) : static_cast<int64_t>(value);
   }
   double Double(int column) const override {
-    return std::bit_cast<double>(FromBigEndian(PQgetvalue(result_, row_, column), PQgetlength(result_, row_, column)));
+    return std::bit_cast<double>(FromBigEndian(PQgetvalue(result(), row_, column), PQgetlength(result(), row_, column)));
   }
   std::string Bytes(int column) const override {
-    return std::string(PQgetvalue(result_, row_, column), static_cast<size_t>(PQgetlength(result_, row_, column)));
+    return std::string(PQgetvalue(result(), row_, column), static_cast<size_t>(PQgetlength(result(), row_, column)));
   }
-  int changes() const override { return std::atoi(PQcmdTuples(result_)); }
+  int changes() const override { return std::atoi(PQcmdTuples(result())); }
   void Reset() noexcept override {
-    PQclear(result_);
-    result_ = nullptr;
+    run_.reset();
     row_ = -1;
-    values_.clear();
+    values_.types.clear();
+    values_.bytes.clear();
+    in_use_ = false;
   }
+  bool in_use() const { return in_use_; }
+  void MarkInUse() { in_use_ = true; }
 
  private:
-  void Put(int index, Oid type, std::string bytes) {
-    ROLLGAIT_CHECK(index == static_cast<int>(values_.size()) + 1);
-    values_.push_back(std::move(bytes));
-    if (!prepared_) types_.push_back(type);
-  }
+  PGresult* result() const { return run_->result.get(); }
 
-  void Execute() {
-    const int count = static_cast<int>(values_.size());
-    if (!prepared_) {
-      const std::string text = Numbered(Translate(sql_, kPostgresDialect));
-      PGresult* made = PQprepare(handle_, name_.c_str(), text.c_str(), count, types_.data());
-      connection_.Check(made, sql_);
-      PQclear(made);
-      prepared_ = true;
-    }
-    std::vector<const char*> values;
-    std::vector<int> lengths, formats(values_.size(), 1);
-    for (const std::string& value : values_) {
-      values.push_back(value.data());
-      lengths.push_back(static_cast<int>(value.size()));
-    }
-    PGresult* result =
-        PQexecPrepared(handle_, name_.c_str(), count, values.data(), lengths.data(), formats.data(), 1);
-    connection_.Check(result, sql_);
-    result_ = result;
-    row_ = -1;
+  void Put(int index, Oid type, std::string bytes) {
+    ROLLGAIT_CHECK(index == static_cast<int>(values_.bytes.size()) + 1);
+    values_.types.push_back(type);
+    values_.bytes.push_back(std::move(bytes));
   }
 
   PostgresConnection& connection_;
-  PGconn* const handle_;
-  const char* const sql_;
-  const std::string name_;
-  bool prepared_ = false;
-  std::vector<Oid> types_;
-  std::vector<std::string> values_;
-  PGresult* result_ = nullptr;
+  PostgresPrepared& prepared_;
+  PostgresValues values_;
+  std::shared_ptr<PostgresRun> run_;
   int row_ = -1;
+  bool in_use_ = false;
 };
-
-}  // namespace
 
 PGconn* ConnectPostgres(const std::string& url, const char* application_name) {
   // What stands before dbname is overridden by the URL.
@@ -156,80 +143,85 @@ PGconn* ConnectPostgres(const std::string& url, const char* application_name) {
   return handle;
 }
 
-PostgresConnection::PostgresConnection(const std::string& url) : handle_(ConnectPostgres(url, "rollgait")) {
-  if (PQstatus(handle_) != CONNECTION_OK) {
-    const SqlFailure failure(SqlFailure::Kind::kUnavailable, FirstLine(PQerrorMessage(handle_)));
-    PQfinish(handle_);
-    throw failure;
-  }
-  try {
-    Run(kSettings);
-  } catch (...) {
-    PQfinish(handle_);
-    throw;
-  }
+PostgresConnection::PostgresConnection(const std::string& url, const Limits& limits)
+    : limits_(limits), handle_(Connected(url)), pipeline_(handle_.get()) {
+  most_writers_ = std::stoi(pipeline_.RunText(kSettings, limits.answer));
 }
 
-PostgresConnection::~PostgresConnection() {
-  statements_.clear();
-  PQfinish(handle_);
-}
+PostgresConnection::~PostgresConnection() = default;
 
-void PostgresConnection::Check(PGresult* result, const char* sql) {
-  const ExecStatusType status = PQresultStatus(result);
-  if (status == PGRES_COMMAND_OK || status == PGRES_TUPLES_OK) return;
-  const char* state = result == nullptr ? nullptr : PQresultErrorField(result, PG_DIAG_SQLSTATE);
-  std::string message = FirstLine(result == nullptr ? PQerrorMessage(handle_) : PQresultErrorMessage(result));
-  SqlFailure::Kind kind = state == nullptr ? SqlFailure::Kind::kLost : KindOf(state);
-  if (PQstatus(handle_) == CONNECTION_BAD) kind = SqlFailure::Kind::kLost;
-  if (kind == SqlFailure::Kind::kLost) lost_ = true;
-  if (kind == SqlFailure::Kind::kInternal) message += std::string(" in: ") + sql;
-  PQclear(result);
-  throw SqlFailure(kind, message);
+PostgresPrepared& PostgresConnection::PreparedText(const char* sql) {
+  const auto [place, is_new] = prepared_.try_emplace(sql);
+  if (is_new) place->second = {sql, "s" + std::to_string(prepared_.size()), Numbered(Translate(sql, kPostgresDialect))};
+  return place->second;
 }
 
 SqlStatement& PostgresConnection::Prepared(const char* sql) {
-  std::unique_ptr<SqlStatement>& statement = statements_[sql];
-  if (statement == nullptr) {
-    statement = std::make_unique<PostgresStatement>(*this, handle_, sql, "s" + std::to_string(statements_.size()));
-  }
-  return *statement;
+  return statements_.Take(sql, [&] { return std::make_unique<PostgresStatement>(*this, PreparedText(sql)); });
 }
 
-void PostgresConnection::Run(const char* sql) {
-  PGresult* result = PQexec(handle_, sql);
-  Check(result, sql);
-  PQclear(result);
+void PostgresConnection::BeginIfAsked() {
+  if (transaction_ != Transaction::kAsked) return;
+  transaction_ = Transaction::kOpen;
+  pipeline_.Add(PreparedText(access_ == Access::kWrite ? kBeginWrite : kBeginRead), {});
 }
 
-void PostgresConnection::Execute(const std::string& sql) { Run(Translate(sql, kPostgresDialect).c_str()); }
+std::shared_ptr<PostgresRun> PostgresConnection::Send(PostgresPrepared& statement, const PostgresValues& values) {
+  BeginIfAsked();
+  return pipeline_.Add(statement, values);
+}
+
+void PostgresConnection::Execute(const std::string& sql) {
+  BeginIfAsked();
+  pipeline_.RunText(Translate(sql, kPostgresDialect), kNoLimit);
+}
 
 void PostgresConnection::Begin(Access access) {
-  Run(access == Access::kWrite ? "BEGIN ISOLATION LEVEL READ COMMITTED READ WRITE"
-                               : "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY");
+  ROLLGAIT_CHECK(transaction_ == Transaction::kNone);
+  access_ = access;
+  transaction_ = Transaction::kAsked;
 }
 
 void PostgresConnection::Commit() {
-  PGresult* result = PQexec(handle_, "COMMIT");
-  Check(result, "COMMIT");
-  const bool committed = std::strcmp(PQcmdStatus(result), "COMMIT") == 0;  // else it was rolled back, without an error
-  PQclear(result);
+  // One that only read has nothing to wait for.
+  if (transaction_ != Transaction::kOpen || access_ != Access::kWrite) return Rollback();
+  const std::shared_ptr<PostgresRun> run = pipeline_.Add(PreparedText(kCommit), {});
+  try {
+    pipeline_.Settle(limits_.commit);
+  } catch (const SqlFailure& failure) {
+    if (lost()) throw SqlFailure(SqlFailure::Kind::kUnknown, failure.what());
+    throw;
+  }
+  transaction_ = Transaction::kNone;
+  const bool committed = std::strcmp(PQcmdStatus(run->result.get()), kCommit) == 0;  // else it was rolled back, without an error
   if (!committed) throw SqlFailure(SqlFailure::Kind::kConflict, "the transaction was rolled back");
 }
 
 void PostgresConnection::Rollback() noexcept {
-  if (PQtransactionStatus(handle_) != PQTRANS_IDLE) PQclear(PQexec(handle_, "ROLLBACK"));
+  const bool open = transaction_ == Transaction::kOpen && !lost();
+  transaction_ = Transaction::kNone;
+  if (!open) return;
+  pipeline_.Push();
+  try {
+    pipeline_.Add(PreparedText(kRollback), {});
+  } catch (const SqlFailure&) {
+    return;  // lost, and the transaction with it
+  }
+  pipeline_.Push();
 }
 
-LeaseTime PostgresConnection::Now() {
-  Query query(*this, "SELECT CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000000000 AS BIGINT)");
-  ROLLGAIT_CHECK(query.Step());
-  return {"database", query.Int(0)};
+void PostgresConnection::Lock(const std::string& name, LockMode mode) {
+  if (mode == LockMode::kShared) {
+    Query::Do(*this, "SELECT pg_advisory_xact_lock_shared" ROLLGAIT_LOCK_KEY, name);
+  } else {
+    Query::Do(*this, "SELECT pg_advisory_xact_lock" ROLLGAIT_LOCK_KEY, name);
+  }
 }
 
 void PostgresConnection::BeginSchemaChange() {
   Begin(Access::kWrite);
-  Run(kLockSchema);
+  Execute("SET LOCAL statement_timeout = 0");  // a migration takes as long as it takes
+  Query(*this, kLockSchema).Run();
 }
 
 bool PostgresConnection::HasSchema() {

@@ -8,6 +8,11 @@ const SqlDialect kPostgresDialect = {
     .clustered = "",
     .for_update = "FOR UPDATE",
     .skip_locked = "FOR UPDATE SKIP LOCKED",
+    .boot_id = "'database'",
+    .now_ns = "CAST(EXTRACT(EPOCH FROM clock_timestamp()) * 1000000000 AS BIGINT)",
+    .next_solve = "nextval(pg_get_serial_sequence('solves', 'number'))",
+    .next_result = "nextval(pg_get_serial_sequence('results', 'id'))",
+    .given_key = "OVERRIDING SYSTEM VALUE",
 };
 
 }  // namespace rollgait::server

@@ -11,6 +11,11 @@ const char* WordOf(std::string_view name, const SqlDialect& dialect) {
   if (name == "clustered") return dialect.clustered;
   if (name == "for_update") return dialect.for_update;
   if (name == "skip_locked") return dialect.skip_locked;
+  if (name == "boot_id") return dialect.boot_id;
+  if (name == "now_ns") return dialect.now_ns;
+  if (name == "next_solve") return dialect.next_solve;
+  if (name == "next_result") return dialect.next_result;
+  if (name == "given_key") return dialect.given_key;
   return nullptr;
 }
 

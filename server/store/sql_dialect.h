@@ -14,6 +14,13 @@ struct SqlDialect {
   const char* clustered;    // {clustered}: a table kept in the order of its key
   const char* for_update;   // {for_update}: locks the rows read
   const char* skip_locked;  // {skip_locked}: passes over rows that another transaction has locked
+  // The clock that leases expire by: a time in ns that never jumps while the boot id stays the same, in every process.
+  const char* boot_id;  // {boot_id}
+  const char* now_ns;   // {now_ns}
+  // A key that is known before its row is inserted, so that rows which refer to it need not wait for it.
+  const char* next_solve;   // {next_solve}: a number for solves
+  const char* next_result;  // {next_result}: an id for results
+  const char* given_key;    // {given_key}: inserts such a key
 };
 
 extern const SqlDialect kSqliteDialect;

@@ -15,12 +15,6 @@ v1::SolveEvent EventAt(int64_t now_us) {
   return event;
 }
 
-void DropLease(SolveRow& row) {
-  row.owner.clear();
-  row.lease_boot_id.clear();
-  row.lease_end_ns = 0;
-}
-
 const char* NameOf(SolveState state) {
   switch (state) {
     case SolveState::kQueued:
@@ -64,13 +58,11 @@ SolveRow ReadSolve(const Query& query) {
   record.error = query.Bytes(14);
   row.owner = query.Bytes(15);
   row.epoch = query.Int(16);
-  row.lease_boot_id = query.Bytes(17);
-  row.lease_end_ns = query.Int(18);
-  record.tenant = query.Bytes(19);
-  record.solver_fingerprint = query.Bytes(20);
-  record.traceparent = query.Bytes(21);
-  record.trimmed_sequence = query.Int(22);
-  row.bytes = query.Int(23);
+  record.tenant = query.Bytes(17);
+  record.solver_fingerprint = query.Bytes(18);
+  record.traceparent = query.Bytes(19);
+  record.trimmed_sequence = query.Int(20);
+  row.bytes = query.Int(21);
   return row;
 }
 
@@ -83,31 +75,42 @@ std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& 
 
 void SaveSolve(SqlConnection& connection, const SolveRow& row) {
   const SolveRecord& record = row.record;
-  Query(connection,
-        "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
-        "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
-        "owner = NULLIF(?, ''), epoch = ?, lease_boot_id = ?, lease_end_ns = ?, bytes = ? WHERE number = ?",
-        static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
-        record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error}, row.owner,
-        row.epoch, row.lease_boot_id, row.lease_end_ns, row.bytes, row.number)
-      .Run();
+  Query::Do(connection,
+            "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
+            "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
+            "owner = NULLIF(?, ''), epoch = ?, bytes = ? WHERE number = ?",
+            static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
+            record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error}, row.owner,
+            row.epoch, row.bytes, row.number);
+}
+
+void CountEvent(SolveRow& row, const std::string& payload) {
+  row.bytes += static_cast<int64_t>(payload.size());
+  ++row.record.last_sequence;
+}
+
+void InsertEvent(SqlConnection& connection, int64_t solve, const StoredEvent& event) {
+  Query::Do(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", solve, event.sequence,
+            static_cast<int>(event.kind), Blob{event.payload});
 }
 
 void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
-  row.bytes += static_cast<int64_t>(payload.size());
-  Query(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", row.number,
-        ++row.record.last_sequence, static_cast<int>(kind), Blob{payload})
-      .Run();
+  CountEvent(row, payload);
+  InsertEvent(connection, row.number, {row.record.last_sequence, kind, payload});
+}
+
+std::string StateChangeEvent(const SolveRow& row, const std::string& detail, int64_t now_us) {
+  v1::SolveEvent event = EventAt(now_us);
+  event.mutable_state_change()->set_state(static_cast<v1::SolveState>(row.record.state));
+  event.mutable_state_change()->set_attempt(row.record.attempts);
+  event.mutable_state_change()->set_detail(detail);
+  return event.SerializeAsString();
 }
 
 void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
                  int64_t now_us) {
   row.record.state = state;
-  v1::SolveEvent event = EventAt(now_us);
-  event.mutable_state_change()->set_state(static_cast<v1::SolveState>(state));
-  event.mutable_state_change()->set_attempt(row.record.attempts);
-  event.mutable_state_change()->set_detail(detail);
-  AppendEvent(connection, row, EventKind::kStateChange, event.SerializeAsString());
+  AppendEvent(connection, row, EventKind::kStateChange, StateChangeEvent(row, detail, now_us));
 }
 
 void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
@@ -117,8 +120,8 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_
   row.record.error = error;
   row.bytes += static_cast<int64_t>(error.size());
   row.result_id = result_id;
-  DropLease(row);
-  Query(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number).Run();
+  row.owner.clear();
+  Query::Do(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number);
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
   SaveSolve(connection, row);
   const std::string detail = row.record.from_cache ? "from cache" : "attempts " + std::to_string(row.record.attempts);
@@ -130,31 +133,23 @@ void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& d
     EndSolve(connection, row, SolveState::kCancelled, 0, CancelledError(), now_us);
     return;
   }
-  DropLease(row);
+  row.owner.clear();
   ChangeState(connection, row, SolveState::kQueued, detail, now_us);
   SaveSolve(connection, row);
 }
 
 void RemoveSolve(SqlConnection& connection, const SolveRow& row) {
-  Query(connection, "DELETE FROM solves WHERE number = ?", row.number).Run();
-  Query(connection, "DELETE FROM results WHERE id = ? AND NOT EXISTS (SELECT 1 FROM solves WHERE result_id = ?)",
-        row.result_id, row.result_id)
-      .Run();
-}
-
-int64_t FindReusableResult(SqlConnection& connection, const std::string& solve_key) {
-  if (solve_key.empty()) return 0;
-  Query query(connection, "SELECT id FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1", solve_key);
-  return query.Step() ? query.Int(0) : 0;
+  Query::Do(connection, "DELETE FROM solves WHERE number = ?", row.number);
+  Query::Do(connection, "DELETE FROM results WHERE id = ? AND NOT EXISTS (SELECT 1 FROM solves WHERE result_id = ?)",
+            row.result_id, row.result_id);
 }
 
 void AddAudit(SqlConnection& connection, const AuditEntry& entry, int64_t now_us) {
-  Query(connection,
-        "INSERT INTO audit (time_us, tenant, token_id, peer, action, solve, outcome, detail) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-        now_us, entry.actor.tenant, entry.actor.token_id, entry.actor.peer, entry.action, entry.solve, entry.outcome,
-        entry.detail)
-      .Run();
+  Query::Do(connection,
+            "INSERT INTO audit (time_us, tenant, token_id, peer, action, solve, outcome, detail) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+            now_us, entry.actor.tenant, entry.actor.token_id, entry.actor.peer, entry.action, entry.solve, entry.outcome,
+            entry.detail);
 }
 
 std::string CancelledError() {

@@ -10,15 +10,13 @@
 
 namespace rollgait::server {
 
-// A row of `solves`. Read, changed and written back (SaveSolve) within one transaction. The record's `result` is not
-// part of it.
+// A row of `solves` but for when its lease ends, which means something while it runs only. Read, changed and written back
+// (SaveSolve) within one transaction. The record's `result` is not part of it.
 struct SolveRow {
   int64_t number = 0;
   int64_t result_id = 0;  // 0: none
   std::string owner;      // empty: none
   int64_t epoch = 0;
-  std::string lease_boot_id;
-  int64_t lease_end_ns = 0;
   int64_t bytes = 0;  // spec, events, error, and a result of its own
   SolveRecord record;
 };
@@ -26,9 +24,9 @@ struct SolveRow {
 // Columns of `solves` in the order that ReadSolve takes them.
 #define ROLLGAIT_SOLVE_COLUMNS                                                                          \
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
-  "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, lease_boot_id, lease_end_ns, " \
+  "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, " \
   "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
-inline constexpr int kSolveColumns = 24;
+inline constexpr int kSolveColumns = 22;
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
@@ -39,11 +37,17 @@ SolveRow ReadSolve(const Query& query);
 // Nobody else changes the row until the end of the transaction.
 std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id);
 
-// Writes everything that can change.
+// Writes everything that can change. Nothing here that writes waits for the answer (Query::Do).
 void SaveSolve(SqlConnection& connection, const SolveRow& row);
 
-// Appends an event and counts row.record.last_sequence up; the row is to be saved afterwards.
+// Counts an event with this payload, which has row.record.last_sequence from then on; the row is to be saved afterwards.
+void CountEvent(SolveRow& row, const std::string& payload);
+void InsertEvent(SqlConnection& connection, int64_t solve, const StoredEvent& event);
+// Both.
 void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const std::string& payload);
+
+// The payload of the event that tells of the row's state.
+std::string StateChangeEvent(const SolveRow& row, const std::string& detail, int64_t now_us);
 
 // Sets the state and appends its event.
 void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
@@ -58,9 +62,6 @@ void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& d
 
 // Removes the solve, its events, and its result unless another solve shares it.
 void RemoveSolve(SqlConnection& connection, const SolveRow& row);
-
-// A reusable result of this key; 0: none. An empty key has none.
-int64_t FindReusableResult(SqlConnection& connection, const std::string& solve_key);
 
 // The v1::SolveError of a cancelled solve.
 std::string CancelledError();

@@ -23,76 +23,18 @@ SolveRecord FullRecord(SqlConnection& connection, SolveRow row) {
   return std::move(row.record);
 }
 
-// Solves in a state, of one tenant if one is given.
-int CountState(SqlConnection& connection, SolveState state, const std::string* tenant) {
-  if (tenant == nullptr) {
-    Query query(connection, "SELECT COUNT(*) FROM solves WHERE state = ?", static_cast<int>(state));
-    return query.Step() ? static_cast<int>(query.Int(0)) : 0;
+// How many are queued and run, and when the oldest that is queued was created.
+Query CountsOf(SqlConnection& connection, const std::optional<std::string>& tenant) {
+  if (!tenant.has_value()) {
+    return Query(connection,
+                 "SELECT (SELECT COUNT(*) FROM solves WHERE state = 1), (SELECT COUNT(*) FROM solves WHERE state = 2), "
+                 "(SELECT create_time_us FROM solves WHERE state = 1 ORDER BY number LIMIT 1)");
   }
-  Query query(connection, "SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = ?", *tenant, static_cast<int>(state));
-  return query.Step() ? static_cast<int>(query.Int(0)) : 0;
-}
-
-// The solve that its tenant made before with this request_id.
-std::optional<SolveRow> FindRequest(SqlConnection& connection, const NewSolve& solve) {
-  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE tenant = ? AND request_id = ?",
-              solve.actor.tenant, solve.request_id);
-  if (!query.Step()) return std::nullopt;
-  return ReadSolve(query);
-}
-
-// What the first event of a queued solve says: why it waits, if it waits for another (single flight).
-std::string QueuedDetail(SqlConnection& connection, const std::string& solve_key) {
-  if (solve_key.empty()) return "";
-  Query query(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
-              solve_key);
-  return query.Step() ? "waits for the result of the equal request solves/" + query.Bytes(0) : "";
-}
-
-// Why no more may be queued; nullopt: they may.
-std::optional<Error> QueueFull(SqlConnection& connection, const NewSolve& solve) {
-  const int queued = CountState(connection, SolveState::kQueued, nullptr);
-  if (queued >= solve.max_queued) {
-    return Error{ErrorCode::kResourceExhausted,
-                 std::to_string(queued) + " solves are queued, the limit is " + std::to_string(solve.max_queued) +
-                     "; try again later",
-                 {},
-                 std::chrono::milliseconds(1000)};
-  }
-  if (solve.max_queued_tenant <= 0) return std::nullopt;
-  const std::string& tenant = solve.actor.tenant;
-  const int own = CountState(connection, SolveState::kQueued, &tenant);
-  if (own < solve.max_queued_tenant) return std::nullopt;
-  const std::string text = std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " +
-                           std::to_string(solve.max_queued_tenant);
-  Error error{ErrorCode::kResourceExhausted, text + "; try again later", {}, std::chrono::milliseconds(1000)};
-  error.quota = {"tenant:" + tenant, text};
-  return error;
-}
-
-void InsertSolve(SqlConnection& connection, const NewSolve& solve, SolveRow& row) {
-  SolveRecord& record = row.record;
-  record.id = solve.id;
-  record.spec = solve.spec;
-  row.bytes = static_cast<int64_t>(solve.spec.size());
-  record.solve_key = solve.solve_key;
-  record.tenant = solve.actor.tenant;
-  record.solver_fingerprint = solve.solver_fingerprint;
-  record.traceparent = solve.traceparent;
-  {
-    Query query(connection,
-                "INSERT INTO solves (id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
-                "create_time_us) VALUES (?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?) RETURNING number",
-                record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
-                record.solver_fingerprint, record.traceparent, static_cast<int>(SolveState::kQueued),
-                record.create_time_us);
-    ROLLGAIT_CHECK(query.Step());
-    row.number = query.Int(0);
-    query.Run();
-  }
-  if (!solve.warm_start.empty()) {
-    Query(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start}).Run();
-  }
+  return Query(connection,
+               "SELECT (SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 1), "
+               "(SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 2), "
+               "(SELECT create_time_us FROM solves WHERE tenant = ? AND state = 1 ORDER BY number LIMIT 1)",
+               *tenant, *tenant, *tenant);
 }
 
 Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) {
@@ -131,36 +73,6 @@ Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> data
   return std::unique_ptr<SqlStore>(new SqlStore(std::move(database), clock, std::move(room)));
 }
 
-Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<CreatedSolve> {
-    if (!solve.request_id.empty()) {
-      if (std::optional<SolveRow> old = FindRequest(connection, solve)) {
-        if (old->record.spec == solve.spec) return CreatedSolve{FullRecord(connection, std::move(*old)), false};
-        return Error{ErrorCode::kAlreadyExists, "request_id \"" + solve.request_id + "\" belongs to solves/" +
-                                                    old->record.id + ", which has another spec; use a new request_id"};
-      }
-    }
-    if (std::optional<Error> full = room_.Refusal()) return *full;
-    const int64_t reusable = FindReusableResult(connection, solve.solve_key);
-    if (reusable == 0) {
-      if (std::optional<Error> full = QueueFull(connection, solve)) return *full;
-    }
-    const std::string detail = QueuedDetail(connection, solve.solve_key);
-    SolveRow row;
-    row.record.create_time_us = clock_.WallMicros();
-    InsertSolve(connection, solve, row);
-    AddAudit(connection, {solve.actor, "create", solve.id, reusable != 0 ? "succeeded" : "queued"}, row.record.create_time_us);
-    ChangeState(connection, row, SolveState::kQueued, detail, row.record.create_time_us);
-    if (reusable != 0) {
-      row.record.from_cache = true;
-      EndSolve(connection, row, SolveState::kSucceeded, reusable, "", row.record.create_time_us);
-    } else {
-      SaveSolve(connection, row);
-    }
-    return CreatedSolve{FullRecord(connection, std::move(row)), true};
-  });
-}
-
 Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
   return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveRecord> {
@@ -176,8 +88,8 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
 }
 
 Outcome<std::string> SqlStore::TenantOf(const std::string& id) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<std::string> {
-    if (!CouldBeId(id)) return NoSuchSolve(id);
+  if (!CouldBeId(id)) return NoSuchSolve(id);
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::string> {
     Query query(connection, "SELECT tenant FROM solves WHERE id = ?", id);
     if (!query.Step()) return NoSuchSolve(id);
     return query.Bytes(0);
@@ -244,18 +156,18 @@ Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor&
 }
 
 Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_sequence, int max_events) {
+  if (!CouldBeId(id)) return NoSuchSolve(id);
   return database_->Read([&](SqlConnection& connection) -> Outcome<EventPage> {
+    Query solve(connection, "SELECT last_sequence, state, trimmed_sequence FROM solves WHERE id = ?", id);
+    Query events(connection,
+                 "SELECT sequence, kind, payload FROM events WHERE solve = (SELECT number FROM solves WHERE id = ?) "
+                 "AND sequence > ? ORDER BY sequence LIMIT ?",
+                 id, after_sequence, max_events);
+    if (!solve.Step()) return NoSuchSolve(id);
     EventPage page;
-    int64_t number = 0, trimmed = 0;
-    {
-      if (!CouldBeId(id)) return NoSuchSolve(id);
-      Query query(connection, "SELECT number, last_sequence, state, trimmed_sequence FROM solves WHERE id = ?", id);
-      if (!query.Step()) return NoSuchSolve(id);
-      number = query.Int(0);
-      page.last_sequence = query.Int(1);
-      page.state = static_cast<SolveState>(query.Int(2));
-      trimmed = query.Int(3);
-    }
+    page.last_sequence = solve.Int(0);
+    page.state = static_cast<SolveState>(solve.Int(1));
+    const int64_t trimmed = solve.Int(2);
     if (after_sequence >= 0 && after_sequence < trimmed) {
       return Error{ErrorCode::kOutOfRange,
                    "after_sequence is " + std::to_string(after_sequence) + ", the oldest event held of solves/" + id +
@@ -267,33 +179,23 @@ Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_seq
                    "after_sequence is " + std::to_string(after_sequence) + ", the events of solves/" + id +
                        " are 1 to " + std::to_string(page.last_sequence) + "; use a number from 0 to the last"};
     }
-    Query query(connection,
-                "SELECT sequence, kind, payload FROM events WHERE solve = ? AND sequence > ? ORDER BY sequence LIMIT ?",
-                number, after_sequence, max_events);
-    while (query.Step()) {
-      page.events.push_back({query.Int(0), static_cast<EventKind>(query.Int(1)), query.Bytes(2)});
+    while (events.Step()) {
+      page.events.push_back({events.Int(0), static_cast<EventKind>(events.Int(1)), events.Bytes(2)});
     }
     return page;
   });
 }
 
 Outcome<SolveCounts> SqlStore::Counts(const std::optional<std::string>& tenant) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<SolveCounts> {
-    const std::string* of = tenant.has_value() ? &*tenant : nullptr;
-    SolveCounts counts;
-    counts.queued = CountState(connection, SolveState::kQueued, of);
-    counts.running = CountState(connection, SolveState::kRunning, of);
-    Query oldest(connection,
-                 of == nullptr ? "SELECT create_time_us FROM solves WHERE ? = '' AND state = 1 ORDER BY number LIMIT 1"
-                               : "SELECT create_time_us FROM solves WHERE tenant = ? AND state = 1 ORDER BY number LIMIT 1",
-                 of == nullptr ? std::string() : *of);
-    if (counts.queued > 0 && oldest.Step()) counts.oldest_queued_us = oldest.Int(0);
-    return counts;
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveCounts> {
+    Query query = CountsOf(connection, tenant);
+    ROLLGAIT_CHECK(query.Step());
+    return SolveCounts{static_cast<int>(query.Int(0)), static_cast<int>(query.Int(1)), query.Int(2)};
   });
 }
 
 Outcome<std::vector<AuditRow>> SqlStore::ReadAudit(int64_t after_number, int max_rows) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<std::vector<AuditRow>> {
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::vector<AuditRow>> {
     std::vector<AuditRow> rows;
     Query query(connection,
                 "SELECT number, time_us, tenant, token_id, peer, action, solve, outcome, detail FROM audit "

@@ -14,7 +14,7 @@
 namespace rollgait::server {
 
 // Solves in an SQL database. Threads may share it; so may processes (each with its own object): on one machine for
-// SQLite, on any for PostgreSQL. Leases expire by SqlConnection::Now.
+// SQLite, on any for PostgreSQL. Leases expire by {now_ns} of sql_dialect.h.
 class SqlStore : public SolveStore {
  public:
   // Makes the tables or brings them up to date; kUnavailable with the reason if that fails. New solves are refused when there is no
@@ -50,6 +50,9 @@ class SqlStore : public SolveStore {
  private:
   SqlStore(std::unique_ptr<Database> database, const Clock& clock, DiskRoom room)
       : database_(std::move(database)), clock_(clock), room_(std::move(room)) {}
+
+  // nullopt: so near a limit of the queue that it takes LockMode::kExclusive to be sure.
+  Outcome<std::optional<CreatedSolve>> TryCreate(const NewSolve& solve, SqlConnection::LockMode mode);
 
   const std::unique_ptr<Database> database_;
   const Clock& clock_;

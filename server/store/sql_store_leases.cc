@@ -1,4 +1,5 @@
 // The calls of SqlStore that agents make.
+#include <deque>
 #include <utility>
 
 #include "rollgait/v1/solve.pb.h"
@@ -8,24 +9,22 @@
 namespace rollgait::server {
 namespace {
 
-// The solve of a lease that is still held.
-Outcome<SolveRow> FindLeased(SqlConnection& connection, const Lease& lease) {
-  std::optional<SolveRow> row = FindSolve(connection, lease.solve_id);
-  if (row.has_value() && row->record.state == SolveState::kRunning && row->owner == lease.owner &&
-      row->epoch == lease.epoch) {
-    return std::move(*row);
-  }
-  return Error{ErrorCode::kLeaseLost, "the lease of " + lease.owner + " on solves/" + lease.solve_id + ", epoch " +
-                                          std::to_string(lease.epoch) + ", is lost; stop working on it"};
+#define ROLLGAIT_IS_LEASED "WHERE id = ? AND state = 2 AND owner = ? AND epoch = ? "
+
+int64_t Nanos(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
+
+Error LeaseLost(const Lease& lease) {
+  return {ErrorCode::kLeaseLost, "the lease of " + lease.owner + " on solves/" + lease.solve_id + ", epoch " +
+                                     std::to_string(lease.epoch) + ", is lost; stop working on it"};
 }
 
-void SetLease(SqlConnection& connection, std::chrono::milliseconds duration, SolveRow& row) {
-  const LeaseTime now = connection.Now();
-  row.lease_boot_id = now.boot_id;
-  row.lease_end_ns = now.ns + std::chrono::nanoseconds(duration).count();
+// Asks for the solve of a lease, if that is still held.
+Query AskLeased(SqlConnection& connection, const Lease& lease) {
+  return Query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves " ROLLGAIT_IS_LEASED "{for_update}", lease.solve_id,
+               lease.owner, lease.epoch);
 }
 
-// Those that are not held already; see SolveStore::AppendEvents.
+// Those that are not held already; see SolveStore::AppendEvents. The row is to be saved afterwards.
 void AppendNew(SqlConnection& connection, const std::vector<StoredEvent>& events, SolveRow& row) {
   for (const StoredEvent& event : events) {
     const bool held = event.sequence > 0 && event.sequence <= row.record.last_sequence;
@@ -33,30 +32,42 @@ void AppendNew(SqlConnection& connection, const std::vector<StoredEvent>& events
   }
 }
 
-LeaseState StateOf(const SolveRow& row) { return {row.record.cancel_requested, row.record.last_sequence}; }
-
-// Writes nothing if the lease is lost.
-Outcome<LeaseState> AppendLeased(SqlConnection& connection, const Lease& lease, const std::vector<StoredEvent>& events) {
-  Outcome<SolveRow> row = FindLeased(connection, lease);
-  if (!row.ok()) return row.error();
-  AppendNew(connection, events, row.value());
-  SaveSolve(connection, row.value());
-  return StateOf(row.value());
-}
-
-// Every queued solve of this key ends with the result.
-void AnswerQueued(SqlConnection& connection, const std::string& solve_key, int64_t result_id, int64_t now_us) {
-  if (solve_key.empty()) return;
-  std::vector<SolveRow> waiting;
-  {
-    Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE solve_key = ? AND state = ? ORDER BY number {for_update}", solve_key,
-                static_cast<int>(SolveState::kQueued));
-    while (query.Step()) waiting.push_back(ReadSolve(query));
+// Appends to leased solves: asks for all that are leased, then writes. An outcome for each batch.
+class Appender {
+ public:
+  // Only what events change is read: a spec may be large.
+  void Ask(SqlConnection& connection, const Lease& lease) {
+    leased_.emplace_back(connection,
+                         "SELECT number, last_sequence, bytes, cancel_requested FROM solves " ROLLGAIT_IS_LEASED "{for_update}",
+                         lease.solve_id, lease.owner, lease.epoch);
   }
-  for (SolveRow& row : waiting) {
-    row.record.from_cache = true;
-    EndSolve(connection, row, SolveState::kSucceeded, result_id, "", now_us);
+  // Of the first that was asked for and not written. Writes nothing if the lease is lost.
+  Outcome<LeaseState> Write(SqlConnection& connection, const Lease& lease, const std::vector<StoredEvent>& events) {
+    Query& query = leased_.front();
+    const bool leased = query.Step();
+    SolveRow row;
+    if (leased) {
+      row.number = query.Int(0);
+      row.record.last_sequence = query.Int(1);
+      row.bytes = query.Int(2);
+      row.record.cancel_requested = query.Int(3) != 0;
+    }
+    leased_.pop_front();
+    if (!leased) return LeaseLost(lease);
+    AppendNew(connection, events, row);
+    Query::Do(connection, "UPDATE solves SET last_sequence = ?, bytes = ? WHERE number = ?", row.record.last_sequence,
+              row.bytes, row.number);
+    return LeaseState{row.record.cancel_requested, row.record.last_sequence};
   }
+
+ private:
+  std::deque<Query> leased_;
+};
+
+std::vector<SolveRow> AllRows(Query& query) {
+  std::vector<SolveRow> rows;
+  while (query.Step()) rows.push_back(ReadSolve(query));
+  return rows;
 }
 
 std::string CrashError(int crashes, const std::string& detail) {
@@ -77,25 +88,28 @@ std::vector<std::string> RequeueAll(SqlConnection& connection, std::vector<Solve
   return ids;
 }
 
-std::vector<SolveRow> RunningSolves(SqlConnection& connection) {
-  std::vector<SolveRow> rows;
-  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE state = ? ORDER BY number {skip_locked}",
-              static_cast<int>(SolveState::kRunning));
-  while (query.Step()) rows.push_back(ReadSolve(query));
-  return rows;
-}
+// What a claim may take, and what it needs to know of it.
+struct Candidate {
+  SolveRow row;
+  int64_t reusable = 0;      // a result of its key; 0: none
+  int64_t max_running = -1;  // of its tenant; -1: no limit
+  std::string warm_start;
+};
 
 // The oldest queued solve whose key does not run and whose tenant has room. PostgreSQL: locked.
-std::optional<SolveRow> NextQueued(SqlConnection& connection) {
-  Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS
-                          "FROM solves AS s WHERE state = 1 AND (solve_key = '' OR NOT EXISTS "
-                          "(SELECT 1 FROM solves AS r WHERE r.solve_key = s.solve_key AND r.state = 2)) "
-                          "AND NOT EXISTS (SELECT 1 FROM tenants AS t WHERE t.tenant = s.tenant AND t.max_running >= 0 "
-                          "AND t.max_running <= "
-                          "(SELECT COUNT(*) FROM solves AS b WHERE b.tenant = s.tenant AND b.state = 2)) "
-                          "ORDER BY number LIMIT 1 {skip_locked}");
+std::optional<Candidate> NextQueued(SqlConnection& connection) {
+  Query query(connection,
+              "SELECT " ROLLGAIT_SOLVE_COLUMNS
+              ", (SELECT MIN(r.id) FROM results AS r WHERE r.solve_key = s.solve_key AND s.solve_key <> '' AND r.reusable = 1), "
+              "COALESCE((SELECT t.max_running FROM tenants AS t WHERE t.tenant = s.tenant), -1), "
+              "(SELECT w.payload FROM warm_starts AS w WHERE w.solve = s.number) "
+              "FROM solves AS s WHERE state = 1 AND (solve_key = '' OR NOT EXISTS "
+              "(SELECT 1 FROM solves AS r WHERE r.solve_key = s.solve_key AND r.state = 2)) "
+              "AND NOT EXISTS (SELECT 1 FROM tenants AS t WHERE t.tenant = s.tenant AND t.max_running >= 0 "
+              "AND t.max_running <= (SELECT COUNT(*) FROM solves AS b WHERE b.tenant = s.tenant AND b.state = 2)) "
+              "ORDER BY number LIMIT 1 {skip_locked}");
   if (!query.Step()) return std::nullopt;
-  return ReadSolve(query);
+  return Candidate{ReadSolve(query), query.Int(kSolveColumns), query.Int(kSolveColumns + 1), query.Bytes(kSolveColumns + 2)};
 }
 
 // Others may have claimed for the same tenant meanwhile: counts again, alone. Throws a conflict if there is no room.
@@ -118,81 +132,103 @@ Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owne
                                                             std::chrono::milliseconds duration) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<ClaimedSolve>> {
     const int64_t now_us = clock_.WallMicros();
-    std::optional<SolveRow> next = NextQueued(connection);
+    std::optional<Candidate> next = NextQueued(connection);
     // One that was queued while an equal one ended has its answer already.
-    while (next.has_value()) {
-      const int64_t reusable = FindReusableResult(connection, next->record.solve_key);
-      if (reusable == 0) break;
-      next->record.from_cache = true;
-      EndSolve(connection, *next, SolveState::kSucceeded, reusable, "", now_us);
-      next = NextQueued(connection);
+    for (; next.has_value() && next->reusable != 0; next = NextQueued(connection)) {
+      next->row.record.from_cache = true;
+      EndSolve(connection, next->row, SolveState::kSucceeded, next->reusable, "", now_us);
     }
     if (!next.has_value()) return std::optional<ClaimedSolve>();
-    SolveRow row = std::move(*next);
-    CheckTenantHasRoom(connection, row.record.tenant);
-    if (row.record.start_time_us == 0) row.record.start_time_us = now_us;
-    row.record.attempts += 1;
-    row.owner = owner;
+    SolveRow& row = next->row;
+    SolveRecord& record = row.record;
+    if (next->max_running >= 0) CheckTenantHasRoom(connection, record.tenant);
+    if (record.start_time_us == 0) record.start_time_us = now_us;
+    record.attempts += 1;
     row.epoch += 1;
-    SetLease(connection, duration, row);
     ChangeState(connection, row, SolveState::kRunning, "", now_us);
-    SaveSolve(connection, row);
-    Query start(connection, "SELECT payload FROM warm_starts WHERE solve = ?", row.number);
-    const std::string warm_start = start.Step() ? start.Bytes(0) : "";
-    return std::optional<ClaimedSolve>(ClaimedSolve{{row.record.id, owner, row.epoch}, row.record, warm_start});
+    Query::Do(connection,
+              "UPDATE solves SET state = 2, start_time_us = ?, attempts = ?, last_sequence = ?, owner = ?, epoch = ?, "
+              "bytes = ?, lease_boot_id = {boot_id}, lease_end_ns = {now_ns} + ? WHERE number = ?",
+              record.start_time_us, record.attempts, record.last_sequence, owner, row.epoch, row.bytes, Nanos(duration),
+              row.number);
+    return std::optional(ClaimedSolve{{record.id, owner, row.epoch}, record, next->warm_start});
   });
 }
 
 Outcome<LeaseState> SqlStore::RenewLease(const Lease& lease, std::chrono::milliseconds duration) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<LeaseState> {
-    Outcome<SolveRow> row = FindLeased(connection, lease);
-    if (!row.ok()) return row.error();
-    SetLease(connection, duration, row.value());
-    SaveSolve(connection, row.value());
-    return StateOf(row.value());
+    Query query(connection,
+                "UPDATE solves SET lease_boot_id = {boot_id}, lease_end_ns = {now_ns} + ? " ROLLGAIT_IS_LEASED
+                "RETURNING cancel_requested, last_sequence",
+                Nanos(duration), lease.solve_id, lease.owner, lease.epoch);
+    if (!query.Step()) return LeaseLost(lease);
+    const LeaseState state{query.Int(0) != 0, query.Int(1)};
+    query.Run();
+    return state;
   });
 }
 
 Outcome<LeaseState> SqlStore::AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) {
-  return database_->Write([&](SqlConnection& connection) { return AppendLeased(connection, lease, events); });
+  return database_->Write([&](SqlConnection& connection) {
+    Appender appender;
+    appender.Ask(connection, lease);
+    return appender.Write(connection, lease, events);
+  });
 }
 
 Outcome<std::vector<Outcome<LeaseState>>> SqlStore::AppendAll(const std::vector<EventBatch>& batches) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<Outcome<LeaseState>>> {
+    Appender appender;
+    for (const EventBatch& batch : batches) appender.Ask(connection, batch.lease);
     std::vector<Outcome<LeaseState>> outcomes;
-    for (const EventBatch& batch : batches) outcomes.push_back(AppendLeased(connection, batch.lease, batch.events));
+    for (const EventBatch& batch : batches) outcomes.push_back(appender.Write(connection, batch.lease, batch.events));
     return outcomes;
   });
 }
 
 Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) {
   ROLLGAIT_CHECK(IsTerminal(end.state));
+  const bool succeeded = end.state == SolveState::kSucceeded;
   return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
-    Outcome<SolveRow> row = FindLeased(connection, lease);
-    if (!row.ok()) return row.error();
-    AppendNew(connection, events, row.value());
-    const int64_t now_us = clock_.WallMicros();
-    const std::string& key = row.value().record.solve_key;
-    int64_t result_id = 0;
-    if (end.state == SolveState::kSucceeded) {
-      Query query(connection, "INSERT INTO results (solve_key, reusable, payload) VALUES (?, ?, ?) RETURNING id", key,
-                  end.reusable && !key.empty(), Blob{end.result});
-      ROLLGAIT_CHECK(query.Step());
-      result_id = query.Int(0);
-      query.Run();
-      row.value().bytes += static_cast<int64_t>(end.result.size());
+    Query leased = AskLeased(connection, lease);
+    std::optional<Query> next_result, equal;
+    if (succeeded) next_result.emplace(connection, "SELECT {next_result}");
+    if (succeeded && end.reusable) {
+      equal.emplace(connection,
+                    "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                    "FROM solves WHERE solve_key = (SELECT solve_key FROM solves WHERE id = ?) AND solve_key <> '' "
+                    "AND state = 1 ORDER BY number {for_update}",
+                    lease.solve_id);
     }
-    EndSolve(connection, row.value(), end.state, result_id, end.error, now_us);
-    if (result_id != 0 && end.reusable) AnswerQueued(connection, key, result_id, now_us);
+    if (!leased.Step()) return LeaseLost(lease);
+    SolveRow row = ReadSolve(leased);
+    AppendNew(connection, events, row);
+    const int64_t now_us = clock_.WallMicros();
+    const std::string& key = row.record.solve_key;
+    int64_t result_id = 0;
+    if (next_result.has_value()) {
+      ROLLGAIT_CHECK(next_result->Step());
+      result_id = next_result->Int(0);
+      Query::Do(connection, "INSERT INTO results (id, solve_key, reusable, payload) {given_key} VALUES (?, ?, ?, ?)", result_id, key,
+                end.reusable && !key.empty(), Blob{end.result});
+      row.bytes += static_cast<int64_t>(end.result.size());
+    }
+    EndSolve(connection, row, end.state, result_id, end.error, now_us);
+    if (!equal.has_value()) return Done{};
+    // Those that wait for the result of an equal one.
+    for (SolveRow& waiting : AllRows(*equal)) {
+      waiting.record.from_cache = true;
+      EndSolve(connection, waiting, SolveState::kSucceeded, result_id, "", now_us);
+    }
     return Done{};
   });
 }
 
 Outcome<SolveState> SqlStore::GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<SolveState> {
-    Outcome<SolveRow> found = FindLeased(connection, lease);
-    if (!found.ok()) return found.error();
-    SolveRow row = std::move(found).value();
+    Query leased = AskLeased(connection, lease);
+    if (!leased.Step()) return LeaseLost(lease);
+    SolveRow row = ReadSolve(leased);
     const int64_t now_us = clock_.WallMicros();
     if (reason == GiveBackReason::kCrashed) row.record.crashes += 1;
     if (row.record.crashes >= kMaxCrashes && !row.record.cancel_requested) {
@@ -224,22 +260,20 @@ Outcome<std::vector<LeaseOwner>> SqlStore::LeaseOwners() {
 
 Outcome<std::vector<std::string>> SqlStore::ReclaimExpired() {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
-    const LeaseTime now = connection.Now();
-    std::vector<SolveRow> expired;
-    for (SolveRow& row : RunningSolves(connection)) {
-      if (row.lease_boot_id != now.boot_id || row.lease_end_ns < now.ns) expired.push_back(std::move(row));
-    }
-    return RequeueAll(connection, std::move(expired), "its lease expired", clock_.WallMicros());
+    Query query(connection,
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                "FROM solves WHERE state = 2 AND (lease_boot_id <> {boot_id} OR lease_end_ns < {now_ns}) "
+                "ORDER BY number {skip_locked}");
+    return RequeueAll(connection, AllRows(query), "its lease expired", clock_.WallMicros());
   });
 }
 
 Outcome<std::vector<std::string>> SqlStore::ReclaimOwner(const std::string& owner) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
-    std::vector<SolveRow> orphaned;
-    for (SolveRow& row : RunningSolves(connection)) {
-      if (row.owner == owner) orphaned.push_back(std::move(row));
-    }
-    return RequeueAll(connection, std::move(orphaned), "its agent died", clock_.WallMicros());
+    Query query(connection,
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE state = 2 AND owner = ? ORDER BY number {skip_locked}",
+                owner);
+    return RequeueAll(connection, AllRows(query), "its agent died", clock_.WallMicros());
   });
 }
 

@@ -65,15 +65,11 @@ int TrimEvents(SqlConnection& connection, int64_t before_us) {
   }
   for (const SolveRow& row : rows) {
     const int64_t last = row.record.last_sequence - 1;
-    int64_t bytes = 0;
-    {
-      Query size(connection, "SELECT CAST(COALESCE(SUM(LENGTH(payload)), 0) AS BIGINT) FROM events WHERE solve = ? AND sequence <= ?",
-                 row.number, last);
-      if (size.Step()) bytes = size.Int(0);
-    }
-    Query(connection, "DELETE FROM events WHERE solve = ? AND sequence <= ?", row.number, last).Run();
-    Query(connection, "UPDATE solves SET trimmed_sequence = ?, bytes = bytes - ? WHERE number = ?", last, bytes, row.number)
-        .Run();
+    Query::Do(connection,
+              "UPDATE solves SET trimmed_sequence = ?, bytes = bytes - CAST(COALESCE((SELECT SUM(LENGTH(payload)) FROM events "
+              "WHERE solve = ? AND sequence <= ?), 0) AS BIGINT) WHERE number = ?",
+              last, row.number, last, row.number);
+    Query::Do(connection, "DELETE FROM events WHERE solve = ? AND sequence <= ?", row.number, last);
   }
   return static_cast<int>(rows.size());
 }

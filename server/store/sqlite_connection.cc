@@ -24,6 +24,17 @@ SqlFailure::Kind KindOf(int code) {
   }
 }
 
+void PutBootId(sqlite3_context* context, int, sqlite3_value**) {
+  const std::string id = static_cast<const Clock*>(sqlite3_user_data(context))->BootId();
+  sqlite3_result_text(context, id.data(), static_cast<int>(id.size()), SQLITE_TRANSIENT);
+}
+
+void PutBootNanos(sqlite3_context* context, int, sqlite3_value**) {
+  sqlite3_result_int64(context, static_cast<const Clock*>(sqlite3_user_data(context))->BootNanos());
+}
+
+}  // namespace
+
 class SqliteStatement : public SqlStatement {
  public:
   SqliteStatement(SqliteConnection& connection, sqlite3* handle, const char* sql)
@@ -44,6 +55,12 @@ class SqliteStatement : public SqlStatement {
   void Bind(int index, const Blob& blob) override {
     Check(sqlite3_bind_blob64(statement_, index, blob.bytes.data(), blob.bytes.size(), SQLITE_TRANSIENT));
   }
+  void Ask() override {}  // the file is here: a question waits until its answer is wanted
+  void Defer() override {
+    while (Step()) {
+    }
+    Reset();
+  }
   bool Step() override {
     const int code = sqlite3_step(statement_);
     if (code == SQLITE_ROW) return true;
@@ -62,7 +79,10 @@ class SqliteStatement : public SqlStatement {
   void Reset() noexcept override {
     sqlite3_reset(statement_);
     sqlite3_clear_bindings(statement_);
+    in_use_ = false;
   }
+  bool in_use() const { return in_use_; }
+  void MarkInUse() { in_use_ = true; }
 
  private:
   void Check(int code) const {
@@ -74,9 +94,8 @@ class SqliteStatement : public SqlStatement {
   const char* const sql_;
   sqlite3_stmt* statement_ = nullptr;
   int changes_ = 0;
+  bool in_use_ = false;
 };
-
-}  // namespace
 
 SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) : clock_(clock) {
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
@@ -89,6 +108,7 @@ SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) 
   try {
     sqlite3_busy_timeout(handle_, 5000);
     Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
+    AddClockFunctions();
   } catch (...) {
     sqlite3_close(handle_);
     throw;
@@ -96,14 +116,20 @@ SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) 
 }
 
 SqliteConnection::~SqliteConnection() {
-  statements_.clear();
+  statements_.Clear();
   sqlite3_close(handle_);
 }
 
+void SqliteConnection::AddClockFunctions() {
+  void* clock = const_cast<Clock*>(&clock_);
+  if (sqlite3_create_function_v2(handle_, "boot_id", 0, SQLITE_UTF8, clock, PutBootId, nullptr, nullptr, nullptr) != SQLITE_OK ||
+      sqlite3_create_function_v2(handle_, "boot_ns", 0, SQLITE_UTF8, clock, PutBootNanos, nullptr, nullptr, nullptr) != SQLITE_OK) {
+    Throw("boot_id, boot_ns");
+  }
+}
+
 SqlStatement& SqliteConnection::Prepared(const char* sql) {
-  std::unique_ptr<SqlStatement>& statement = statements_[sql];
-  if (statement == nullptr) statement = std::make_unique<SqliteStatement>(*this, handle_, sql);
-  return *statement;
+  return statements_.Take(sql, [&] { return std::make_unique<SqliteStatement>(*this, handle_, sql); });
 }
 
 void SqliteConnection::Execute(const std::string& sql) {

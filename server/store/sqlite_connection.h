@@ -3,14 +3,16 @@
 
 #include <sqlite3.h>
 
-#include <map>
 #include <memory>
 #include <string>
 
 #include "server/base/clock.h"
 #include "server/store/sql_connection.h"
+#include "server/store/statement_pool.h"
 
 namespace rollgait::server {
+
+class SqliteStatement;
 
 // A connection to an SQLite file. Its lease clock is the machine's time since boot.
 class SqliteConnection : public SqlConnection {
@@ -28,7 +30,9 @@ class SqliteConnection : public SqlConnection {
   void Commit() override;
   void Rollback() noexcept override;
   bool lost() const override { return false; }
-  LeaseTime Now() override { return {clock_.BootId(), clock_.BootNanos()}; }
+  bool AnswerDue() noexcept override { return false; }
+  void Lock(const std::string&, LockMode) override {}
+  int MostWriters() const override { return 1; }
   void BeginSchemaChange() override;
   void EndSchemaChange() noexcept override;
   bool HasSchema() override;
@@ -36,9 +40,12 @@ class SqliteConnection : public SqlConnection {
   [[noreturn]] void Throw(const std::string& sql) const;
 
  private:
+  // {boot_id} and {now_ns} of sqlite_dialect.cc.
+  void AddClockFunctions();
+
   const Clock& clock_;
   sqlite3* handle_ = nullptr;
-  std::map<const char*, std::unique_ptr<SqlStatement>> statements_;  // by address of the literal
+  StatementPool<SqliteStatement> statements_;
 };
 
 }  // namespace rollgait::server

@@ -9,6 +9,11 @@ const SqlDialect kSqliteDialect = {
     .clustered = "WITHOUT ROWID",
     .for_update = "",
     .skip_locked = "",
+    .boot_id = "boot_id()",  // functions of SqliteConnection
+    .now_ns = "boot_ns()",
+    .next_solve = "COALESCE((SELECT seq FROM sqlite_sequence WHERE name = 'solves'), 0) + 1",
+    .next_result = "COALESCE((SELECT seq FROM sqlite_sequence WHERE name = 'results'), 0) + 1",
+    .given_key = "",
 };
 
 }  // namespace rollgait::server

@@ -1,0 +1,161 @@
+// SqlStore::Create: all that it asks goes out at once, then it decides, and what it writes goes out with the commit.
+#include <optional>
+#include <utility>
+
+#include "server/store/sql_rows.h"
+#include "server/store/sql_store.h"
+
+namespace rollgait::server {
+namespace {
+
+using LockMode = SqlConnection::LockMode;
+
+// Answered in the order of the members; those that are not needed are not asked.
+struct Questions {
+  Questions(SqlConnection& connection, const NewSolve& solve);
+
+  std::optional<Query> earlier;       // the solve that its tenant made before with this request_id, with its result
+  std::optional<Query> reusable;      // a result of the same key
+  std::optional<Query> equal;         // a solve of the same key that has not ended
+  std::optional<Query> queued;        // how many are
+  std::optional<Query> queued_tenant;  // how many of the tenant
+  std::optional<Query> number;        // of the new one
+};
+
+Questions::Questions(SqlConnection& connection, const NewSolve& solve) {
+  if (!solve.request_id.empty()) {
+    earlier.emplace(connection,
+                    "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                    ", (SELECT payload FROM results WHERE results.id = solves.result_id) "
+                    "FROM solves WHERE tenant = ? AND request_id = ?",
+                    solve.actor.tenant, solve.request_id);
+  }
+  if (!solve.solve_key.empty()) {
+    reusable.emplace(connection, "SELECT id, payload FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1", solve.solve_key);
+    equal.emplace(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
+                  solve.solve_key);
+  }
+  queued.emplace(connection, "SELECT COUNT(*) FROM solves WHERE state = 1");
+  if (solve.max_queued_tenant > 0) {
+    queued_tenant.emplace(connection, "SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 1", solve.actor.tenant);
+  }
+  number.emplace(connection, "SELECT {next_solve}");
+}
+
+int64_t IntOf(std::optional<Query>& query) {
+  ROLLGAIT_CHECK(query->Step());
+  return query->Int(0);
+}
+
+// Of those who count at the same time under a shared lock each may add one that the others do not see. All see `queued`
+// or more before they add, and are `writers` at most: so the limit holds if there is room for all of them. Whoever sees
+// less room counts again alone.
+enum class Room { kEnough, kUncertain, kNone };
+Room RoomFor(int64_t queued, int limit, int writers) {
+  if (queued >= limit) return Room::kNone;
+  return queued + writers <= limit ? Room::kEnough : Room::kUncertain;
+}
+
+Error TooMany(const std::string& text) {
+  return {ErrorCode::kResourceExhausted, text + "; try again later", {}, std::chrono::milliseconds(1000)};
+}
+
+// Whether it may be queued: false if that is uncertain.
+Outcome<bool> MayQueue(Questions& questions, const NewSolve& solve, int writers) {
+  const int64_t queued = IntOf(questions.queued);
+  const Room room = RoomFor(queued, solve.max_queued, writers);
+  if (room == Room::kNone) {
+    return TooMany(std::to_string(queued) + " solves are queued, the limit is " + std::to_string(solve.max_queued));
+  }
+  if (solve.max_queued_tenant <= 0) return room == Room::kEnough;
+  const std::string& tenant = solve.actor.tenant;
+  const int64_t own = IntOf(questions.queued_tenant);
+  const Room own_room = RoomFor(own, solve.max_queued_tenant, writers);
+  if (own_room != Room::kNone) return room == Room::kEnough && own_room == Room::kEnough;
+  const std::string text = std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " +
+                           std::to_string(solve.max_queued_tenant);
+  Error error = TooMany(text);
+  error.quota = {"tenant:" + tenant, text};
+  return error;
+}
+
+// What the first event of a queued solve says: why it waits, if it waits for another (single flight).
+std::string QueuedDetail(Questions& questions) {
+  if (!questions.equal.has_value() || !questions.equal->Step()) return "";
+  return "waits for the result of the equal request solves/" + questions.equal->Bytes(0);
+}
+
+SolveRow NewRow(const NewSolve& solve, int64_t number, int64_t now_us) {
+  SolveRow row;
+  row.number = number;
+  row.bytes = static_cast<int64_t>(solve.spec.size());
+  row.record.id = solve.id;
+  row.record.spec = solve.spec;
+  row.record.solve_key = solve.solve_key;
+  row.record.tenant = solve.actor.tenant;
+  row.record.solver_fingerprint = solve.solver_fingerprint;
+  row.record.traceparent = solve.traceparent;
+  row.record.create_time_us = now_us;
+  return row;
+}
+
+// The queued solve with its first event.
+void Insert(SqlConnection& connection, const NewSolve& solve, const std::string& detail, SolveRow& row) {
+  SolveRecord& record = row.record;
+  const std::string event = StateChangeEvent(row, detail, record.create_time_us);
+  CountEvent(row, event);
+  Query::Do(connection,
+            "INSERT INTO solves (number, id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
+            "create_time_us, last_sequence, bytes) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, ?)",
+            row.number, record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
+            record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
+            record.last_sequence, row.bytes);
+  InsertEvent(connection, row.number, {record.last_sequence, EventKind::kStateChange, event});
+  if (solve.warm_start.empty()) return;
+  Query::Do(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start});
+}
+
+}  // namespace
+
+Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
+  Outcome<std::optional<CreatedSolve>> created = TryCreate(solve, LockMode::kShared);
+  if (created.ok() && !created.value().has_value()) created = TryCreate(solve, LockMode::kExclusive);
+  if (!created.ok()) return created.error();
+  ROLLGAIT_CHECK(created.value().has_value());
+  return *std::move(created).value();
+}
+
+Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, LockMode mode) {
+  return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<CreatedSolve>> {
+    // Everybody in this order. What is counted under a lock is counted after it is held.
+    connection.Lock("queue", mode);
+    if (solve.max_queued_tenant > 0) connection.Lock("queue of tenant " + solve.actor.tenant, mode);
+    Questions questions(connection, solve);
+    if (questions.earlier.has_value() && questions.earlier->Step()) {
+      SolveRecord old = ReadSolve(*questions.earlier).record;
+      old.result = questions.earlier->Bytes(kSolveColumns);
+      if (old.spec == solve.spec) return std::optional(CreatedSolve{std::move(old), false});
+      return Error{ErrorCode::kAlreadyExists, "request_id \"" + solve.request_id + "\" belongs to solves/" + old.id +
+                                                  ", which has another spec; use a new request_id"};
+    }
+    if (std::optional<Error> full = room_.Refusal()) return *full;
+    const bool held = questions.reusable.has_value() && questions.reusable->Step();
+    if (!held) {
+      const Outcome<bool> may = MayQueue(questions, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters());
+      if (!may.ok()) return may.error();
+      if (!may.value()) return std::optional<CreatedSolve>();
+    }
+    const int64_t now_us = clock_.WallMicros();
+    SolveRow row = NewRow(solve, IntOf(questions.number), now_us);
+    Insert(connection, solve, QueuedDetail(questions), row);
+    AddAudit(connection, {solve.actor, "create", solve.id, held ? "succeeded" : "queued"}, now_us);
+    if (held) {
+      row.record.from_cache = true;
+      EndSolve(connection, row, SolveState::kSucceeded, questions.reusable->Int(0), "", now_us);
+      row.record.result = questions.reusable->Bytes(1);
+    }
+    return std::optional(CreatedSolve{std::move(row.record), true});
+  });
+}
+
+}  // namespace rollgait::server
