@@ -82,7 +82,7 @@ void AllThree(benchmark::State& state) {
 
 // The matrix of the last iteration: curvatures of the bounds from their multipliers and distances.
 struct NewtonMatrix {
-  explicit NewtonMatrix(Problem& p) : kkt(*p.nlp, Fixed(*p.nlp)) {
+  explicit NewtonMatrix(Problem& p) : kkt(*p.nlp, Fixed(*p.nlp), NlpOptions().step_residual) {
     const NlpResult at = SolveNlp(*p.nlp, {p.x, {}, {}, {}}, {}, {});
     p.nlp->Derivatives(at.x.data(), 1, at.constraint_multipliers.data(), kkt.jacobian(), kkt.hessian());
     primal = VectorX::Zero(p.nlp->variables());

@@ -163,6 +163,7 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   options.barrier_tolerance = 1000;
   options.barrier_exponent = 2.2;
   options.recentre = true;
+  options.step_residual = 1e-8;
   options.max_iterations = 200;  // cold starts take fewer
   return options;
 }

@@ -99,21 +99,26 @@ ROLLGAIT_INLINE void Rows(const double* l, int l_stride, const double* w, int w_
   }
 }
 
-// Of column j the rows from j · first_step on.
+// C columns at a time from column j on, as many as fit; of column j the rows from j · first_step on.
+template <typename L, int C>
+ROLLGAIT_INLINE void Columns(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,
+                             double* y, int y_stride, int first_step, int* j) {
+  for (; *j + C <= columns; *j += C) {
+    const int first = *j * first_step;
+    Rows<L, C>(l + first, l_stride, w + *j, w_stride, count, n - first, y + static_cast<size_t>(*j) * y_stride + first, y_stride);
+  }
+}
+
 template <typename L>
 ROLLGAIT_INLINE void MatrixKernel(const double* l, int l_stride, const double* w, int w_stride, int count, int n,
                                   int columns, double* y, int y_stride, int first_step) {
-  constexpr int kColumns = 4;
   int j = 0;
-  for (; j + kColumns <= columns; j += kColumns) {
-    const int first = j * first_step;
-    Rows<L, kColumns>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first,
-                   y_stride);
+  // AVX-512 has registers for twice as many columns, which halves what is read of L.
+  if constexpr (kWidth<L> > kWidth<Lanes>) {
+    Columns<L, 8>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step, &j);
   }
-  for (; j < columns; ++j) {
-    const int first = j * first_step;
-    Rows<L, 1>(l + first, l_stride, w + j, w_stride, count, n - first, y + static_cast<size_t>(j) * y_stride + first, y_stride);
-  }
+  Columns<L, 4>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step, &j);
+  Columns<L, 1>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step, &j);
 }
 
 template <int K>
@@ -143,7 +148,32 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
   for (; k < count; ++k) Dots<1>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
 }
 
-// The three kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the
+template <typename L>
+ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
+  // Several at once, because each waits for its last comparison.
+  constexpr int kSums = 4;
+  L most[kSums] = {};
+  int i = 0;
+  for (; i + kSums * kWidth<L> <= n; i += kSums * kWidth<L>) {
+    for (int s = 0; s < kSums; ++s) {
+      L value;
+      std::memcpy(&value, x + i + s * kWidth<L>, sizeof(L));
+      value = value < 0 ? -value : value;
+      most[s] = value > most[s] ? value : most[s];
+    }
+  }
+  double largest = 0;
+  for (int s = 0; s < kSums; ++s) {
+    for (int k = 0; k < kWidth<L>; ++k) largest = most[s][k] > largest ? most[s][k] : largest;
+  }
+  for (; i < n; ++i) {
+    const double value = x[i] < 0 ? -x[i] : x[i];
+    largest = value > largest ? value : largest;
+  }
+  return largest;
+}
+
+// The four kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the
 // lanes; g++ 12 makes the same bits of it with AVX2 and AVX-512, g++ 14 fuses the wide ones only.
 #define ROLLGAIT_KERNELS(NAME, TARGET, L)                                                                                 \
   TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count,   \
@@ -157,14 +187,15 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
   TARGET void NAME##Transposed(const double* l, int l_stride, int count, int n, const double* x, double* y) {             \
     TransposedKernel(l, l_stride, count, n, x, y);                                                                        \
   }                                                                                                                       \
-  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME, NAME##Column, NAME##Matrix, NAME##Transposed};
+  TARGET double NAME##Largest(const double* x, int n) { return LargestKernel<L>(x, n); }                                  \
+  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME, NAME##Column, NAME##Matrix, NAME##Transposed, NAME##Largest};
 
 ROLLGAIT_KERNELS(Portable, , Lanes)
 #if defined(__x86_64__)
 ROLLGAIT_KERNELS(Avx2, __attribute__((target("avx2,fma"))), Lanes)
 ROLLGAIT_KERNELS(Wide, __attribute__((target("avx512f,avx2,fma"))), WideLanes)
 // Dot products are bound by memory: nothing is gained by wider ones.
-constexpr ProductKernels kAvx512 = {"Avx512", WideColumn, WideMatrix, Avx2Transposed};
+constexpr ProductKernels kAvx512 = {"Avx512", WideColumn, WideMatrix, Avx2Transposed, WideLargest};
 #endif
 
 const ProductKernels& Chosen() {
@@ -205,5 +236,7 @@ void SubtractProductTriangle(const double* l, int l_stride, const double* w, int
 void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, const double* x, double* y) {
   Chosen().transposed(l, l_stride, count, n, x, y);
 }
+
+double LargestMagnitude(const double* x, int n) { return Chosen().largest(x, n); }
 
 }  // namespace rollgait

@@ -24,6 +24,9 @@ void SubtractProductTriangle(const double* l, int l_stride, const double* w, int
 // y (count) −= Lᵀ x for L (n × count), x (n).
 void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, const double* x, double* y);
 
+// Largest |x_i| of n numbers, 0 of none. NaNs count as 0.
+double LargestMagnitude(const double* x, int n);
+
 // The same for one instruction set; the functions above call the last of those available.
 struct ProductKernels {
   const char* name;
@@ -33,6 +36,7 @@ struct ProductKernels {
   void (*matrix)(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns, double* y,
                  int y_stride, int first_step);
   void (*transposed)(const double* l, int l_stride, int count, int n, const double* x, double* y);
+  double (*largest)(const double* x, int n);
 };
 std::vector<const ProductKernels*> AvailableProductKernels();
 

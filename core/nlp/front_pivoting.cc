@@ -37,7 +37,7 @@ class Elimination {
   }
 
  private:
-  double* Column(int c) { return p_.l + static_cast<size_t>(c) * p_.rows; }
+  double* Column(int c) const { return p_.l + static_cast<size_t>(c) * p_.rows; }
   double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.rows; }
 
   void Update(int c) {
@@ -70,37 +70,42 @@ class Elimination {
     std::swap(p_.updated[a], p_.updated[b]);
   }
 
-  // Largest entry of a column below the pivots, its diagonal and row `other` left out; *where: the row of the largest one
-  // among the fully summed, or -1.
-  double Largest(int column, int other, int* where) {
+  // Largest entry of a column below the pivots, its diagonal and row `other` left out.
+  double Largest(int column, int other) const {
     const double* x = Column(column);
-    double most = 0, most_summed = 0;
-    *where = -1;
-    for (int i = found_.count; i < p_.columns; ++i) {
-      if (i == column || i == other) continue;
-      const double size = std::abs(x[i]);
-      if (size > most_summed) {
-        most_summed = size;
-        *where = i;
+    const int first = std::min(column, other), second = std::max(column, other);
+    const int p = found_.count;
+    return std::max({LargestMagnitude(x + p, first - p), LargestMagnitude(x + first + 1, std::max(second - first - 1, 0)),
+                     LargestMagnitude(x + second + 1, p_.rows - second - 1)});
+  }
+
+  // Row of the largest entry among the fully summed of column p = found_.count, its diagonal left out; -1 where all are zero.
+  int LargestSummed() const {
+    const double* x = Column(found_.count);
+    double most = 0;
+    int where = -1;
+    for (int i = found_.count + 1; i < p_.columns; ++i) {
+      if (std::abs(x[i]) > most) {
+        most = std::abs(x[i]);
+        where = i;
       }
     }
-    for (int i = p_.columns; i < p_.rows; ++i) most = std::max(most, std::abs(x[i]));
-    return std::max(most, most_summed);
+    return where;
   }
 
   // Order of the pivot that was made at found_.count, 0 if there is none with this column.
   int TryPivot() {
     const int p = found_.count;
     Update(p);
-    int partner = -1, ignored = -1;
     const double size = std::abs(Column(p)[p]);
-    const double rest = Largest(p, p, &partner);
+    const double rest = Largest(p, p);
     if (std::max(size, rest) < kZeroColumn) return 0;
     if (size >= threshold_ * rest && size >= kZeroColumn) return Single(p);
+    const int partner = LargestSummed();
     if (partner < 0) return 0;
     Update(partner);
     const double a = Column(p)[p], b = Column(p)[partner], c = Column(partner)[partner];
-    const double rest_p = Largest(p, partner, &ignored), rest_partner = Largest(partner, p, &ignored);
+    const double rest_p = Largest(p, partner), rest_partner = Largest(partner, p);
     // |D⁻¹| (rest_p, rest_partner)ᵀ ≤ 1 / threshold, everything divided by b first.
     const double d = std::abs((a / b) * (c / b) - 1) * std::abs(b);
     const double first = std::abs(c / b) * rest_p + rest_partner, second = rest_p + std::abs(a / b) * rest_partner;
@@ -116,29 +121,33 @@ class Elimination {
   }
 
   int Single(int p) {
-    double* x = Column(p);
-    const double d = x[p];
-    std::copy(x + p, x + p_.rows, Scaled(p) + p);
+    double* __restrict x = Column(p);
+    double* __restrict scaled = Scaled(p);
+    const double d = x[p], inverse = 1 / d;
     p_.diagonal[p] = d;
-    for (int i = p + 1; i < p_.rows; ++i) x[i] /= d;
+    for (int i = p; i < p_.rows; ++i) {
+      scaled[i] = x[i];
+      x[i] *= inverse;
+    }
     x[p] = 1;
     found_.negative += d < 0 ? 1 : 0;
     return 1;
   }
 
   int Double(int p) {
-    double *x = Column(p), *y = Column(p + 1);
+    double *__restrict x = Column(p), *__restrict y = Column(p + 1);
+    double *__restrict scaled_x = Scaled(p), *__restrict scaled_y = Scaled(p + 1);
     const double a = x[p], b = x[p + 1], c = y[p + 1];
-    std::copy(x + p, x + p_.rows, Scaled(p) + p);
-    std::copy(y + p, y + p_.rows, Scaled(p + 1) + p);
     p_.diagonal[p] = a;
     p_.diagonal[p + 1] = c;
     p_.coupling[p] = b;
-    const double ratio_a = a / b, ratio_c = c / b, d = b * (ratio_a * ratio_c - 1);
-    for (int i = p + 2; i < p_.rows; ++i) {
+    const double ratio_a = a / b, ratio_c = c / b, inverse = 1 / (b * (ratio_a * ratio_c - 1));
+    for (int i = p; i < p_.rows; ++i) {
       const double u = x[i], v = y[i];
-      x[i] = (ratio_c * u - v) / d;
-      y[i] = (ratio_a * v - u) / d;
+      scaled_x[i] = u;
+      scaled_y[i] = v;
+      x[i] = (ratio_c * u - v) * inverse;
+      y[i] = (ratio_a * v - u) * inverse;
     }
     x[p] = y[p + 1] = 1;
     x[p + 1] = y[p] = 0;

@@ -8,6 +8,34 @@
 #include "core/math/subtract_products.h"
 
 namespace rollgait {
+namespace {
+
+void AddTo(double* __restrict sum, const double* __restrict term, int n) {
+  for (int i = 0; i < n; ++i) sum[i] += term[i];
+}
+
+// Of column j the rows from j to `rows`.
+void ClearLowerTriangle(double* a, int stride, int columns, int rows) {
+  for (int j = 0; j < columns; ++j) {
+    double* column = a + static_cast<size_t>(j) * stride;
+    std::fill(column + j, column + rows, 0.0);
+  }
+}
+
+// The upper triangle of the first `columns` rows becomes the lower one's transpose.
+void MirrorLowerTriangle(double* a, int rows, int columns) {
+  // Both sides of a block stay in the first cache.
+  constexpr int kBlock = 16;
+  for (int first = 0; first < columns; first += kBlock) {
+    const int end = std::min(first + kBlock, columns);
+    for (int i = first; i < columns; ++i) {
+      double* row = a + static_cast<size_t>(i) * rows;
+      for (int j = first; j < std::min(end, i); ++j) row[j] = a[static_cast<size_t>(j) * rows + i];
+    }
+  }
+}
+
+}  // namespace
 
 FrontalLdlt::FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups) : size_(size) {
   ROLLGAIT_CHECK(static_cast<int>(groups.size()) == size);
@@ -82,6 +110,7 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
     most = std::max(most, front.own.size() + front.update.size());
   }
   map_.reserve(most);
+  run_ends_.reserve(most);
   gathered_.resize(size_);
 }
 
@@ -117,7 +146,7 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
   return inertia_;
 }
 
-// The fully summed block is kept in full, both triangles; the rest of the panel has the rows of `update`.
+// The fully summed block is put together in its lower triangle and then kept in full; the rest of the panel has the rows of `update`.
 void FrontalLdlt::Assemble(const double* values, Front* front) {
   const int own = static_cast<int>(front->own.size());
   front->unknowns = front->own;
@@ -129,61 +158,88 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   front->columns = static_cast<int>(front->unknowns.size());
   front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
   front->rows = static_cast<int>(front->unknowns.size());
-  front->panel.assign(static_cast<size_t>(front->rows) * front->columns, 0.0);
+  const size_t size = static_cast<size_t>(front->rows) * front->columns;
+  if (front->panel.size() < size) front->panel.resize(size);
+  ClearLowerTriangle(front->panel.data(), front->rows, front->columns, front->rows);
   const int order = front->rows - front->columns;
-  for (int j = 0; j < order; ++j) {
-    double* diagonal = Schur(*front) + static_cast<size_t>(j) * order + j;
-    std::fill(diagonal, diagonal + order - j, 0.0);
-  }
+  if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
   const int shift = front->columns - own;
   for (const Entry& e : front->entries) {
     const int row = e.row < own ? e.row : e.row + shift;
     front->panel[static_cast<size_t>(e.column) * front->rows + row] += values[e.value];
-    if (e.row < own && e.row != e.column) {
-      front->panel[static_cast<size_t>(e.row) * front->rows + e.column] += values[e.value];
-    }
   }
   int slot = own;
   for (int c : front->children) {
     AddChild(fronts_[c], slot, front);
     slot += fronts_[c].columns - fronts_[c].pivots;
   }
+  MirrorLowerTriangle(front->panel.data(), front->rows, front->columns);
 }
 
+// What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its `update`.
 void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
   const int own = static_cast<int>(front->own.size());
   const int shift = front->columns - own;
   const int delayed = child.columns - child.pivots;
   const int update = static_cast<int>(child.update.size());
+  // The map is ascending, so a lower triangle stays one; rows that stay neighbours are added in one go.
   map_.clear();
   for (int row : child.parent_row) map_.push_back(row < own ? row : row + shift);
+  run_ends_.assign(update, update);
+  for (int i = update - 2; i >= 0; --i) run_ends_[i] = map_[i] + 1 == map_[i + 1] ? run_ends_[i + 1] : i + 1;
   const auto panel = [front](int row, int column) -> double& {
     return front->panel[static_cast<size_t>(column) * front->rows + row];
   };
   for (int j = 0; j < delayed; ++j) {
     const double* column = child.panel.data() + static_cast<size_t>(child.pivots + j) * child.rows;
-    for (int i = 0; i < delayed; ++i) panel(first_slot + i, first_slot + j) += column[child.pivots + i];
-    for (int i = 0; i < update; ++i) {
-      const double value = column[child.columns + i];
-      panel(map_[i], first_slot + j) += value;
-      if (map_[i] < front->columns) panel(first_slot + j, map_[i]) += value;
-    }
+    const int slot = first_slot + j;
+    for (int i = j; i < delayed; ++i) panel(first_slot + i, slot) += column[child.pivots + i];
+    for (int i = 0; i < update; ++i) panel(std::max(map_[i], slot), std::min(map_[i], slot)) += column[child.columns + i];
   }
-  // The map is ascending, so the lower triangle stays one.
+  int summed = 0;  // rows of the child's update that this front eliminates
+  for (; summed < update && map_[summed] < front->columns; ++summed) {
+    AddRuns(Schur(child) + static_cast<size_t>(summed) * update, summed, update, &panel(0, map_[summed]));
+  }
+  if (&child == &fronts_[front->children.front()]) {
+    CopySchur(child, summed, front);
+    return;
+  }
   const int order = front->rows - front->columns;
-  for (int j = 0; j < update; ++j) {
-    const double* column = Schur(child) + static_cast<size_t>(j) * update;
-    if (map_[j] >= front->columns) {
-      double* target = Schur(*front) + static_cast<size_t>(map_[j] - front->columns) * order - front->columns;
-      for (int i = j; i < update; ++i) target[map_[i]] += column[i];
-      continue;
-    }
-    double* target = &panel(0, map_[j]);
-    for (int i = j; i < update; ++i) {
-      target[map_[i]] += column[i];
-      if (i > j && map_[i] < front->columns) panel(map_[j], map_[i]) += column[i];
-    }
+  for (int j = summed; j < update; ++j) {
+    AddRuns(Schur(child) + static_cast<size_t>(j) * update, j, update,
+            Schur(*front) + static_cast<size_t>(map_[j] - front->columns) * order - front->columns);
   }
+}
+
+// target[map_[i]] += column[i] from i = first on.
+void FrontalLdlt::AddRuns(const double* column, int first, int end, double* target) const {
+  for (int i = first; i < end; i = run_ends_[i]) AddTo(target + map_[i], column + i, run_ends_[i] - i);
+}
+
+// The first child's part of the Schur complement, from its row `first` on, and zeros elsewhere: what is written once need not be
+// cleared before.
+void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
+  const int update = static_cast<int>(child.update.size()), order = front->rows - front->columns;
+  int done = 0;
+  const auto clear_until = [&](int column) {
+    ClearLowerTriangle(Schur(*front) + static_cast<size_t>(done) * order + done, order, column - done, order - done);
+    done = column + 1;
+  };
+  for (int j = first; j < update; ++j) {
+    const double* column = Schur(child) + static_cast<size_t>(j) * update;
+    const int place = map_[j] - front->columns;
+    clear_until(place);
+    double* target = Schur(*front) + static_cast<size_t>(place) * order;
+    int row = place;
+    for (int i = j; i < update; i = run_ends_[i]) {
+      const int start = map_[i] - front->columns;
+      std::fill(target + row, target + start, 0.0);
+      std::copy(column + i, column + run_ends_[i], target + start);
+      row = start + run_ends_[i] - i;
+    }
+    std::fill(target + row, target + order, 0.0);
+  }
+  clear_until(order);
 }
 
 void FrontalLdlt::FactorPanel(Front* front, double threshold) {

@@ -51,7 +51,7 @@ class FrontalLdlt {
     // Numeric. Rows: pivots, columns that were delayed, update.
     int columns = 0, rows = 0, pivots = 0;
     std::vector<int> unknowns;    // of every row
-    std::vector<double> panel;    // rows × columns, L in the first `pivots` columns
+    std::vector<double> panel;    // at least rows × columns, L in the first `pivots` columns
     std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
     int block = 0;                // of blocks_, with the Schur complement: update × update, lower triangle
   };
@@ -62,6 +62,8 @@ class FrontalLdlt {
   double* Schur(const Front& front) { return blocks_[front.block].data(); }
   void Assemble(const double* values, Front* front);
   void AddChild(const Front& child, int first_slot, Front* front);
+  void AddRuns(const double* column, int first, int end, double* target) const;
+  void CopySchur(const Front& child, int first, Front* front);
   void FactorPanel(Front* front, double threshold);
   void UpdateSchur(Front* front);
 
@@ -69,7 +71,8 @@ class FrontalLdlt {
   std::vector<Front> fronts_;
   std::vector<std::vector<double>> blocks_;  // as many as are in use at once, until the parent has taken them up
   std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
-  std::vector<int> map_, updated_;
+  std::vector<int> map_, run_ends_;   // of the update of the child in work: rows in its parent, where a run of neighbours ends
+  std::vector<int> updated_;
   std::vector<double> scaled_;        // L D of the front in work
   std::vector<double> gathered_;
   Inertia inertia_;

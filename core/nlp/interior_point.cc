@@ -37,7 +37,7 @@ class Solver {
         options_(options),
         control_(control),
         barrier_(problem),
-        newton_(barrier_),
+        newton_(barrier_, options.step_residual),
         begin_(Clock::now()) {}
 
   InteriorPointResult Run() {

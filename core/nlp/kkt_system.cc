@@ -11,8 +11,7 @@ namespace {
 constexpr double kFirstThreshold = 1e-7;
 constexpr double kLargestThreshold = 1e-6;
 constexpr int kMostRefinements = 6;
-// Backward error of a solution: fine, and acceptable after all refinements.
-constexpr double kFineResidual = 1e-10;
+// Backward error that is acceptable after all refinements.
 constexpr double kPoorResidual = 1e-6;
 // A refinement that does not even halve the error is the last one.
 constexpr double kStagnation = 0.5;
@@ -39,47 +38,40 @@ std::vector<int> KktSystem::MakeGroups(const NlpProblem& problem) {
   return groups.variables;
 }
 
-KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed)
+KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed, double fine_residual)
     : variables_(problem.variables()),
       rows_(problem.constraints()),
-      pattern_(MakePattern(problem)),
+      jacobian_pattern_(problem.jacobian_pattern()),
       jacobian_start_(problem.hessian_pattern().size()),
-      primal_start_(jacobian_start_ + problem.jacobian_pattern().size()),
+      primal_start_(jacobian_start_ + jacobian_pattern_.size()),
       dual_start_(primal_start_ + variables_),
       fixed_(std::move(fixed)),
-      values_(VectorX::Zero(pattern_.size())),
-      masked_(values_),
+      values_(VectorX::Zero(dual_start_ + rows_)),
+      matrix_(variables_ + rows_, MakePattern(problem)),
+      fine_residual_(fine_residual),
       threshold_(kFirstThreshold),
-      factors_(variables_ + rows_, pattern_, MakeGroups(problem)),
+      factors_(variables_ + rows_, matrix_.pattern(), MakeGroups(problem)),
       right_(VectorX::Zero(variables_ + rows_)),
       solution_(right_),
       residual_(right_) {
-  for (int e = 0; e < primal_start_; ++e) {
-    const int row = pattern_.rows[e], column = pattern_.columns[e];
-    if ((row < variables_ && fixed_[row] != 0) || fixed_[column] != 0) fixed_entries_.push_back(e);
+  const SparsityPattern& pattern = matrix_.pattern();
+  const auto is_fixed = [this](int unknown) { return unknown < variables_ && fixed_[unknown] != 0; };
+  for (int e = 0; e < pattern.size(); ++e) {
+    if (is_fixed(pattern.rows[e]) || is_fixed(pattern.columns[e])) fixed_entries_.push_back(e);
   }
 }
 
 KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal) {
   values_.segment(primal_start_, variables_) = primal_diagonal;
   values_.segment(dual_start_, rows_) = -dual_diagonal;
-  masked_ = values_;
-  for (int e : fixed_entries_) masked_(e) = 0;
+  matrix_.Assign(values_.data());
+  for (int e : fixed_entries_) matrix_.value(e) = 0;
   for (int i = 0; i < variables_; ++i) {
-    if (fixed_[i] != 0) masked_(primal_start_ + i) = 1;
+    if (fixed_[i] != 0) matrix_.value(matrix_.place(primal_start_ + i)) = 1;
   }
-  const FrontalLdlt::Inertia inertia = factors_.Factorise(masked_.data(), threshold_);
+  const FrontalLdlt::Inertia inertia = factors_.Factorise(matrix_.values(), threshold_);
   if (inertia.zero > 0) return Outcome::kSingular;
   return inertia.negative == rows_ ? Outcome::kRight : Outcome::kWrongInertia;
-}
-
-void KktSystem::Multiply(const VectorX& x, VectorX* y) const {
-  y->setZero();
-  for (int e = 0; e < pattern_.size(); ++e) {
-    const int row = pattern_.rows[e], column = pattern_.columns[e];
-    (*y)(row) += masked_(e) * x(column);
-    if (row != column) (*y)(column) += masked_(e) * x(row);
-  }
 }
 
 bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v) {
@@ -93,24 +85,25 @@ bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v
   factors_.Solve(solution_.data());
   double error = 0, last_error = kInfinity;
   for (int trial = 0; trial <= kMostRefinements; ++trial) {
-    Multiply(solution_, &residual_);
+    matrix_.Multiply(solution_, &residual_);
     residual_ = right_ - residual_;
     const double scale = std::min(solution_.lpNorm<Eigen::Infinity>(), 1e6 * size) + size;
     error = scale > 0 ? residual_.lpNorm<Eigen::Infinity>() / scale : 0;
-    if (!(error > kFineResidual) || trial == kMostRefinements || error > kStagnation * last_error) break;
+    if (!(error > fine_residual_) || trial == kMostRefinements || error > kStagnation * last_error) break;
     last_error = error;
     factors_.Solve(residual_.data());
     solution_ += residual_;
   }
   *u = solution_.head(variables_);
   *v = solution_.tail(rows_);
-  if (error > kFineResidual) threshold_ = std::min(kLargestThreshold, 10 * threshold_);
+  if (error > fine_residual_) threshold_ = std::min(kLargestThreshold, 10 * threshold_);
   return solution_.allFinite() && error <= kPoorResidual;
 }
 
 void KktSystem::AddTransposedProduct(const VectorX& v, VectorX* y) const {
-  for (int e = jacobian_start_; e < primal_start_; ++e) {
-    (*y)(pattern_.columns[e]) += values_(e) * v(pattern_.rows[e] - variables_);
+  const double* value = jacobian();
+  for (int e = 0; e < jacobian_pattern_.size(); ++e) {
+    (*y)(jacobian_pattern_.columns[e]) += value[e] * v(jacobian_pattern_.rows[e]);
   }
 }
 

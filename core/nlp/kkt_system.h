@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/nlp/frontal_ldlt.h"
+#include "core/nlp/symmetric_matrix.h"
 
 namespace rollgait {
 
@@ -13,8 +14,9 @@ namespace rollgait {
 // with the patterns and elimination groups of a problem. Variables that are fixed are taken out: their u is 0.
 class KktSystem {
  public:
-  // fixed (variables()): nonzero where the variable is no unknown.
-  KktSystem(const NlpProblem& problem, std::vector<char> fixed);
+  // fixed (variables()): nonzero where the variable is no unknown. fine_residual: where the refinement of a solution ends
+  // (NlpOptions::step_residual).
+  KktSystem(const NlpProblem& problem, std::vector<char> fixed, double fine_residual);
 
   // Where the values of H and J go, in the order of the problem's patterns; kept from one factorisation to the next.
   double* hessian() { return values_.data(); }
@@ -29,7 +31,7 @@ class KktSystem {
   // trusted.
   bool Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v);
 
-  // y += Jᵀ v, and y (rows) = J u, with the present Jacobian, fixed variables included.
+  // y += Jᵀ v with the present Jacobian, fixed variables included.
   void AddTransposedProduct(const VectorX& v, VectorX* y) const;
 
   const FrontalLdlt& factors() const { return factors_; }
@@ -37,15 +39,15 @@ class KktSystem {
  private:
   static SparsityPattern MakePattern(const NlpProblem& problem);
   static std::vector<int> MakeGroups(const NlpProblem& problem);
-  void Multiply(const VectorX& x, VectorX* y) const;
 
   int variables_, rows_;
-  SparsityPattern pattern_;
+  const SparsityPattern& jacobian_pattern_;
   int jacobian_start_, primal_start_, dual_start_;
   std::vector<char> fixed_;
-  VectorX values_, masked_;
-  std::vector<int> fixed_entries_;  // of the pattern, with a fixed variable
-  double threshold_;
+  VectorX values_;          // of H, of J and of the two diagonals
+  SymmetricMatrix matrix_;  // the same without what is fixed
+  std::vector<int> fixed_entries_;  // of the matrix, with a fixed variable
+  double fine_residual_, threshold_;
   FrontalLdlt factors_;
   VectorX right_, solution_, residual_;
 };

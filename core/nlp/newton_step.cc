@@ -20,9 +20,9 @@ constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(BarrierProblem& barrier)
+NewtonSystem::NewtonSystem(BarrierProblem& barrier, double step_residual)
     : barrier_(barrier),
-      kkt_(barrier.problem(), barrier.fixed()),
+      kkt_(barrier.problem(), barrier.fixed(), step_residual),
       sigma_(VectorX::Zero(barrier.unknowns())),
       right_(sigma_),
       primal_diagonal_(VectorX::Zero(barrier.variables())),

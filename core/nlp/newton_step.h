@@ -22,7 +22,8 @@ struct NewtonStep {
 // Wächter and Biegler, section 3.1).
 class NewtonSystem {
  public:
-  explicit NewtonSystem(BarrierProblem& barrier);
+  // step_residual: NlpOptions::step_residual.
+  NewtonSystem(BarrierProblem& barrier, double step_residual);
 
   KktSystem& kkt() { return kkt_; }
   // δ_w of the last factorisation.

@@ -24,6 +24,8 @@ struct NlpOptions {
   double barrier_exponent = 1.5;   // θ_μ: the next μ is at least μ^θ_μ
   // Whether a step that bounds cut short is tried again with Gondzio's correction for centrality.
   bool recentre = false;
+  // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; from afar they cost iterations.
+  double step_residual = 1e-10;
   int mesh = 0;                  // passed on with every iteration
 };
 

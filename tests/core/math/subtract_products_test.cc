@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "core/base/types.h"
@@ -25,7 +26,7 @@ struct Size {
   int n, columns, count;
 };
 
-// All remainders of tiles of 24, 12, 8 and 4 rows and of 4 columns.
+// All remainders of tiles of 24, 12, 8 and 4 rows and of 8 and 4 columns.
 class SubtractProductsTest : public ::testing::TestWithParam<Size> {
  protected:
   void SetUp() override {
@@ -42,7 +43,7 @@ class SubtractProductsTest : public ::testing::TestWithParam<Size> {
 std::vector<Size> Sizes() {
   std::vector<Size> sizes;
   for (int n = 0; n <= 37; ++n) {
-    for (int columns : {0, 1, 3, 4, 6, 9}) {
+    for (int columns : {0, 1, 3, 4, 6, 9, 13}) {
       for (int count : {0, 1, 7, 8, 15, 40}) sizes.push_back({n, columns, count});
     }
   }
@@ -108,6 +109,26 @@ TEST_P(SubtractProductsTest, InstructionSets) {
     kernels->transposed(l_.data(), stride, count, n, x.data(), sums.data());
     EXPECT_LT((sums - dots + l_.topRows(n).transpose() * x).cwiseAbs().sum(), 1e-13 * (1 + count));
   }
+}
+
+TEST(LargestMagnitude, IsThatOfAnyPlace) {
+  for (const ProductKernels* kernels : AvailableProductKernels()) {
+    EXPECT_EQ(kernels->largest(nullptr, 0), 0);
+    for (int n = 1; n <= 70; ++n) {
+      for (int place = 0; place < n; ++place) {
+        VectorX x = VectorX::Random(n);
+        x(place) = place % 2 == 0 ? 3.5 : -3.5;
+        ASSERT_EQ(kernels->largest(x.data(), n), 3.5) << kernels->name << ", " << place << " of " << n;
+      }
+    }
+  }
+}
+
+TEST(LargestMagnitude, PassesOverWhatIsNoNumber) {
+  VectorX x = VectorX::Constant(40, -2);
+  x(0) = x(17) = x(39) = std::numeric_limits<double>::quiet_NaN();
+  for (const ProductKernels* kernels : AvailableProductKernels()) EXPECT_EQ(kernels->largest(x.data(), 40), 2) << kernels->name;
+  EXPECT_EQ(LargestMagnitude(x.data(), 40), 2);
 }
 
 }  // namespace

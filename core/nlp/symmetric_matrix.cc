@@ -1,0 +1,55 @@
+#include "core/nlp/symmetric_matrix.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rollgait {
+
+SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
+    : size_(size), place_(pattern.size()), source_(pattern.size()), values_(VectorX::Zero(pattern.size())) {
+  const auto key = [&pattern](int e) {
+    return std::tuple(std::min(pattern.rows[e], pattern.columns[e]), std::max(pattern.rows[e], pattern.columns[e]), e);
+  };
+  std::iota(source_.begin(), source_.end(), 0);
+  std::sort(source_.begin(), source_.end(), [&key](int a, int b) { return key(a) < key(b); });
+  diagonal_.assign(size + 1, 0);
+  below_.assign(size, 0);
+  pattern_.rows.reserve(pattern.size());
+  pattern_.columns.reserve(pattern.size());
+  for (int k = 0; k < pattern.size(); ++k) {
+    const auto [column, row, e] = key(source_[k]);
+    place_[e] = k;
+    pattern_.Add(row, column);
+    ++diagonal_[column + 1];
+    if (row == column) ++below_[column];
+  }
+  for (int j = 0; j < size; ++j) {
+    diagonal_[j + 1] += diagonal_[j];
+    below_[j] += diagonal_[j];
+  }
+}
+
+void SymmetricMatrix::Assign(const double* values) {
+  for (size_t k = 0; k < source_.size(); ++k) values_[static_cast<int>(k)] = values[source_[k]];
+}
+
+void SymmetricMatrix::Multiply(const VectorX& x, VectorX* y) const {
+  const double* __restrict value = values_.data();
+  const double* __restrict in = x.data();
+  double* __restrict out = y->data();
+  const int* row = pattern_.rows.data();
+  y->setZero();
+  for (int j = 0; j < size_; ++j) {
+    const double factor = in[j];
+    double sum = 0;
+    for (int e = diagonal_[j]; e < below_[j]; ++e) sum += value[e] * factor;
+    for (int e = below_[j]; e < diagonal_[j + 1]; ++e) {
+      sum += value[e] * in[row[e]];
+      out[row[e]] += value[e] * factor;
+    }
+    out[j] += sum;
+  }
+}
+
+}  // namespace rollgait
