@@ -95,6 +95,7 @@ TEST(SolveProgram, ItIsConfinedBeforeItReadsTheRequest) {
     }
     EXPECT_EQ(StatusOf(process.value().pid(), "Seccomp"), unconfined ? "0" : "2");
     EXPECT_EQ(StatusOf(process.value().pid(), "NoNewPrivs"), "1");
+    EXPECT_EQ(StatusOf(process.value().pid(), "Threads"), "1");  // no library has started one
   }
 }
 
