@@ -1,6 +1,7 @@
 // How much the stores take: claims and results of 100 kB a second, by several threads, on SQLite and on a PostgreSQL of
 // the program's own, both with fsync.
-//   store_rates [--seconds S] [--threads N]
+// A network can be put before PostgreSQL: then each wait for it costs a round trip.
+//   store_rates [--seconds S] [--threads N] [--round-trip-ms MS]
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/delayed_socket.h"
 #include "server/store/open_store.h"
 #include "tests/server/store/temporary_directory.h"
 #include "tests/support/postgres_cluster.h"
@@ -62,9 +64,11 @@ void Measure(const char* name, SqlStore& store, const Load& load) {
 
 int Main(int argc, char** argv) {
   Load load;
+  double round_trip_ms = 0;
   CLI::App app("Rates of the stores.", "store_rates");
   app.add_option("--seconds", load.seconds, "of each figure")->capture_default_str();
   app.add_option("--threads", load.threads)->check(CLI::Range(1, 64))->capture_default_str();
+  app.add_option("--round-trip-ms", round_trip_ms, "to PostgreSQL; 0: no network")->check(CLI::Range(0.0, 1000.0));
   CLI11_PARSE(app, argc, argv);
   std::printf("| store, %d threads | creates/s | claims/s | results of 100 kB/s | reads of 100 kB/s |\n|---|---|---|---|---|\n",
               load.threads);
@@ -74,9 +78,18 @@ int Main(int argc, char** argv) {
     Measure("SQLite", *OpenStore({directory.path() + "/rollgait.db"}, clock).value(), load);
   }
   const PostgresCluster cluster({.durable = true});
-  StoreLocation location = LocateStore(cluster.Url(), "").value();
+  const TemporaryDirectory directory;
+  const std::string name = "/.s.PGSQL.5432";
+  std::unique_ptr<DelayedSocket> network;
+  std::string url = cluster.Url();
+  if (round_trip_ms > 0) {
+    network = std::make_unique<DelayedSocket>(directory.path() + name, cluster.directory() + name,
+                                              std::chrono::microseconds(static_cast<int64_t>(500 * round_trip_ms)));
+    url = "postgresql://rollgait@/postgres?host=" + directory.path();
+  }
+  StoreLocation location = LocateStore(url, "").value();
   location.connections = load.threads;
-  Measure("PostgreSQL, Unix socket", *OpenStore(location, clock).value(), load);
+  Measure(round_trip_ms > 0 ? "PostgreSQL, network" : "PostgreSQL, Unix socket", *OpenStore(location, clock).value(), load);
   return 0;
 }
 
