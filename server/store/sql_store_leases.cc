@@ -112,16 +112,12 @@ std::optional<Candidate> NextQueued(SqlConnection& connection) {
   return Candidate{ReadSolve(query), query.Int(kSolveColumns), query.Int(kSolveColumns + 1), query.Bytes(kSolveColumns + 2)};
 }
 
-// Others may have claimed for the same tenant meanwhile: counts again, alone. Throws a conflict if there is no room.
+// Others may have claimed for the same tenant meanwhile: counts again, alone (the count comes after the lock). Throws a
+// conflict if there is no room.
 void CheckTenantHasRoom(SqlConnection& connection, const std::string& tenant) {
-  int64_t limit = 0;
-  {
-    Query query(connection, "SELECT max_running FROM tenants WHERE tenant = ? AND max_running >= 0 {for_update}", tenant);
-    if (!query.Step()) return;
-    limit = query.Int(0);
-  }
-  Query query(connection, "SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 2", tenant);
-  if (query.Step() && query.Int(0) >= limit) {
+  Query limit(connection, "SELECT max_running FROM tenants WHERE tenant = ? AND max_running >= 0 {for_update}", tenant);
+  Query running(connection, "SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 2", tenant);
+  if (limit.Step() && running.Step() && running.Int(0) >= limit.Int(0)) {
     throw SqlFailure(SqlFailure::Kind::kConflict, "tenant " + tenant + " runs as many solves as it may");
   }
 }

@@ -128,6 +128,17 @@ TEST(PostgresRoundTripTest, AnAgentsWritesWaitTwice) {
   EXPECT_EQ(store.Trips(), 2);
 }
 
+TEST(PostgresRoundTripTest, AClaimForATenantWithALimitCountsAgain) {
+  const std::string url = UrlOfThisTest();
+  OpenedStore store(url);
+  PostgresConnection(url).Execute("INSERT INTO tenants (tenant, max_running) VALUES ('tenant', 1)");
+  for (const char* id : {"a", "b"}) ASSERT_TRUE(store->Create(Complete(id, "")).ok());
+  store.Connect();
+  ASSERT_TRUE(store->ClaimNext("agent", kLeaseDuration).value().has_value());
+  EXPECT_EQ(store.Trips(), 3);
+  EXPECT_FALSE(store->ClaimNext("agent", kLeaseDuration).value().has_value()) << "the tenant runs as many as it may";
+}
+
 TEST(PostgresRoundTripTest, ReadsWaitOnceAndOtherWritesTwice) {
   OpenedStore store(UrlOfThisTest());
   ASSERT_TRUE(store->Create({"a", "", "s", ""}).ok());
