@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,14 +21,6 @@ namespace rollgait::server {
 namespace {
 
 using Stub = v1::GaitService::Stub;
-
-std::string Output(const std::string& arguments) {
-  FILE* const pipe = popen((std::string(ROLLGAITD) + " " + arguments + " 2>/dev/null").c_str(), "r");
-  std::string text;
-  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) text += static_cast<char>(letter);
-  EXPECT_EQ(pclose(pipe), 0) << arguments;
-  return text.substr(0, text.find('\n'));
-}
 
 bool Eventually(const std::function<bool()>& condition) {
   for (int i = 0; i < 1200; ++i) {
@@ -120,7 +111,7 @@ TEST_F(AccessTest, BadTlsFilesAreRefusedAtTheStart) {
 TEST_F(AccessTest, ARevokedTokenEndsItsStream) {
   const Daemon daemon(Options({"--require-token"}));
   ASSERT_NE(daemon.address(), "");
-  const std::string token = Output("token create --data-dir " + path("data") + " --tenant acme --scopes read,solve");
+  const std::string token = OutputOfRollgaitd("token create --data-dir " + path("data") + " --tenant acme --scopes read,solve");
   const auto stub = Connect(daemon.address(), authority_.cert);
   v1::ServerInfo info;
   ASSERT_TRUE(Ask(*stub, token, &info).ok());
@@ -131,7 +122,7 @@ TEST_F(AccessTest, ARevokedTokenEndsItsStream) {
   const auto stream = stub->RunSolve(&context, Endless());
   v1::SolveEvent event;
   ASSERT_TRUE(stream->Read(&event));
-  Output("token revoke --data-dir " + path("data") + " " + token.substr(4, 16));
+  OutputOfRollgaitd("token revoke --data-dir " + path("data") + " " + token.substr(4, 16));
   EXPECT_EQ(Ask(*stub, token).error_code(), grpc::StatusCode::UNAUTHENTICATED);
   while (stream->Read(&event)) {  // until the server ends it
   }

@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/base/check.h"
 
@@ -116,6 +118,16 @@ std::unique_ptr<v1::GaitService::Stub> Daemon::NewStub() const {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return v1::GaitService::NewStub(grpc::CreateCustomChannel(address_, grpc::InsecureChannelCredentials(), arguments));
+}
+
+std::string OutputOfRollgaitd(const std::string& arguments) {
+  FILE* const pipe = popen((std::string(ROLLGAITD) + " " + arguments + " 2>/dev/null").c_str(), "r");
+  ROLLGAIT_CHECK(pipe != nullptr);
+  std::string text;
+  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) text += static_cast<char>(letter);
+  if (pclose(pipe) != 0) throw std::runtime_error("rollgaitd " + arguments + " failed");
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
 }
 
 std::vector<pid_t> AgentsOf(const std::string& data_dir) {

@@ -47,6 +47,8 @@ class Daemon {
   std::string address_;
 };
 
+// The standard output of `rollgaitd ARGUMENTS`, without its last line feed; throws std::runtime_error if the command fails.
+std::string OutputOfRollgaitd(const std::string& arguments);
 // Agents that work on a data directory, that of a dead server included.
 std::vector<pid_t> AgentsOf(const std::string& data_dir);
 // Children of a process.
