@@ -1,9 +1,10 @@
 """Checks what is deployed: docker/compose*.yaml, docker/kubernetes, docker/slurm, docker/observability.
 
-    python3 tests/container/check_deployments.py
+    python3 tests/container/check_deployments.py DIRECTORY
 
-The files parse; every service and pod is confined as docs/operations.md says; flags that they give to programs exist
-(build/release/bin/... --help); names that refer to each other agree. Prints one line a problem; exit code 1 if there is one.
+The files parse; every service and pod is confined as docs/operations.md says; flags that they give to programs exist (DIRECTORY
+holds what `rollgaitd --help` and `rollgait-agent --help` print, in files of these names); names that refer to each other agree.
+Prints one line a problem; exit code 1 if there is one.
 """
 import json
 import pathlib
@@ -24,8 +25,9 @@ def expect(holds, where, what):
 
 
 def flags_of(program):
-    text = subprocess.run([ROOT / "build/release/bin" / program, "--help"], capture_output=True, text=True, check=True).stdout
-    return set(re.findall(r"--[a-z][a-z0-9-]*", text))
+    flags = set(re.findall(r"--[a-z][a-z0-9-]*", (pathlib.Path(sys.argv[1]) / program).read_text()))
+    expect("--log-level" in flags, program, "its --help names no flags")
+    return flags
 
 
 FLAGS = {program: flags_of(program) for program in ("rollgaitd", "rollgait-agent")}

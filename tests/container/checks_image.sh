@@ -8,6 +8,12 @@ refused() {
   in_image "$@" || code=$?
   [ $code != 0 ] && [ $code != 127 ] && [ $code != 126 ]
 }
+deployments_are_right() {
+  local program
+  mkdir -p "$work/help"
+  for program in rollgaitd rollgait-agent; do in_image $program --help > "$work/help/$program" || return 1; done
+  python3 $here/check_deployments.py "$work/help"
+}
 no_compiler() { ! in_image sh -c 'command -v gcc g++ cc ld make cmake python3 curl'; }
 inspect() { pod inspect --format "$1" "$image"; }
 

@@ -60,7 +60,7 @@ tear_down_containers() {
   [ "${failed:-0}" = 0 ] || echo "Logs of the containers are in $logs."
   pod rm -fa -t 0 > /dev/null 2>&1 || true
   pod network rm -f $network > /dev/null 2>&1 || true
-  umount -q "$work/storage/overlay" 2> /dev/null || true
+  umount -qR "$work/storage/overlay" 2> /dev/null || true  # after an interruption layers are mounted below it
   rm -rf --one-file-system "$work" || true
 }
 
@@ -89,14 +89,43 @@ make_base_image() {
     { cat "$logs/first.log" >&2; fail "podman cannot run a container here; runc's reason is above"; }
 }
 
+# Programs from elsewhere, where the image can be built from: only what lies in this repository can.
+take_programs() {
+  local from=$1 program
+  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate; do
+    [ -x "$from/$program" ] || fail "--programs $from holds no program $program"
+  done
+  [ -s "$from/runtime-packages" ] ||
+    fail "--programs $from has no list of packages; where they were built: docker/runtime-packages $from > $from/runtime-packages"
+  rm -rf build/container-programs
+  mkdir -p build/container-programs
+  cp "$from"/rollgait "$from"/rollgaitd "$from"/rollgait-* "$from/runtime-packages" build/container-programs/
+}
+
 build_image() {
-  if [ "$1" = prebuilt ]; then
-    [ -x build/release/bin/rollgaitd ] || fail "build/release/bin holds no programs; run scripts/build first"
-    docker/runtime-packages build/release/bin > build/release/runtime-packages
-  fi
-  local begun=$SECONDS
+  local -a arguments=(--build-arg "BASE=$base")
+  local advice=""
+  case $1 in
+    prebuilt)
+      [ -x build/release/bin/rollgaitd ] || fail "build/release/bin holds no programs; run scripts/build first"
+      docker/runtime-packages build/release/bin > build/release/runtime-packages
+      arguments+=(--build-arg PROGRAMS=prebuilt)
+      ;;
+    */*)
+      take_programs "$1"
+      arguments+=(--build-arg PROGRAMS=prebuilt --build-arg PREBUILT=build/container-programs
+        --build-arg PACKAGES=build/container-programs/runtime-packages)
+      advice="; were the programs in $1 built on Debian $suite?"
+      ;;
+    compile) arguments+=(--build-arg PROGRAMS=compile) ;;
+  esac
+  local begun=$SECONDS program
   pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
-    --build-arg "BASE=$base" --build-arg "PROGRAMS=$1" . > "$logs/build.log" 2>&1 ||
-    { tail -n 30 "$logs/build.log" >&2; fail "the image could not be built; the end of $logs/build.log is above"; }
+    "${arguments[@]}" . > "$logs/build.log" 2>&1 ||
+    { tail -n 30 "$logs/build.log" >&2; fail "the image could not be built; the end of $logs/build.log is above$advice"; }
+  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate; do
+    pod run --rm "${limits[@]}" "${unattended[@]}" --network none "$image" $program --version > "$logs/first-start.log" 2>&1 ||
+      { cat "$logs/first-start.log" >&2; fail "$program does not start in the image; its reason is above$advice"; }
+  done
   echo "  built in $((SECONDS - begun)) s"
 }
