@@ -19,27 +19,44 @@ std::string NumberText(double value) {
   return value > 0 ? "+infinity" : "-infinity";
 }
 
+// Where a walk is: a field, or an element of it, of the message that `within` leads to. Paths become text only where something is
+// wrong.
+struct Place {
+  const Place* within;  // null: the request itself
+  const FieldDescriptor& field;
+  int index = -1;                    // of an element
+  const std::string* key = nullptr;  // of an entry of a map
+
+  std::string Text() const {
+    std::string text = within == nullptr ? "" : within->Text() + ".";
+    text += std::string(field.name());
+    if (index >= 0) text += "[" + std::to_string(index) + "]";
+    if (key != nullptr) text += "[\"" + *key + "\"]";
+    return text;
+  }
+};
+
 // Walks one message tree and collects what is wrong.
 class Walker {
  public:
+  explicit Walker(const std::string& prefix) : prefix_(prefix) {}
   Violations Take() { return std::move(violations_); }
 
-  // `path` ends with "." or is empty.
-  void Visit(const Message& message, const std::string& path) {
+  void Visit(const Message& message, const Place* place) {
     const Reflection& reflection = *message.GetReflection();
     const auto& unknown = reflection.GetUnknownFields(message);
     if (unknown.field_count() > 0) {
-      violations_.push_back({path + std::to_string(unknown.field(0).number()),
+      violations_.push_back({prefix_ + (place == nullptr ? "" : place->Text() + ".") + std::to_string(unknown.field(0).number()),
                              "is a field number of " + std::string(message.GetDescriptor()->full_name()) +
                                  " that this server does not know; use a client of the server's version"});
     }
     std::vector<const FieldDescriptor*> fields;
     reflection.ListFields(message, &fields);
-    for (const FieldDescriptor* field : fields) VisitField(message, *field, path + std::string(field->name()));
+    for (const FieldDescriptor* field : fields) VisitField(message, *field, place);
   }
 
  private:
-  void VisitField(const Message& message, const FieldDescriptor& field, const std::string& path) {
+  void VisitField(const Message& message, const FieldDescriptor& field, const Place* within) {
     const Reflection& reflection = *message.GetReflection();
     if (field.is_map()) {
       for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
@@ -47,57 +64,59 @@ class Walker {
         const FieldDescriptor& key = *field.message_type()->map_key();
         const FieldDescriptor& value = *field.message_type()->map_value();
         const std::string name = entry.GetReflection()->GetString(entry, &key);
-        VisitValue(entry, value, -1, path + "[\"" + name + "\"]");
+        VisitValue(entry, value, -1, {within, field, -1, &name});
       }
     } else if (field.is_repeated()) {
       for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
-        VisitValue(message, field, i, path + "[" + std::to_string(i) + "]");
+        VisitValue(message, field, i, {within, field, i});
       }
     } else {
-      VisitValue(message, field, -1, path);
+      VisitValue(message, field, -1, {within, field});
     }
   }
 
   // One value: element `index` of a repeated field, or a single field if the index is -1.
-  void VisitValue(const Message& message, const FieldDescriptor& field, int index, const std::string& path) {
+  void VisitValue(const Message& message, const FieldDescriptor& field, int index, const Place& place) {
     const Reflection& reflection = *message.GetReflection();
     switch (field.cpp_type()) {
       case FieldDescriptor::CPPTYPE_DOUBLE:
         CheckFinite(
             index < 0 ? reflection.GetDouble(message, &field) : reflection.GetRepeatedDouble(message, &field, index),
-            path);
+            place);
         break;
       case FieldDescriptor::CPPTYPE_FLOAT:
         CheckFinite(
             index < 0 ? reflection.GetFloat(message, &field) : reflection.GetRepeatedFloat(message, &field, index),
-            path);
+            place);
         break;
       case FieldDescriptor::CPPTYPE_ENUM:
         CheckEnum(field,
                   index < 0 ? reflection.GetEnumValue(message, &field)
                             : reflection.GetRepeatedEnumValue(message, &field, index),
-                  path);
+                  place);
         break;
       case FieldDescriptor::CPPTYPE_MESSAGE:
         Visit(
             index < 0 ? reflection.GetMessage(message, &field) : reflection.GetRepeatedMessage(message, &field, index),
-            path + ".");
+            &place);
         break;
       default:
         break;
     }
   }
 
-  void CheckFinite(double value, const std::string& path) {
-    if (!std::isfinite(value)) violations_.push_back({path, "is " + NumberText(value) + ", must be a finite number"});
+  void CheckFinite(double value, const Place& place) {
+    if (std::isfinite(value)) return;
+    violations_.push_back({prefix_ + place.Text(), "is " + NumberText(value) + ", must be a finite number"});
   }
 
-  void CheckEnum(const FieldDescriptor& field, int value, const std::string& path) {
+  void CheckEnum(const FieldDescriptor& field, int value, const Place& place) {
     if (field.enum_type()->FindValueByNumber(value) != nullptr) return;
-    violations_.push_back({path, "is " + std::to_string(value) + ", which " +
+    violations_.push_back({prefix_ + place.Text(), "is " + std::to_string(value) + ", which " +
                                      std::string(field.enum_type()->full_name()) + " does not have"});
   }
 
+  const std::string prefix_;
   Violations violations_;
 };
 
@@ -116,8 +135,8 @@ size_t FieldBytes(const Message& message, const FieldDescriptor& field) {
 }  // namespace
 
 Violations CheckWellFormed(const Message& message, const std::string& prefix) {
-  Walker walker;
-  walker.Visit(message, prefix);
+  Walker walker(prefix);
+  walker.Visit(message, nullptr);
   return walker.Take();
 }
 

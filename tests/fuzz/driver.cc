@@ -46,11 +46,27 @@ std::vector<std::string> Seeds(const std::string& folder) {
   return seeds;
 }
 
-void RunOne(const std::string& input) {
-  current = reinterpret_cast<const uint8_t*>(input.data());
-  current_size = input.size();
+void RunOne(const uint8_t* data, size_t size) {
+  current = data;
+  current_size = size;
   LLVMFuzzerTestOneInput(current, current_size);
 }
+
+// An input that changes.
+class Input {
+ public:
+  void Assign(const std::string& seed) {
+    size_ = std::min(seed.size(), kMaxSize);
+    std::copy_n(seed.begin(), size_, bytes_.begin());
+  }
+  void Assign(size_t size) { size_ = size; }
+  uint8_t* data() { return bytes_.data(); }
+  size_t size() const { return size_; }
+
+ private:
+  std::vector<uint8_t> bytes_ = std::vector<uint8_t>(kMaxSize);
+  size_t size_ = 0;
+};
 
 }  // namespace
 
@@ -102,24 +118,28 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) ::signal(signal, KeepInput);
   google::protobuf::SetLogHandler(nullptr);  // it reports every text that is not UTF-8
   random_bytes.seed(seed);
-  const std::vector<std::string> seeds = Seeds(corpus);
+  std::vector<std::string> seeds = Seeds(corpus);
   if (seeds.empty()) {
     std::fprintf(stderr, "%s holds no seeds\n", corpus.c_str());
     return 2;
   }
-  for (const std::string& input : seeds) RunOne(input);
-  const auto start = std::chrono::steady_clock::now();
-  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  std::string input;
+  Input input;
+  for (std::string& start : seeds) {
+    input.Assign(start);
+    RunOne(input.data(), input.size());
+    if (FuzzSeedToChange == nullptr) continue;
+    input.Assign(FuzzSeedToChange(input.data(), input.size(), kMaxSize));
+    RunOne(input.data(), input.size());
+    start.assign(input.data(), input.data() + input.size());
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   int64_t done = 0;
   for (; done < runs && (done % 1024 != 0 || passed() < seconds_at_most); ++done) {
     // Changes pile up for a while, so that inputs also come far from the seeds.
-    if (done % 8 == 0) input = seeds[random_bytes() % seeds.size()];
-    const size_t size = input.size();
-    input.resize(kMaxSize);
-    input.resize(LLVMFuzzerCustomMutator(reinterpret_cast<uint8_t*>(input.data()), std::min(size, kMaxSize), kMaxSize,
-                                         static_cast<unsigned>(random_bytes())));
-    RunOne(input);
+    if (done % 8 == 0) input.Assign(seeds[random_bytes() % seeds.size()]);
+    input.Assign(LLVMFuzzerCustomMutator(input.data(), input.size(), kMaxSize, static_cast<unsigned>(random_bytes())));
+    RunOne(input.data(), input.size());
   }
   const double seconds = passed();
   std::printf("%zu seeds and %lld changed inputs in %.1f s (%.0f/s): no promise broken\n", seeds.size(),

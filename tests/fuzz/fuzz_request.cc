@@ -11,9 +11,13 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
   return fuzz::MutateAsMessage<v1::CreateSolveRequest>(data, size, max_size, seed);
 }
 
+extern "C" size_t FuzzSeedToChange(uint8_t* data, size_t size, size_t max_size) {
+  return fuzz::SeedAsBytes<v1::CreateSolveRequest>(data, size, max_size);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const server::GaitKnowledge knowledge = server::MakeCoreKnowledge();
-  v1::CreateSolveRequest request;
+  static v1::CreateSolveRequest request;  // its memory is used again
   if (!fuzz::ParseInput(data, size, &request)) return 0;
   Violations violations = server::CheckSize(request);
   if (violations.empty()) violations = server::CheckWellFormed(request, "");
@@ -27,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   ROLLGAIT_CHECK(!request.spec().model().name().empty());
   const std::string canonical = server::CanonicalBytes(request.spec());
-  v1::SolveSpec again;
+  static v1::SolveSpec again;
   ROLLGAIT_CHECK(again.ParseFromString(canonical) && server::CanonicalBytes(again) == canonical);
   return 0;
 }

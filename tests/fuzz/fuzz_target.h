@@ -21,6 +21,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size, unsigned seed);
 // libFuzzer's and the driver's own change of bytes.
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
+// A target whose seeds are readable texts may define this: the form of a seed that changes start from. It is run as it
+// is, too.
+extern "C" __attribute__((weak)) size_t FuzzSeedToChange(uint8_t* data, size_t size, size_t max_size);
 
 namespace rollgait::fuzz {
 
@@ -37,13 +40,22 @@ inline bool ParseInput(const uint8_t* data, size_t size, google::protobuf::Messa
 template <typename Message>
 size_t MutateAsMessage(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   MessageMutator mutator(seed);
-  Message message;
+  static Message message;  // its memory is used again
+  static std::string bytes;
   if (mutator.Pick(4) == 0 || !ParseInput(data, size, &message)) return LLVMFuzzerMutate(data, size, max_size);
   for (unsigned k = 1 + mutator.Pick(4); k > 0; --k) mutator.Mutate(&message);
-  const std::string bytes = message.SerializeAsString();
-  if (bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
+  if (!message.SerializeToString(&bytes) || bytes.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
   std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(data));
   return bytes.size();
+}
+
+// The bytes of a message for its JSON, which takes long to read; anything else stays as it is.
+template <typename Message>
+size_t SeedAsBytes(uint8_t* data, size_t size, size_t max_size) {
+  Message message;
+  if (!ParseInput(data, size, &message) || message.ByteSizeLong() > max_size) return size;
+  message.SerializeToArray(data, static_cast<int>(max_size));
+  return message.ByteSizeLong();
 }
 
 // Every violation names a field of the message and says something.

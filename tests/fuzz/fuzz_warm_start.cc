@@ -10,6 +10,10 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
   return fuzz::MutateAsMessage<v1::SolveResult>(data, size, max_size, seed);
 }
 
+extern "C" size_t FuzzSeedToChange(uint8_t* data, size_t size, size_t max_size) {
+  return fuzz::SeedAsBytes<v1::SolveResult>(data, size, max_size);
+}
+
 namespace {
 
 GaitSpec Spec() {
@@ -22,7 +26,7 @@ GaitSpec Spec() {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const GaitSpec spec = Spec();
-  v1::SolveResult result;
+  static v1::SolveResult result;  // its memory is used again
   if (!fuzz::ParseInput(data, size, &result)) return 0;
   const Result<WarmStart> start = server::DecodeWarmStart(result.trajectory(), result.multipliers(), spec);
   if (start.ok()) return 0;
