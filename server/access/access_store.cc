@@ -83,7 +83,7 @@ Outcome<std::vector<TokenRecord>> AccessStore::ListTokens() {
 }
 
 Outcome<std::optional<TokenRecord>> AccessStore::FindToken(const std::string& id) {
-  return database_.Read(
+  return database_.ReadOne(
       [&](SqlConnection& connection) -> Outcome<std::optional<TokenRecord>> { return Find(connection, id); });
 }
 
@@ -125,7 +125,7 @@ Outcome<Done> AccessStore::SetTenant(const std::string& tenant, const TenantOver
 }
 
 Outcome<TenantOverrides> AccessStore::FindTenant(const std::string& tenant) {
-  return database_.Read([&](SqlConnection& connection) -> Outcome<TenantOverrides> {
+  return database_.ReadOne([&](SqlConnection& connection) -> Outcome<TenantOverrides> {
     TenantOverrides found;
     Query query(connection, "SELECT max_queued, max_running, max_watches, creates_per_s FROM tenants WHERE tenant = ?",
                 tenant);

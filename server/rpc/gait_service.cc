@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <iterator>
 #include <utility>
 
 #include "server/rpc/call_record.h"
@@ -21,6 +22,12 @@ grpc::Status Report(const std::string& peer, const Error& error) {
     spdlog::debug("call of {} refused: {}", peer, error.message);
   }
   return ToStatus(error);
+}
+
+// A slice that keeps the bytes, which are not copied.
+grpc::Slice Owning(std::string bytes) {
+  auto* const owned = new std::string(std::move(bytes));
+  return grpc::Slice(owned->data(), owned->size(), [](void* text) { delete static_cast<std::string*>(text); }, owned);
 }
 
 Error TooManyCalls() {
@@ -47,19 +54,16 @@ Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule, con
   });
 }
 
-template <typename Request, typename Response>
-grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::CallbackServerContext* context,
-                                                 const Request* request, Response* response,
-                                                 Outcome<Response> (SolveService::*method)(const Caller&, const Request&)) {
+template <typename Serve>
+grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   Outcome<Admit> admit = Enter(rule, *context);
   if (!admit.ok()) {
     reactor->Finish(Report(context->peer(), admit.error()));
     return reactor;
   }
-  // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method) otherwise.
-  const bool taken = executor_.TryPost([&service = service_, &gatekeeper = gatekeeper_, decide = std::move(admit).value(), context,
-                                        reactor, request, response, method] {
+  const bool taken = executor_.TryPost([&gatekeeper = gatekeeper_, decide = std::move(admit).value(), context, reactor,
+                                        serve = std::move(serve)] {
     const Outcome<std::shared_ptr<Admission>> admitted = decide();
     const LogFields fields = FieldsOf(*context);
     const LogScope scope(fields);
@@ -68,17 +72,29 @@ grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::C
       return;
     }
     const Caller& caller = admitted.value()->caller();
-    Outcome<Response> outcome = (service.*method)(caller, *request);
-    if (outcome.ok()) {
-      *response = std::move(outcome).value();
+    const Outcome<Done> served = serve(caller);
+    if (served.ok()) {
       reactor->Finish(grpc::Status::OK);
     } else {
-      gatekeeper.Note(caller, outcome.error());
-      reactor->Finish(Report(context->peer(), outcome.error()));
+      gatekeeper.Note(caller, served.error());
+      reactor->Finish(Report(context->peer(), served.error()));
     }
   });
   if (!taken) reactor->Finish(ToStatus(TooManyCalls()));
   return reactor;
+}
+
+template <typename Request, typename Response>
+grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                 const Request* request, Response* response,
+                                                 Outcome<Response> (SolveService::*method)(const Caller&, const Request&)) {
+  // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method) otherwise.
+  return AnswerBy(rule, context, [&service = service_, request, response, method](const Caller& caller) -> Outcome<Done> {
+    Outcome<Response> outcome = (service.*method)(caller, *request);
+    if (!outcome.ok()) return outcome.error();
+    *response = std::move(outcome).value();
+    return Done{};
+  });
 }
 
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
@@ -132,9 +148,21 @@ grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContex
   return Answer(RuleOf("CreateSolve"), context, request, response, &SolveService::CreateSolve);
 }
 
-grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context,
-                                                   const v1::GetSolveRequest* request, v1::Solve* response) {
-  return Answer(RuleOf("GetSolve"), context, request, response, &SolveService::GetSolve);
+grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                                   grpc::ByteBuffer* response) {
+  const auto get = [&service = service_, request, response](const Caller& caller) -> Outcome<Done> {
+    v1::GetSolveRequest message;
+    grpc::ByteBuffer bytes(*request);
+    if (!grpc::SerializationTraits<v1::GetSolveRequest>::Deserialize(&bytes, &message).ok()) {
+      return Error{ErrorCode::kInvalidArgument, "the request is not a rollgait.v1.GetSolveRequest"};
+    }
+    Outcome<SolveBytes> solve = service.GetSolve(caller, message);
+    if (!solve.ok()) return solve.error();
+    const grpc::Slice parts[] = {grpc::Slice(solve.value().head), Owning(std::move(solve.value().result))};
+    *response = grpc::ByteBuffer(parts, std::size(parts));
+    return Done{};
+  };
+  return AnswerBy(RuleOf("GetSolve"), context, get);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::ListSolves(grpc::CallbackServerContext* context,

@@ -20,7 +20,7 @@ namespace rollgait::server {
 
 // rollgait.v1.GaitService on the callback API. Every call passes the gatekeeper: Check at once, Admit on the executor, where it is
 // answered.
-class GaitServiceRpc final : public v1::GaitService::CallbackService {
+class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSolve<v1::GaitService::CallbackService> {
  public:
   // All outlive the gRPC server that this is registered with.
   GaitServiceRpc(SolveService& service, WatchHub& hub, Gatekeeper& gatekeeper, Executor& executor,
@@ -39,8 +39,9 @@ class GaitServiceRpc final : public v1::GaitService::CallbackService {
                                                        const v1::WatchSolveRequest* request) override;
   grpc::ServerUnaryReactor* CreateSolve(grpc::CallbackServerContext* context, const v1::CreateSolveRequest* request,
                                         v1::Solve* response) override;
-  grpc::ServerUnaryReactor* GetSolve(grpc::CallbackServerContext* context, const v1::GetSolveRequest* request,
-                                     v1::Solve* response) override;
+  // The answer is put together from bytes: stored results go out without being read.
+  grpc::ServerUnaryReactor* GetSolve(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
+                                     grpc::ByteBuffer* response) override;
   grpc::ServerUnaryReactor* ListSolves(grpc::CallbackServerContext* context, const v1::ListSolvesRequest* request,
                                        v1::ListSolvesResponse* response) override;
   grpc::ServerUnaryReactor* CancelSolve(grpc::CallbackServerContext* context, const v1::CancelSolveRequest* request,
@@ -64,6 +65,9 @@ class GaitServiceRpc final : public v1::GaitService::CallbackService {
 
   // The first half of the decision; an error of the gatekeeper becomes the answer of the second.
   Outcome<Admit> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
+  // Answers a unary call: `serve` is called on the executor with the caller, fills the response and returns Outcome<Done>.
+  template <typename Serve>
+  grpc::ServerUnaryReactor* AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve);
   // Answers a unary call with (service_.*method)(caller, request).
   template <typename Request, typename Response>
   grpc::ServerUnaryReactor* Answer(const MethodRule& rule, grpc::CallbackServerContext* context, const Request* request,

@@ -1,5 +1,8 @@
 #include "server/service/solve_message.h"
 
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
 #include <utility>
 
 namespace rollgait::server {
@@ -45,6 +48,23 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
   solve.set_from_cache(record.from_cache);
   solve.set_last_sequence(record.last_sequence);
   return solve;
+}
+
+Outcome<SolveBytes> ToSolveBytes(SolveRecord record) {
+  SolveBytes bytes;
+  bytes.result = std::exchange(record.result, {});
+  const Outcome<v1::Solve> rest = ToSolve(record);
+  if (!rest.ok()) return rest.error();
+  bytes.head = rest.value().SerializeAsString();
+  if (bytes.result.empty()) return bytes;
+  constexpr uint32_t kLengthDelimited = 2;
+  {  // the streams end, and with them the head, before it is moved
+    google::protobuf::io::StringOutputStream stream(&bytes.head);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.WriteTag(v1::Solve::kResultFieldNumber << 3 | kLengthDelimited);
+    coded.WriteVarint32(static_cast<uint32_t>(bytes.result.size()));
+  }
+  return bytes;
 }
 
 Outcome<v1::SolveEvent> ToEvent(const std::string& id, const StoredEvent& event) {

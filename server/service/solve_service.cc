@@ -97,13 +97,13 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   return ToSolve(record);
 }
 
-Outcome<v1::Solve> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request) {
+Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request) {
   const Outcome<std::string> id = SolveId(request.name());
   if (!id.ok()) return id.error();
-  const Outcome<SolveRecord> record = store_.Get(id.value());
+  Outcome<SolveRecord> record = store_.Get(id.value());
   if (!record.ok()) return record.error();
   if (caller.sees().value_or(record.value().tenant) != record.value().tenant) return NoSuchSolve(id.value());
-  return ToSolve(record.value());
+  return ToSolveBytes(std::move(record).value());
 }
 
 Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, const v1::ListSolvesRequest& request) {

@@ -10,6 +10,7 @@
 #include "server/access/caller.h"
 #include "server/base/outcome.h"
 #include "server/service/gait_knowledge.h"
+#include "server/service/solve_message.h"
 #include "server/service/warm_start_search.h"
 #include "server/store/solve_store.h"
 
@@ -36,7 +37,7 @@ class SolveService {
                std::function<void(const std::string& id)> announce);
 
   Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
-  Outcome<v1::Solve> GetSolve(const Caller& caller, const v1::GetSolveRequest& request);
+  Outcome<SolveBytes> GetSolve(const Caller& caller, const v1::GetSolveRequest& request);
   Outcome<v1::ListSolvesResponse> ListSolves(const Caller& caller, const v1::ListSolvesRequest& request);
   Outcome<v1::Solve> CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request);
   Outcome<google::protobuf::Empty> DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request);

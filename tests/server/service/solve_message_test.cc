@@ -60,6 +60,29 @@ TEST(ToSolveTest, CarriesEveryField) {
   EXPECT_EQ(ToSolve(record).error().code, ErrorCode::kInternal);
 }
 
+TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
+  SolveRecord record;
+  record.id = "a";
+  v1::SolveSpec spec;
+  spec.set_slope_rad(0.2);
+  record.spec = spec.SerializeAsString();
+  record.state = SolveState::kSucceeded;
+  record.last_sequence = 9;
+  v1::SolveResult result;
+  result.set_message(std::string(300, 'm'));  // its length takes two bytes
+  for (const std::string& stored : {std::string(), result.SerializeAsString()}) {
+    record.result = stored;
+    const SolveBytes bytes = ToSolveBytes(record).value();
+    EXPECT_EQ(bytes.result, stored);
+    v1::Solve solve;
+    ASSERT_TRUE(solve.ParseFromString(bytes.head + bytes.result));
+    EXPECT_EQ(solve.has_result(), !stored.empty());
+    EXPECT_EQ(solve.SerializeAsString(), ToSolve(record).value().SerializeAsString());
+  }
+  record.error = "\xff\xff";
+  EXPECT_EQ(ToSolveBytes(record).error().code, ErrorCode::kInternal);
+}
+
 TEST(MergeIterationsTest, KeepsTheLastOfEachRunAndAllElse) {
   const auto merged = MergeIterations({Iteration(1), Iteration(2, 3), Iteration(3), Change(4), Iteration(5), Change(6),
                                        Change(7), Iteration(8), Iteration(9)});

@@ -33,7 +33,9 @@ TEST(SolveServiceTest, CreateGetListAndDelete) {
   EXPECT_EQ(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).error().code,
             ErrorCode::kFailedPrecondition);
   bench.Finish(bench.Claim());
-  const v1::Solve done = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).value();
+  const SolveBytes bytes = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).value();
+  v1::Solve done;
+  ASSERT_TRUE(done.ParseFromString(bytes.head + bytes.result));
   EXPECT_EQ(done.state(), v1::SOLVE_STATE_SUCCEEDED);
   EXPECT_EQ(done.result().message(), "found");
   const v1::ListSolvesResponse list = bench.service().ListSolves({}, {}).value();
