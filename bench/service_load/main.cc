@@ -20,13 +20,24 @@ const std::vector<std::pair<std::string, Row (*)(const LoadOptions&)>>& Scenario
   return all;
 }
 
+// What stands between the clients and the server.
+std::string Guards(const TargetOptions& target) {
+  const bool started = target.address.empty();
+  const bool tls = started ? !target.plain_text : !target.tls_ca.empty();
+  const bool token = started ? !target.plain_text : !target.token_file.empty();
+  if (tls) return token ? "TLS and token" : "TLS";
+  return token ? "token" : "plain text";
+}
+
 void AddFlags(CLI::App& app, LoadOptions& options) {
-  app.add_option(
+  CLI::Option* const target = app.add_option(
       "--target", options.target.address,
-      "HOST:PORT of a running server; default: a rollgaitd of this build in a temporary directory. Scenarios "
-      "that need a server of a certain size (queue, slots) expect it to be so");
-  app.add_option("--tls-ca", options.target.tls_ca, "Certificates to trust, PEM; with --target: speak TLS");
-  app.add_option("--token-file", options.target.token_file, "File whose first line is a bearer token");
+      "HOST:PORT of a running server; default: a rollgaitd of this build in a temporary directory, with a certificate and a "
+      "token of its own. Scenarios that need a server of a certain size (queue, slots) expect it to be so");
+  app.add_option("--tls-ca", options.target.tls_ca, "Certificates to trust, PEM: speak TLS to --target")->needs(target);
+  app.add_option("--token-file", options.target.token_file, "File whose first line is a bearer token for --target")->needs(target);
+  app.add_flag("--plain-text", options.target.plain_text, "Start the server without TLS and tokens; default: with both")
+      ->excludes(target);
   app.add_option("--solver", options.target.solver, "Path of rollgait-solve for the server that is started");
   app.add_option("--solver-slots", options.target.solver_slots, "Solves at once; default: one a core")
       ->check(CLI::Range(1, 1024));
@@ -58,7 +69,9 @@ int Main(int argc, char** argv) {
   for (const auto& [known, run] : Scenarios()) {
     if (name != "all" && name != known) continue;
     try {
-      const Row row = run(options);
+      Row row = run(options);
+      row.figures["guards"] = Guards(options.target);
+      row.scenario += ", " + Guards(options.target);
       met = met && row.met;
       std::printf("%s\n", (json ? RowJson(row) : RowText(row)).c_str());
       std::fflush(stdout);

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tests/support/certificates.h"
+
 namespace rollgait::load {
 namespace {
 
@@ -33,35 +35,45 @@ int64_t ResidentBytes(pid_t pid) {
 
 Target::Target(const TargetOptions& options) : address_(options.address) {
   if (!options.token_file.empty()) token_ = FirstLine(options.token_file, "--token-file");
-  grpc::SslCredentialsOptions ssl;
-  if (!options.tls_ca.empty()) {
-    ssl.pem_root_certs = WholeFile(options.tls_ca, "--tls-ca");
-    tls_ = true;
-  }
-  if (address_.empty()) {
-    server::Daemon::Options daemon;
-    daemon.data_dir = directory_.path() + "/data";
-    daemon.solver = options.solver;
-    daemon.flags = {"--solver-slots", std::to_string(options.solver_slots), "--log-level", "warning"};
-    daemon.flags.insert(daemon.flags.end(), options.flags.begin(), options.flags.end());
-    daemon_ = std::make_unique<server::Daemon>(daemon);
-    address_ = daemon_->address();
-    if (address_.empty()) throw std::runtime_error("rollgaitd did not start; its reason is above");
-  }
-  credentials_ = tls_ ? grpc::SslCredentials(ssl) : grpc::InsecureChannelCredentials();
+  if (!options.tls_ca.empty()) authority_ = WholeFile(options.tls_ca, "--tls-ca");
+  if (address_.empty()) Start(options);
+  credentials_ = authority_.empty() ? grpc::InsecureChannelCredentials() : grpc::SslCredentials({authority_, "", ""});
 }
 
-std::unique_ptr<Stub> Target::Connect(Windows windows) const {
+void Target::Start(const TargetOptions& options) {
+  server::Daemon::Options daemon;
+  daemon.data_dir = directory_.path() + "/data";
+  daemon.solver = options.solver;
+  daemon.flags = {"--solver-slots", std::to_string(options.solver_slots), "--log-level", "warning"};
+  if (!options.plain_text) {
+    const Identity authority = MakeAuthority("service_load"), identity = MakeCertificate(authority, "localhost");
+    authority_ = authority.cert;
+    const std::string cert = directory_.path() + "/server.pem", key = directory_.path() + "/server.key";
+    WriteFileAtOnce(cert, identity.cert);
+    WriteFileAtOnce(key, identity.key);
+    daemon.flags.insert(daemon.flags.end(), {"--tls-cert", cert, "--tls-key", key, "--require-token"});
+  }
+  daemon.flags.insert(daemon.flags.end(), options.flags.begin(), options.flags.end());
+  daemon_ = std::make_unique<server::Daemon>(daemon);
+  address_ = daemon_->address();
+  if (address_.empty()) throw std::runtime_error("rollgaitd did not start; its reason is above");
+  if (options.plain_text) return;
+  token_ = server::OutputOfRollgaitd("token create --data-dir " + daemon.data_dir + " --tenant load --scopes read,solve");
+}
+
+std::shared_ptr<grpc::Channel> Target::Open(Windows windows) const {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetMaxReceiveMessageSize(-1);
   if (windows == Windows::kFixed) arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  const auto channel = grpc::CreateCustomChannel(address_, credentials_, arguments);
+  std::shared_ptr<grpc::Channel> channel = grpc::CreateCustomChannel(address_, credentials_, arguments);
   if (!channel->WaitForConnected(std::chrono::system_clock::now() + std::chrono::seconds(20))) {
     throw std::runtime_error("no connection to " + address_ + " within 20 s");
   }
-  return v1::GaitService::NewStub(channel);
+  return channel;
 }
+
+std::unique_ptr<Stub> Target::Connect(Windows windows) const { return v1::GaitService::NewStub(Open(windows)); }
 
 std::vector<std::unique_ptr<Stub>> Target::Connect(int count, Windows windows) const {
   std::vector<std::unique_ptr<Stub>> stubs;

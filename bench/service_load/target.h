@@ -21,14 +21,15 @@ using Stub = v1::GaitService::Stub;
 struct TargetOptions {
   std::string address;     // HOST:PORT of a running server; empty: one is started
   std::string tls_ca;      // file; empty: plain text to a running server
-  std::string token_file;  // first line is the token; empty: none
+  std::string token_file;  // first line is the token for a running server; empty: none
+  bool plain_text = false;  // the server that is started speaks no TLS and asks for no token
   int solver_slots = 2;
   std::string solver;              // path; empty: that of the build
   std::vector<std::string> flags;  // more of them, for the server that is started
 };
 
-// The server that is measured: a running one, or a rollgaitd of this build in a temporary directory, which ends with
-// the target. Throws std::runtime_error with a sentence where there is none to talk to.
+// The server that is measured: a running one, or a rollgaitd of this build in a temporary directory, with a certificate and a
+// token of its own, which ends with the target. Throws std::runtime_error with a sentence where there is none to talk to.
 class Target {
  public:
   explicit Target(const TargetOptions& options);
@@ -37,7 +38,9 @@ class Target {
     kGrowing,  // gRPC probes the connection and lets its flow-control windows grow
     kFixed,    // 64 kB: what a reader does not take stays with the server soon
   };
-  // A stub on a connection of its own.
+  // A connection of its own.
+  std::shared_ptr<grpc::Channel> Open(Windows windows = Windows::kGrowing) const;
+  // A stub on such a one.
   std::unique_ptr<Stub> Connect(Windows windows = Windows::kGrowing) const;
   std::vector<std::unique_ptr<Stub>> Connect(int count, Windows windows = Windows::kGrowing) const;
   // Carries the token.
@@ -47,9 +50,11 @@ class Target {
   const std::string& address() const { return address_; }
 
  private:
+  void Start(const TargetOptions& options);
+
   std::string address_;
   std::string token_;
-  bool tls_ = false;
+  std::string authority_;  // whose certificates are trusted, PEM; empty: plain text
   std::shared_ptr<grpc::ChannelCredentials> credentials_;
   server::TemporaryDirectory directory_;
   std::unique_ptr<server::Daemon> daemon_;
