@@ -62,7 +62,6 @@ TEST(ToSolveTest, CarriesEveryField) {
 
 TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
   SolveRecord record;
-  record.id = "a";
   v1::SolveSpec spec;
   spec.set_slope_rad(0.2);
   record.spec = spec.SerializeAsString();
@@ -70,14 +69,17 @@ TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
   record.last_sequence = 9;
   v1::SolveResult result;
   result.set_message(std::string(300, 'm'));  // its length takes two bytes
-  for (const std::string& stored : {std::string(), result.SerializeAsString()}) {
-    record.result = stored;
-    const SolveBytes bytes = ToSolveBytes(record).value();
-    EXPECT_EQ(bytes.result, stored);
-    v1::Solve solve;
-    ASSERT_TRUE(solve.ParseFromString(bytes.head + bytes.result));
-    EXPECT_EQ(solve.has_result(), !stored.empty());
-    EXPECT_EQ(solve.SerializeAsString(), ToSolve(record).value().SerializeAsString());
+  for (size_t length = 1; length < 100; ++length) {  // the head's string grows at different places
+    record.id = std::string(length, 'a');
+    for (const std::string& stored : {std::string(), result.SerializeAsString()}) {
+      record.result = stored;
+      const SolveBytes bytes = ToSolveBytes(record).value();
+      EXPECT_EQ(bytes.result, stored);
+      v1::Solve solve;
+      ASSERT_TRUE(solve.ParseFromString(bytes.head + bytes.result));
+      EXPECT_EQ(solve.has_result(), !stored.empty());
+      EXPECT_EQ(solve.SerializeAsString(), ToSolve(record).value().SerializeAsString());
+    }
   }
   record.error = "\xff\xff";
   EXPECT_EQ(ToSolveBytes(record).error().code, ErrorCode::kInternal);
