@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -236,15 +237,15 @@ struct Ascent {
 };
 
 // From afar the iterations grow with the number of intervals, from the solution of half as many they do not: meshes with more than
-// kMostFromAfar intervals in a phase are reached by way of coarser ones.
+// kMostFromAfar intervals in all are reached by way of coarser ones.
 Ascent Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, const Mesh& mesh,
               SolveBudget* budget) {
-  constexpr int kMostFromAfar = 24;
+  constexpr int kMostFromAfar = 36;
   // A coarse mesh may slip at half the speed and still lead to a motion that does not; beyond that it leads astray.
   constexpr double kLeadsAstray = 0.5;
   std::vector<Mesh> coarser;
   std::vector<int> intervals = mesh.Intervals();
-  while (*std::max_element(intervals.begin(), intervals.end()) > kMostFromAfar) {
+  while (std::accumulate(intervals.begin(), intervals.end(), 0) > kMostFromAfar) {
     for (int& count : intervals) count = (count + 1) / 2;
     coarser.push_back(Mesh::Uniform(intervals));
   }
