@@ -61,10 +61,13 @@ function(rollgait_library)
   endif()
 endfunction()
 
+# s; ends a test that hangs, and nothing else: with sanitizers on a busy machine the slowest take minutes.
+set(ROLLGAIT_TEST_TIMEOUT 1800)
+
 # rollgait_test(core/base/dual_test.cc DEPS rollgait::base LABELS unit)
 # declares one GoogleTest program per source file; the path below tests/ is its name.
 function(rollgait_test SOURCE)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPS;LABELS" ${ARGN})
   file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}/tests" "${CMAKE_CURRENT_SOURCE_DIR}/${SOURCE}")
   string(REGEX REPLACE "\\.cc$" "" name "${path}")
   string(REPLACE "/" "." target "${name}")
@@ -73,9 +76,6 @@ function(rollgait_test SOURCE)
   target_link_libraries(${target} PRIVATE rollgait_options ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
   rollgait_precompile(${target})
   add_test(NAME ${target} COMMAND ${target})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 1800)  # ends a test that hangs; with sanitizers on a busy machine the slowest take minutes
-  endif()
-  set_tests_properties(${target} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT
+  set_tests_properties(${target} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ROLLGAIT_TEST_TIMEOUT} ENVIRONMENT
     "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/leak_suppressions.txt:print_suppressions=0;UBSAN_OPTIONS=print_stacktrace=1")
 endfunction()
