@@ -23,7 +23,8 @@ make_secrets() {
 }
 # A token for the clients, made in the server's container.
 prepare_clients() {
-  pod exec rollgaitd rollgaitd token create --data-dir /var/lib/rollgait "$@" --tenant test --scopes read,solve > "$work/token" 2> "$logs/token.log"
+  pod exec rollgaitd rollgaitd token create --data-dir /var/lib/rollgait "$@" --tenant test --scopes read,solve > "$work/token" 2> "$logs/token.log" ||
+    { cat "$logs/token.log"; return 1; }
   chmod 0644 "$work/token"
 }
 
