@@ -151,11 +151,11 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
 template <typename L>
 ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
   // Several at once, because each waits for its last comparison.
-  constexpr int kSums = 4;
-  L most[kSums] = {};
+  constexpr int kChains = 4;
+  L most[kChains] = {};
   int i = 0;
-  for (; i + kSums * kWidth<L> <= n; i += kSums * kWidth<L>) {
-    for (int s = 0; s < kSums; ++s) {
+  for (; i + kChains * kWidth<L> <= n; i += kChains * kWidth<L>) {
+    for (int s = 0; s < kChains; ++s) {
       L value;
       std::memcpy(&value, x + i + s * kWidth<L>, sizeof(L));
       value = value < 0 ? -value : value;
@@ -163,7 +163,7 @@ ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
     }
   }
   double largest = 0;
-  for (int s = 0; s < kSums; ++s) {
+  for (int s = 0; s < kChains; ++s) {
     for (int k = 0; k < kWidth<L>; ++k) largest = most[s][k] > largest ? most[s][k] : largest;
   }
   for (; i < n; ++i) {

@@ -13,7 +13,7 @@ SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
   };
   std::iota(source_.begin(), source_.end(), 0);
   std::sort(source_.begin(), source_.end(), [&key](int a, int b) { return key(a) < key(b); });
-  diagonal_.assign(size + 1, 0);
+  first_.assign(size + 1, 0);
   below_.assign(size, 0);
   pattern_.rows.reserve(pattern.size());
   pattern_.columns.reserve(pattern.size());
@@ -21,12 +21,12 @@ SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
     const auto [column, row, e] = key(source_[k]);
     place_[e] = k;
     pattern_.Add(row, column);
-    ++diagonal_[column + 1];
+    ++first_[column + 1];
     if (row == column) ++below_[column];
   }
   for (int j = 0; j < size; ++j) {
-    diagonal_[j + 1] += diagonal_[j];
-    below_[j] += diagonal_[j];
+    first_[j + 1] += first_[j];
+    below_[j] += first_[j];
   }
 }
 
@@ -43,8 +43,8 @@ void SymmetricMatrix::Multiply(const VectorX& x, VectorX* y) const {
   for (int j = 0; j < size_; ++j) {
     const double factor = in[j];
     double sum = 0;
-    for (int e = diagonal_[j]; e < below_[j]; ++e) sum += value[e] * factor;
-    for (int e = below_[j]; e < diagonal_[j + 1]; ++e) {
+    for (int e = first_[j]; e < below_[j]; ++e) sum += value[e] * factor;
+    for (int e = below_[j]; e < first_[j + 1]; ++e) {
       sum += value[e] * in[row[e]];
       out[row[e]] += value[e] * factor;
     }

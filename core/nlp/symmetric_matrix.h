@@ -32,7 +32,7 @@ class SymmetricMatrix {
   int size_;
   SparsityPattern pattern_;
   std::vector<int> place_, source_;  // inverse permutations
-  std::vector<int> diagonal_, below_;  // of a column: its first entry, and its first off the diagonal; below_[j] <= diagonal_[j + 1]
+  std::vector<int> first_, below_;  // of a column: its first entry, and its first below the diagonal
   VectorX values_;
 };
 

@@ -124,6 +124,29 @@ TEST(FrontalLdlt, AnyGroupingIsRight) {
   EXPECT_GT(delayed, 0) << "no trial needed what this test is about";
 }
 
+// Sparse enough that the children of a front reach differently far, and none of them everywhere; what an earlier factorisation has
+// left in the fronts must not show.
+TEST(FrontalLdlt, ForgetsEarlierValues) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    Sample sample(40);
+    for (int i = 0; i < sample.size(); ++i) {
+      sample.Add(i, i, 1 + uniform(random));
+      const int other = static_cast<int>(random() % 40);
+      sample.Add(std::max(i, other), std::min(i, other), uniform(random));
+      sample.groups[static_cast<size_t>(i)] = static_cast<int>(random() % 12);
+    }
+    std::vector<double> earlier;
+    for (double value : sample.values) earlier.push_back(1e3 * (value + uniform(random)));
+    FrontalLdlt factors(sample.size(), sample.pattern, sample.groups);
+    factors.Factorise(earlier.data(), 1e-2);
+    const auto inertia = factors.Factorise(sample.values.data(), 1e-2);
+    EXPECT_EQ(inertia.negative, EigenInertia(sample.dense).negative) << trial;
+    EXPECT_LT(BackwardError(sample, &factors), 1e-13) << trial;
+  }
+}
+
 TEST(FrontalLdlt, AllocatesNothingTheSecondTime) {
   Sample sample = Chain(6, 18, 4, 10, 2);
   std::mt19937 random(3);
