@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rollgait/v1/solve.pb.h"
+#include "server/base/cancel_signal.h"
 
 namespace rollgait::server {
 namespace {
@@ -76,7 +77,7 @@ SteadyTime SolveRun::NextDue() const {
 void SolveRun::Cancel(SteadyTime now) {
   if (cancelled_ || state_ != State::kSolving) return;
   cancelled_ = true;
-  process_.Kill(SIGTERM);
+  process_.Kill(kCancelSignal);
   KillBy(now + context_.kill_after);
 }
 

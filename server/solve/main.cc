@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/gait/optimizing_gait_solver.h"
+#include "server/base/cancel_signal.h"
 #include "server/base/process_limits.h"
 #include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
@@ -45,6 +46,7 @@ int Fail(const std::string& reason) {
 }
 
 int RunWorker(const Flags& flags) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) std::signal(signal, SIG_IGN);  // its agent's to answer
   if (const auto reason = ConfineProcess()) return Fail(*reason);
   if (const auto reason = LimitMemory(flags.memory_limit_mb << 20)) return Fail(*reason);
   if (const auto reason = LimitCpuTime(flags.cpu_limit_s)) return Fail(*reason);
@@ -55,7 +57,7 @@ int RunWorker(const Flags& flags) {
   }
   OptimizingGaitSolver solver;
   return ServeOneRequest(flags.fd, solver, stop_requested, [&](const GaitSpec& spec) {
-    StopOn(SIGTERM);  // until now the default: a solver that has nothing to do simply ends
+    StopOn(kCancelSignal);  // until now the default: a solver that has nothing to do simply ends
     const auto reason = LimitCpuTime(static_cast<int64_t>(std::ceil(spec.max_wall_time)) + kCpuGraceSeconds);
     if (reason) std::cerr << "rollgait-solve: " << *reason << "\n";
   });

@@ -1,5 +1,5 @@
 // Stands in for rollgait-solve in tests of the whole server: as many iterations as solver_limits.max_iterations allows
-// (default 60), 10 ms apart, then an optimal result; on SIGTERM a cancelled one. Its iterations fall from objective 1.
+// (default 60), 10 ms apart, then an optimal result; on kCancelSignal a cancelled one. Its iterations fall from objective 1.
 #include <signal.h>
 #include <unistd.h>
 
@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "server/base/cancel_signal.h"
 #include "server/base/framing.h"
 #include "server/base/wire.pb.h"
 
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
   std::string payload;
   v1::SolveSpec spec;
   if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;
-  signal(SIGTERM, HandleStop);
+  signal(kCancelSignal, HandleStop);
   signal(SIGPIPE, SIG_IGN);
   const int count = spec.solver_limits().has_max_iterations() ? spec.solver_limits().max_iterations() : 60;
   for (int i = 0; i < count && stop_requested == 0; ++i) {

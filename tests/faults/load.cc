@@ -1,5 +1,6 @@
 #include "tests/faults/load.h"
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -56,6 +57,16 @@ std::unique_ptr<Stub> Connect(const std::string& address) {
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 6'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 4'000);
   return v1::GaitService::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
+}
+
+void Verdict::Add(const Verdict& other) {
+  for (int64_t Verdict::*count : {&Verdict::acknowledged, &Verdict::succeeded, &Verdict::dead_letters, &Verdict::lost,
+                                  &Verdict::duplicated, &Verdict::gaps, &Verdict::changed, &Verdict::retried,
+                                  &Verdict::reattached, &Verdict::unexpected}) {
+    this->*count += other.*count;
+  }
+  longest_retry_s = std::max(longest_retry_s, other.longest_retry_s);
+  if (first_problem.empty()) first_problem = other.first_problem;
 }
 
 std::string Verdict::Text() const {

@@ -38,6 +38,8 @@ struct Verdict {
   std::string first_problem;   // of what should be 0
 
   bool good() const { return lost + duplicated + gaps + changed + unexpected == 0 && acknowledged > 0; }
+  // Of two loads, one after the other.
+  void Add(const Verdict& other);
   std::string Text() const;
 };
 

@@ -2,8 +2,8 @@
 //   iterations N   sends N iterations          sleep MS   sleeps
 //   result         sends an optimal result     infeasible   sends a result without a solution
 //   memory         sends KIND_MEMORY_LIMIT     garbage    sends bytes that are no frame
-//   obey           waits for SIGTERM, then sends a cancelled result
-//   hang           waits for ever, deaf to SIGTERM
+//   obey           waits for kCancelSignal, then sends a cancelled result
+//   hang           waits for ever, deaf to kCancelSignal
 //   close          closes its stream and waits for ever
 //   print WORD     prints                      crash      dies by SIGSEGV
 //   xcpu           dies by SIGXCPU             once FILE  dies by SIGSEGV unless FILE exists; makes it
@@ -20,6 +20,7 @@
 #include <sstream>
 #include <string>
 
+#include "server/base/cancel_signal.h"
 #include "server/base/framing.h"
 #include "server/base/wire.pb.h"
 
@@ -47,12 +48,12 @@ void Die(int signal) {
   while (true) pause();
 }
 
-void ObeySigterm() {
+void ObeyCancelSignal() {
   sigset_t set;
   sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
+  sigaddset(&set, kCancelSignal);
   sigprocmask(SIG_BLOCK, &set, nullptr);
-  wire::SolverMessage ready;  // tells the test that SIGTERM is caught now
+  wire::SolverMessage ready;  // tells the test that it is caught now
   ready.mutable_iteration()->set_index(1000);
   Send(ready);
   int signal = 0;
@@ -97,9 +98,9 @@ void Obey(std::istringstream& words) {
     } else if (word == "garbage") {
       if (write(stream, "Killed by a bug\n", 16) != 16) std::abort();
     } else if (word == "obey") {
-      ObeySigterm();
+      ObeyCancelSignal();
     } else if (word == "hang") {
-      ::signal(SIGTERM, SIG_IGN);
+      ::signal(kCancelSignal, SIG_IGN);
       wire::SolverMessage ready;
       ready.mutable_iteration()->set_index(1000);
       Send(ready);

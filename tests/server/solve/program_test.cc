@@ -11,6 +11,7 @@
 
 #include "rollgait/v1/solve_spec.pb.h"
 #include "server/agent/solver_process.h"
+#include "server/base/cancel_signal.h"
 #include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
 
@@ -99,10 +100,19 @@ TEST(SolveProgram, ItIsConfinedBeforeItReadsTheRequest) {
   }
 }
 
-TEST(SolveProgram, SigtermEndsItWithACancelledResult) {
-  const Answer answer = Ask(Options(), Request(100), [](SolverProcess& process) { process.Kill(SIGTERM); });
+TEST(SolveProgram, TheCancelSignalEndsItWithACancelledResult) {
+  const Answer answer = Ask(Options(), Request(100), [](SolverProcess& process) { process.Kill(kCancelSignal); });
   ASSERT_TRUE(answer.last.has_result()) << answer.last.DebugString();
   EXPECT_EQ(answer.last.result().termination(), v1::TERMINATION_CANCELLED);
+}
+
+// A terminal, systemd and Slurm stop every process at once, agents and solvers alike.
+TEST(SolveProgram, SignalsThatStopItsAgentChangeNothing) {
+  const Answer answer = Ask(Options(), Request(16), [](SolverProcess& process) {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) process.Kill(signal);
+  });
+  ASSERT_TRUE(answer.last.has_result()) << answer.last.DebugString();
+  EXPECT_EQ(answer.last.result().termination(), v1::TERMINATION_OPTIMAL) << answer.last.result().message();
 }
 
 TEST(SolveProgram, TheMemoryLimitIsReported) {
