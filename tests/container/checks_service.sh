@@ -16,7 +16,7 @@ make_secrets() {
   mkdir -p "$tls"
   openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -keyout "$tls/ca.key" -out "$tls/ca.crt" -days 2 \
     -subj /CN=test-ca 2>&1
-  make_certificate tls DNS:rollgaitd 2>&1
+  make_certificate tls DNS:rollgaitd,DNS:rollgaitd-pod-0 2>&1
   # As orchestrators hand secrets over: readable by the container's user alone.
   chmod 0600 "$tls/tls.key"
   chown 10001:10001 "$tls/tls.key"

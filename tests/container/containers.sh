@@ -58,6 +58,7 @@ tear_down_containers() {
     pod logs "$container" > "$logs/$(pod inspect --format '{{.Name}}' "$container").log" 2>&1 || true
   done
   [ "${failed:-0}" = 0 ] || echo "Logs of the containers are in $logs."
+  pod pod rm -fa -t 0 > /dev/null 2>&1 || true
   pod rm -fa -t 0 > /dev/null 2>&1 || true
   pod network rm -f $network > /dev/null 2>&1 || true
   umount -qR "$work/storage/overlay" 2> /dev/null || true  # after an interruption layers are mounted below it
