@@ -21,6 +21,7 @@ std::string Details(const grpc::Status& status) {
     if (detail.UnpackTo(&bad_request)) {
       for (const auto& violation : bad_request.field_violations()) {
         text += "\n  " + violation.field() + ": " + violation.description();
+        if (violation.field() == "spec.slope_rad") text += " (1 rad = 57.3 degrees, in which --slope is given)";
       }
     } else if (detail.UnpackTo(&retry)) {
       const double seconds = static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();

@@ -159,7 +159,7 @@ NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
 NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   NlpOptions options;
   options.tolerance = spec.kkt_tolerance;
-  options.initial_barrier = 3e-3;
+  options.initial_barrier = 1e-2;
   options.warm_push = 1e-2;
   options.barrier_tolerance = 1000;
   options.barrier_exponent = 2.2;

@@ -41,6 +41,20 @@ TEST(ExitCodeTest, OfCalls) {
   EXPECT_EQ(code(grpc::StatusCode::INTERNAL), ExitCode::kInternal);
 }
 
+TEST(DescribeTest, ARefusedSlopeNamesTheUnitInWhichItWasGiven) {
+  google::rpc::BadRequest refused;
+  for (const char* field : {"spec.slope_rad", "spec.starts"}) {
+    refused.add_field_violations()->set_field(field);
+    refused.mutable_field_violations()->rbegin()->set_description("2 is outside its range");
+  }
+  google::rpc::Status rich;
+  rich.add_details()->PackFrom(refused);
+  const std::string text =
+      Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "", rich.SerializeAsString()), "create the solve", "host:1");
+  EXPECT_THAT(text, testing::HasSubstr("\n  spec.slope_rad: 2 is outside its range (1 rad = 57.3 degrees, in which --slope is given)\n"));
+  EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 2 is outside its range\n"));
+}
+
 TEST(DescribeTest, ShowsEveryDetail) {
   google::rpc::RetryInfo retry;
   retry.mutable_retry_delay()->set_seconds(2);
