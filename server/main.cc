@@ -46,6 +46,7 @@ constexpr std::chrono::milliseconds kAgentGrace{10'000};
 
 struct Flags {
   std::string data_dir, store;
+  int store_wait_s = kDefaultStoreWaitSeconds;
   double keep_solves_days = 0, keep_events_days = 0, keep_audit_days = 0;
   int64_t keep_solves_mb = 0, reserve_mb = 64;
   std::string listen = "127.0.0.1:50051";
@@ -75,6 +76,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--store", flags.store,
                  "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir; agents may be elsewhere")
       ->envname(kStoreVariable);
+  app.add_option("--store-wait-s", flags.store_wait_s, kStoreWaitHelp)->check(CLI::Range(0, 86400))->capture_default_str();
   app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
       ->capture_default_str();
   app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
@@ -224,7 +226,14 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   location.value().reserve_bytes = flags.reserve_mb << 20;
   if (location.value().is_postgres()) setenv(kStoreVariable, flags.store.c_str(), 1);
   const int solver_slots = SolverSlots(flags, location.value());
-  const auto store = OpenStore(location.value(), clock);
+  bool stopped = false;
+  const auto store =
+      AwaitStore(location.value(), clock, std::chrono::seconds(flags.store_wait_s), [&](std::chrono::milliseconds time) {
+        const timespec limit{time.count() / 1000, time.count() % 1000 * 1'000'000};
+        stopped = sigtimedwait(&end_signals, nullptr, &limit) > 0;
+        return !stopped;
+      });
+  if (stopped) return 0;
   if (!store.ok()) return Fail(store.error().message);
   Metrics metrics("rollgaitd", RollgaitVersion(), SolverBuild(solver.value().set));
   MeasuredStore measured_store(*store.value(), metrics);

@@ -1,5 +1,6 @@
 // rollgait-agent: works on the solves of a store, each in a rollgait-solve of its own.
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
@@ -101,6 +102,8 @@ int Main(int argc, char** argv) {
   app.add_option("--store", place.store, "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir")
       ->envname(kStoreVariable);
   app.add_option("--work-dir", place.work_dir, "With --store: directory of this agent's spool, made if need be; must last");
+  int store_wait_s = kDefaultStoreWaitSeconds;
+  app.add_option("--store-wait-s", store_wait_s, kStoreWaitHelp)->check(CLI::Range(0, 86400))->capture_default_str();
   int lease_s = 15;
   app.add_option("--lease-s", lease_s, "Seconds without a sign of life after which other agents take its solves over")
       ->check(CLI::Range(3, 3600))
@@ -155,7 +158,14 @@ int Main(int argc, char** argv) {
   options.solver_fingerprint = fingerprint.value();
 
   const SystemClock clock;
-  Outcome<std::unique_ptr<SqlStore>> store = OpenStore(location.value(), clock);
+  bool stopped = false;
+  Outcome<std::unique_ptr<SqlStore>> store =
+      AwaitStore(location.value(), clock, std::chrono::seconds(store_wait_s), [&](std::chrono::milliseconds time) {
+        pollfd stop{options.stop_fd, POLLIN, 0};
+        stopped = poll(&stop, 1, static_cast<int>(time.count())) > 0;
+        return !stopped;
+      });
+  if (stopped) return 0;
   if (!store.ok()) return Fail(store.error().message);
   Outcome<std::unique_ptr<HintChannel>> hints = OpenHints(location.value(), options.work_dir, HintRole::kAgent);
   if (!hints.ok()) return Fail(hints.error().message);

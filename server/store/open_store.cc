@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/base/data_dir.h"
+#include "server/base/logging.h"
 #include "server/base/notify.h"
 #include "server/store/postgres_connection.h"
 #include "server/store/postgres_hints.h"
@@ -28,6 +29,18 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
     room = DiskRoom(folder.empty() ? "." : folder, location.reserve_bytes);
   }
   return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, std::move(room));
+}
+
+Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock, std::chrono::seconds wait,
+                                              const std::function<bool(std::chrono::milliseconds)>& sleep) {
+  const auto give_up = std::chrono::steady_clock::now() + wait;
+  while (true) {
+    Outcome<std::unique_ptr<SqlStore>> store = OpenStore(location, clock);
+    const bool may_help = !store.ok() && store.error().code == ErrorCode::kUnavailable && location.is_postgres();
+    if (!may_help || std::chrono::steady_clock::now() >= give_up) return store;
+    LogEvent(spdlog::level::warn, "store.awaited", {{"reason", store.error().message}});
+    if (!sleep(std::chrono::seconds(1))) return store;
+  }
 }
 
 Outcome<std::unique_ptr<HintChannel>> OpenHints(const StoreLocation& location, const std::string& data_dir,

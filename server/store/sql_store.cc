@@ -68,7 +68,7 @@ Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> data
                                                            DiskRoom room) {
   const Outcome<Done> ready = database->PrepareSchema();
   if (!ready.ok()) {
-    return Error{ErrorCode::kUnavailable, "cannot use the store " + database->name() + ": " + ready.error().message};
+    return Error{ready.error().code, "cannot use the store " + database->name() + ": " + ready.error().message};
   }
   return std::unique_ptr<SqlStore>(new SqlStore(std::move(database), clock, std::move(room)));
 }

@@ -60,6 +60,43 @@ TEST(PostgresStoreTest, ANewerSchemaVersionIsRefusedByName) {
   EXPECT_NE(newer.error().message.find("99"), std::string::npos) << newer.error().message;
 }
 
+// Opens the store of a cluster that is down. `sleep` is called between tries, with their number.
+Outcome<std::unique_ptr<SqlStore>> Await(const StoreLocation& location, std::chrono::seconds wait, const std::function<bool(int)>& sleep) {
+  static const FakeClock clock;
+  int tries = 0;
+  return AwaitStore(location, clock, wait, [&](std::chrono::milliseconds) { return sleep(++tries); });
+}
+
+TEST(PostgresStoreTest, ADatabaseThatComesLaterIsAwaitedUntilAStopOrTheEndOfTheWait) {
+  PostgresCluster late;
+  const StoreLocation location = LocateStore(late.Url(), "").value();
+  late.Kill();
+  int slept = 0;
+  const auto count = [&slept](int tries) { return slept = tries, tries < 3; };
+  const auto stopped = Await(location, std::chrono::seconds(60), count);
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(slept, 3);
+  slept = 0;
+  EXPECT_FALSE(Await(location, std::chrono::seconds(0), count).ok());
+  EXPECT_EQ(slept, 0);
+  EXPECT_TRUE(Await(location, std::chrono::seconds(60), [&](int tries) {
+                if (tries == 2) late.Start();
+                return tries < 60;
+              }).ok());
+}
+
+TEST(PostgresStoreTest, WhatWaitingDoesNotCureIsNotAwaited) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const StoreLocation location = LocationFor(directory.path());
+  ASSERT_TRUE(OpenStore(location, clock).ok());
+  PostgresConnection(location.postgres_url).Execute("UPDATE schema_version SET version = 99");
+  bool slept = false;
+  EXPECT_FALSE(Await(location, std::chrono::seconds(60), [&slept](int) { return slept = true; }).ok());
+  EXPECT_FALSE(slept);
+}
+
 TEST(PostgresStoreTest, ManyMayMakeTheTablesAtOnce) {
   const TemporaryDirectory directory;
   const FakeClock clock;
