@@ -5,6 +5,10 @@
 set(ROLLGAIT_PRECOMPILE "" CACHE STRING "Precompile the headers of Eigen, GoogleTest and gRPC: empty, TESTS or ALL")
 set_property(CACHE ROLLGAIT_PRECOMPILE PROPERTY STRINGS "" TESTS ALL)
 
+if(ROLLGAIT_PRECOMPILE STREQUAL "TESTS" AND NOT ROLLGAIT_TESTS)
+  set(ROLLGAIT_PRECOMPILE "")
+endif()
+
 if(ROLLGAIT_PRECOMPILE)
   # A precompiled header fits only where its macros are the same.
   if(ROLLGAIT_PRECOMPILE STREQUAL "ALL")
