@@ -1,5 +1,6 @@
 # Compile options of every target of the project, and the two helpers that declare libraries and tests.
 
+option(ROLLGAIT_UNITY "Compile the files of a library eight at a time: a third of the time; a change compiles more" OFF)
 set(ROLLGAIT_SANITIZE "" CACHE STRING "Sanitizers to build with, for example address,undefined")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -60,6 +61,7 @@ function(rollgait_library)
   target_link_libraries(rollgait_${ARG_NAME} PUBLIC ${ARG_DEPS} PRIVATE rollgait_options ${ARG_PRIVATE_DEPS})
   target_include_directories(rollgait_${ARG_NAME} PUBLIC "${PROJECT_SOURCE_DIR}")
   rollgait_precompile(rollgait_${ARG_NAME})
+  set_target_properties(rollgait_${ARG_NAME} PROPERTIES UNITY_BUILD "${ROLLGAIT_UNITY}")
   if(ROLLGAIT_X86_64_V3 AND NOT ARG_SHARED_BY_BUILDS)
     rollgait_library_twin(${ARG_NAME} "${ARG_SOURCES}" "${ARG_DEPS}" "${ARG_PRIVATE_DEPS}")
   endif()

@@ -9,8 +9,6 @@
 namespace rollgait::client {
 namespace {
 
-Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
 // An unset quaternion is the identity.
 Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
   const Eigen::Quaterniond quaternion(q.w(), q.x(), q.y(), q.z());

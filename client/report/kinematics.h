@@ -9,6 +9,8 @@
 
 namespace rollgait::client {
 
+inline Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
 // Pose of a link frame in the world.
 struct Pose {
   Eigen::Matrix3d rotation;  // link -> world

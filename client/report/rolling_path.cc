@@ -12,8 +12,6 @@ namespace {
 constexpr int kSamples = 201;
 constexpr int kFirstAngle = 3, kJoints = 6;
 
-Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
 void RequireRollingBody(const v1::Model& model) {
   bool good = model.joints_size() == kJoints && model.contacts_size() == 1;
   for (int i = 0; good && i < kJoints; ++i) {

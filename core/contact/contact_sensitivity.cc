@@ -23,8 +23,8 @@ Vector6 At(const Vector3& point, Vector6 wrench) {
 }
 
 // What RowDerivatives says of the motion of one body, whose columns begin at `first`; missing rows are zero.
-struct Side {
-  Side(const RowDerivatives& all, int first) {
+struct SideData {
+  SideData(const RowDerivatives& all, int first) {
     const auto count = all.by_pose.rows();
     by_pose.topRows(count) = all.by_pose.middleCols<6>(first);
     by_twist.topRows(count) = all.by_twist.middleCols<6>(first);
@@ -97,7 +97,7 @@ void ContactSensitivitySolver::AddContact(const TreeContact& contact, const RowD
     wrenches[side] = At(motion_->reference(links[side]), derivatives.wrenches.segment<6>(6 * side));
   }
   for (int side = 0; side < sides; ++side) {
-    const Side of(derivatives, 6 * side);
+    const SideData of(derivatives, 6 * side);
     for (int m : motion_->path(links[side])) {
       const MotionDerivatives::Change by_q = motion_->AlongPosition(links[side], m);
       const MotionDerivatives::Change by_v = motion_->AlongVelocity(links[side], m);

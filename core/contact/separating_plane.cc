@@ -7,7 +7,7 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kMachineEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMaxSupports = 400;
 
 // Up to four points, and the point of their hull next to the origin.
@@ -67,7 +67,7 @@ SeparatingPlane FindSeparatingPlane(const PosedSurface& body_1, const PosedSurfa
   while (plane.support_evaluations < kMaxSupports) {
     simplex.Reduce();
     const double distance = simplex.nearest.norm();
-    if (simplex.size == 4 || distance <= 4 * kEpsilon * largest) {
+    if (simplex.size == 4 || distance <= 4 * kMachineEpsilon * largest) {
       plane.state = SeparatingPlane::State::kNone;
       return plane;
     }
@@ -75,7 +75,7 @@ SeparatingPlane FindSeparatingPlane(const PosedSurface& body_1, const PosedSurfa
     const Vector3 next = support(plane.nu);
     largest = std::max(largest, next.norm());
     const double g = plane.nu.dot(next);
-    if (g > 4 * kEpsilon * largest) {
+    if (g > 4 * kMachineEpsilon * largest) {
       plane.state = SeparatingPlane::State::kFound;
       return plane;
     }

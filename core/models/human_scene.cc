@@ -11,7 +11,7 @@
 namespace rollgait {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 // A segment may be this much shorter or longer than the table has it.
 constexpr double kShortest = 0.7, kLongest = 1.4;
 
@@ -66,9 +66,9 @@ std::string LockProblem(const Joint& joint, double angle, const BodySelection& s
     message << "is fixed already by `" << fixed << "`"
             << (selection.model == "planar" ? ", which is part of the model \"planar\"" : "") << "; leave one of the two out";
   } else if (!(angle >= joint.position_min && angle <= joint.position_max)) {
-    message << "is " << angle << " rad (" << angle / kDegree << " deg); must be within the joint's range, "
-            << joint.position_min << " to " << joint.position_max << " rad (" << joint.position_min / kDegree << " to "
-            << joint.position_max / kDegree << " deg)";
+    message << "is " << angle << " rad (" << angle / kRadiansPerDegree << " deg); must be within the joint's range, "
+            << joint.position_min << " to " << joint.position_max << " rad (" << joint.position_min / kRadiansPerDegree << " to "
+            << joint.position_max / kRadiansPerDegree << " deg)";
   }
   return message.str();
 }

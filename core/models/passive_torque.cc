@@ -8,7 +8,7 @@ namespace rollgait {
 namespace {
 
 constexpr double kPerDegree = 180 / std::numbers::pi;  // 1/deg in 1/rad
-constexpr double kMass = 75;                           // kg, of the measured
+constexpr double kMeasuredMass = 75;                           // kg, of the measured
 constexpr double kAnkle = 0, kKnee = 15, kHip = 10;    // degrees, where the other joints of a shared muscle are
 
 // sign · exp(a + b x) with x in degrees.
@@ -51,9 +51,9 @@ ExponentialSpring Scaled(ExponentialSpring spring, double factor) {
 ExponentialSpring PassiveTorque(const Joint& joint, double mass) {
   const bool sided = joint.name.ends_with("_l") || joint.name.ends_with("_r");
   const std::string name = sided ? joint.name.substr(0, joint.name.size() - 2) : joint.name;
-  if (name == "hip") return Scaled(Hip(), mass / kMass);
-  if (name == "knee") return Scaled(Knee(), mass / kMass);
-  if (name == "ankle") return Scaled(Ankle(), mass / kMass);
+  if (name == "hip") return Scaled(Hip(), mass / kMeasuredMass);
+  if (name == "knee") return Scaled(Knee(), mass / kMeasuredMass);
+  if (name == "ankle") return Scaled(Ankle(), mass / kMeasuredMass);
   return joint.actuated ? AssumedStops(joint) : ExponentialSpring();
 }
 

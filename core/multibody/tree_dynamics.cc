@@ -9,8 +9,8 @@ namespace {
 
 const Vector6 kZero6 = Vector6::Zero();
 
-// Rotation about a unit axis (Rodrigues).
-Matrix3 AxisRotation(const Vector3& axis, double angle) {
+// Rotation about a unit axis, written for itself: BodyDynamics, which judges what this computes, has its own.
+Matrix3 Rodrigues(const Vector3& axis, double angle) {
   const double s = std::sin(angle), c = std::cos(angle);
   Matrix3 r = (1 - c) * axis * axis.transpose();
   r.diagonal().array() += c;
@@ -93,7 +93,7 @@ void TreeDynamics::UpdatePose(int i, double q) {
   }
   axis_[i] << axis_W, origin.cross(axis_W);
   if (!joint.aligned) {
-    R *= AxisRotation(joint.axis, q);
+    R *= Rodrigues(joint.axis, q);
     return;
   }
   const int l = (k + 1) % 3, m = (k + 2) % 3;

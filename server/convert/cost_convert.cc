@@ -1,17 +1,9 @@
 #include "server/convert/cost_convert.h"
 
-#include <map>
-#include <optional>
+#include "server/convert/field_decoding.h"
 
 namespace rollgait::server {
 namespace {
-
-// The optional field `name` of a message as a std::optional.
-#define ROLLGAIT_OPTIONAL(message, name) ((message).has_##name() ? std::optional((message).name()) : std::nullopt)
-
-std::map<std::string, double> DecodeNumbers(const google::protobuf::Map<std::string, double>& numbers) {
-  return {numbers.begin(), numbers.end()};
-}
 
 GaitRequest::Tracking DecodeTracking(const v1::CostTerm::Tracking& tracking) {
   GaitRequest::Tracking decoded;
@@ -70,7 +62,5 @@ GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& c
   }
   return decoded;
 }
-
-#undef ROLLGAIT_OPTIONAL
 
 }  // namespace rollgait::server

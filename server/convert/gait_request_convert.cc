@@ -3,12 +3,10 @@
 #include <utility>
 
 #include "server/convert/cost_convert.h"
+#include "server/convert/field_decoding.h"
 
 namespace rollgait::server {
 namespace {
-
-// The optional field `name` of a message as a std::optional.
-#define ROLLGAIT_OPTIONAL(message, name) ((message).has_##name() ? std::optional((message).name()) : std::nullopt)
 
 class RequestDecoder {
  public:
@@ -30,10 +28,6 @@ class RequestDecoder {
 };
 
 GaitRequest::Range DecodeRange(const v1::Range& range) { return {range.min(), range.max()}; }
-
-std::map<std::string, double> DecodeNumbers(const google::protobuf::Map<std::string, double>& numbers) {
-  return {numbers.begin(), numbers.end()};
-}
 
 std::map<std::string, GaitRequest::Range> DecodeRanges(const google::protobuf::Map<std::string, v1::Range>& ranges) {
   std::map<std::string, GaitRequest::Range> decoded;
@@ -261,8 +255,6 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);
   return request;
 }
-
-#undef ROLLGAIT_OPTIONAL
 
 // An answer has to fit into the trailers of a call; see RequestCheck.
 void Append(Violations violations, Violations* all) {

@@ -20,7 +20,7 @@
 namespace rollgait::server {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 // Descriptors that the server itself may need: the store's connections, agents, simulations, logs.
 constexpr int kOwnDescriptors = 96;
@@ -227,13 +227,13 @@ bool ConnectionAcceptor::HasRoom(const std::string& peer) {
            (count != of_peer_.end() && count->second >= limits_.per_peer);
   };
   if (!full()) return true;
-  if (Clock::now() - last_swept_ < kSweepPause) return false;
+  if (SteadyClock::now() - last_swept_ < kSweepPause) return false;
   ForgetClosed();
   return !full();
 }
 
 void ConnectionAcceptor::ForgetClosed() {
-  last_swept_ = Clock::now();
+  last_swept_ = SteadyClock::now();
   const auto closed = [](const Connection& connection) {
     struct stat info {};
     return fstat(connection.fd, &info) != 0 || info.st_ino != connection.inode || !S_ISSOCK(info.st_mode);
@@ -256,8 +256,8 @@ void ConnectionAcceptor::RefuseWithReserve(int listener) {
 }
 
 void ConnectionAcceptor::LogRefusals() {
-  if (Clock::now() - last_logged_ < std::chrono::seconds(10)) return;
-  last_logged_ = Clock::now();
+  if (SteadyClock::now() - last_logged_ < std::chrono::seconds(10)) return;
+  last_logged_ = SteadyClock::now();
   spdlog::warn("{} connections were closed at once so far: {} are open, the limit is {}, {} from one address", refused_,
                connections_.size(), limits_.total, limits_.per_peer);
 }

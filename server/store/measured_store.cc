@@ -5,7 +5,7 @@
 namespace rollgait::server {
 namespace {
 
-const prometheus::Histogram::BucketBoundaries kSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
+const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                           0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
 constexpr const char* kOperations[] = {"create", "get", "list", "delete", "request_cancel", "read_events", "counts", "read_audit", "claim", "renew_lease",
                                        "append_events", "finish", "give_back", "cancel_requests", "lease_owners", "reclaim", "retain"};
@@ -18,7 +18,7 @@ MeasuredStore::MeasuredStore(SolveStore& store, Metrics& metrics)
       errors_(CounterFamily(metrics, "rollgait_store_errors_total", "Operations that the store could not carry out")),
       solves_(metrics) {
   for (const char* op : kOperations) {
-    seconds_.Add({{"op", op}}, kSeconds);
+    seconds_.Add({{"op", op}}, kCallSeconds);
     errors_.Add({{"op", op}});
   }
 }
@@ -28,7 +28,7 @@ auto MeasuredStore::Measure(const char* op, Call call) -> decltype(call()) {
   const auto start = std::chrono::steady_clock::now();
   auto outcome = call();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-  seconds_.Add({{"op", op}}, kSeconds).Observe(duration.count());
+  seconds_.Add({{"op", op}}, kCallSeconds).Observe(duration.count());
   const bool failed = !outcome.ok() && (outcome.error().code == ErrorCode::kUnavailable || outcome.error().code == ErrorCode::kInternal);
   if (failed) errors_.Add({{"op", op}}).Increment();
   return outcome;

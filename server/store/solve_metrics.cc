@@ -10,7 +10,7 @@
 namespace rollgait::server {
 namespace {
 
-const prometheus::Histogram::BucketBoundaries kSeconds = {0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 120, 300, 600, 1800, 3600};
+const prometheus::Histogram::BucketBoundaries kSolveSeconds = {0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 120, 300, 600, 1800, 3600};
 
 // "TIME_LIMIT" of TERMINATION_TIME_LIMIT or KIND_TIME_LIMIT as "time_limit".
 std::string Label(const std::string& name, const std::string& prefix) {
@@ -76,7 +76,7 @@ void SolveMetrics::CountEnd(const Run& run, SolveState state, const std::string&
   solves_.Add({{"model", run.model}, {"state", StateLabel(state)}, {"termination", termination}}).Increment();
   if (run.start == Clock::time_point{}) return;
   const std::chrono::duration<double> duration = Clock::now() - run.start;
-  seconds_.Add({{"model", run.model}, {"termination", termination}}, kSeconds).Observe(duration.count());
+  seconds_.Add({{"model", run.model}, {"termination", termination}}, kSolveSeconds).Observe(duration.count());
 }
 
 void SolveMetrics::Finished(const Lease& lease, const SolveEnd& end) { CountEnd(Take(lease), end.state, TerminationOf(end)); }
