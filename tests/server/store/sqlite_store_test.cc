@@ -34,7 +34,7 @@ TEST(SqliteStoreTest, FilesThatAreNotOursAreRefused) {
       << "this is a text, and longer than the header of a database would be: " << std::string(200, 'x');
   const auto text = OpenStore({directory.path() + "/text.db"}, clock);
   ASSERT_FALSE(text.ok());
-  EXPECT_EQ(text.error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(text.error().code, ErrorCode::kInternal);
   EXPECT_FALSE(OpenStore({directory.path() + "/no/such/directory.db"}, clock).ok());
 }
 
