@@ -118,7 +118,7 @@ build_image() {
         --build-arg PACKAGES=build/container-programs/runtime-packages)
       advice="; were the programs in $1 built on Debian $suite?"
       ;;
-    compile) arguments+=(--build-arg PROGRAMS=compile --build-arg "CMAKE_OPTIONS=-DROLLGAIT_X86_64_V3=OFF -DROLLGAIT_UNITY=OFF") ;;
+    compile) arguments+=(--build-arg PROGRAMS=compile) ;;
   esac
   local begun=$SECONDS program
   pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
