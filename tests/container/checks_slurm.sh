@@ -6,9 +6,10 @@ build_slurm() {
     -t localhost/slurm:test --build-arg "IMAGE=$image" tests/container > "$logs/build-slurm.log" 2>&1 ||
     { tail -n 20 "$logs/build-slurm.log"; return 1; }
 }
-# The daemons of Slurm start jobs as other users, so this container alone is not confined.
+# The daemons of Slurm start jobs as other users, and ask for a user's environment in a namespace of processes, so this container alone
+# is not confined.
 start_slurm() {
-  pod run -d --name slurm --hostname slurm "${limits[@]}" "${unattended[@]}" --network "$network" "${pgpass[@]}" \
+  pod run -d --name slurm --hostname slurm --cap-add SYS_ADMIN "${limits[@]}" "${unattended[@]}" --network "$network" "${pgpass[@]}" \
     -v "$PWD/docker/slurm/agents.sbatch:/agents.sbatch:ro" localhost/slurm:test > /dev/null
 }
 # As the user whose solves run there.
@@ -16,7 +17,9 @@ slurm() { pod exec --user 10001 -e HOME=/var/lib/rollgait -w /var/lib/rollgait s
 node_is_idle() { equal "$(slurm sinfo -h -o %T)" idle; }
 submit() { slurm sbatch --parsable --array=1-2 --cpus-per-task=1 "--export=ALL,ROLLGAIT_STORE=$store_url" /agents.sbatch; }
 submit_with_password() {
-  slurm sbatch --wait --array=1 "--export=ALL,ROLLGAIT_STORE=${store_url/@/:secret@}" /agents.sbatch && return 1
+  local code=0
+  slurm timeout 60 sbatch --wait --array=1 "--export=ALL,ROLLGAIT_STORE=${store_url/@/:secret@}" /agents.sbatch || code=$?
+  equal "$code" 2 || { slurm scontrol show job; return 1; }
   slurm sh -c 'cat rollgait-agent-*.log' | grep 'ROLLGAIT_STORE holds a password'
 }
 jobs_are() { equal "$(slurm squeue -h -r -t "$1" | wc -l)" "$2"; }

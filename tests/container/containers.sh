@@ -48,9 +48,10 @@ set_up_containers() {
     { cat "$logs/network.log" >&2; fail "podman cannot make a network here; the container tests cannot run"; }
 }
 
+# No command of podman's may hang the run; the longest but for the image takes two minutes. pod_limit=S pod ... for another limit.
 pod() {
-  podman --runtime runc --root "$work/storage" --runroot "$work/run" --tmpdir "$work/tmp" --network-config-dir "$work/networks" \
-    --cgroup-manager cgroupfs --events-backend file "$@"
+  timeout --kill-after=10 "${pod_limit:-600}" podman --runtime runc --root "$work/storage" --runroot "$work/run" --tmpdir "$work/tmp" \
+    --network-config-dir "$work/networks" --cgroup-manager cgroupfs --events-backend file "$@"
 }
 
 tear_down_containers() {
@@ -121,7 +122,7 @@ build_image() {
     compile) arguments+=(--build-arg PROGRAMS=compile) ;;
   esac
   local begun=$SECONDS program
-  pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
+  pod_limit=2400 pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
     "${arguments[@]}" . > "$logs/build.log" 2>&1 ||
     { tail -n 30 "$logs/build.log" >&2; fail "the image could not be built; the end of $logs/build.log is above$advice"; }
   for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate; do
