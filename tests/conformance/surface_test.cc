@@ -1,7 +1,6 @@
 // What every kind of surface promises, whatever it is: see core/geometry/surface.h.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +15,6 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Rounding of identities: sums of tens of terms; implicit surfaces add the residual of Newton's method.
 constexpr double kRounding = 4096 * kEpsilon;
 constexpr int kNormals = 60;

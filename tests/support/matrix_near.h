@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace rollgait {
+
+// Unit roundoff times two: the distance from 1 to the next number.
+inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Passes if both have the same shape and no entry differs by more than `tolerance` (absolute) or is NaN. For EXPECT_TRUE.
 template <typename A, typename B>

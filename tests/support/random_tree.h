@@ -12,6 +12,9 @@
 
 namespace rollgait::testing {
 
+// Along no axis, m/s^2.
+inline const Vector3 kGravity(1.7, -0.4, -9.6);
+
 inline VectorX RandomVector(std::mt19937& random, int n, double scale = 1) {
   std::uniform_real_distribution<double> uniform(-scale, scale);
   VectorX x(n);

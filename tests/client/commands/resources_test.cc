@@ -47,9 +47,9 @@ TEST_F(ResourceCommandTest, ListTurnsPages) {
 TEST_F(ResourceCommandTest, GetByNameOrId) {
   MakeSolves();
   EXPECT_THAT(Run({"get", "planar"}).out, HasSubstr("solves/planar  optimal"));
-  const Ended json = Run({"get", "solves/planar", "--json"});
+  const Ended printed = Run({"get", "solves/planar", "--json"});
   v1::Solve solve;
-  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json.out, &solve).ok());
+  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(printed.out, &solve).ok());
   EXPECT_EQ(solve.state(), v1::SOLVE_STATE_SUCCEEDED);
   EXPECT_THAT(Run({"get", "endless"}).out, HasSubstr("solves/endless  running"));
   const Ended missing = Run({"get", "nosuch"});
@@ -74,8 +74,8 @@ TEST_F(ResourceCommandTest, Models) {
   EXPECT_THAT(whole.out, HasSubstr("ankle_r"));
   EXPECT_THAT(whole.out, HasSubstr("(0.13, 0.05, 0.06)"));
   v1::Model model;
-  const Ended json = Run({"models", "planar", "--sex", "female", "--stature", "1.6", "--json"});
-  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(json.out, &model).ok());
+  const Ended printed = Run({"models", "planar", "--sex", "female", "--stature", "1.6", "--json"});
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(printed.out, &model).ok());
   EXPECT_EQ(model.selection().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_EQ(model.selection().stature_m(), 1.6);
   EXPECT_EQ(Run({"models", "cat"}).code, 7);

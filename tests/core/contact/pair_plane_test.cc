@@ -1,6 +1,5 @@
 // A surface over a plane: laws that hold for every body and motion, at the extremes of size, shape and spin.
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -14,8 +13,6 @@
 
 namespace rollgait {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct Case {
   PlacedSurface surface;

@@ -2,7 +2,6 @@
 // axes they are written in, mirrors, exchange of the bodies, and the rates of the gap.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -15,7 +14,6 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kCases = 20000;
 
 struct Case {

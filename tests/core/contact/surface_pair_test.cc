@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,6 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 using State = Separation::State;
 
 double G(const PosedSurface& one, const PosedSurface& two, const Vector3& nu) {

@@ -15,8 +15,6 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 constexpr int kCases = 100000;  // of every identity of contact-math 10
 
 struct Sample {

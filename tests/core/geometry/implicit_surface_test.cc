@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -15,8 +14,6 @@
 
 namespace rollgait {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // f(|x/a|²) for any growing f with its first two derivatives: an ellipsoid written in an awkward way.
 class Rescaled : public ConvexFunction {

@@ -1,7 +1,6 @@
 #include "core/geometry/superellipsoid.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -11,8 +10,6 @@
 
 namespace rollgait {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 SupportJet Jet(const Superellipsoid& body, const Vector3& nu) {
   SupportJet jet;

@@ -9,13 +9,14 @@
 #include "core/models/catalog.h"
 #include "core/multibody/tree_dynamics.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/random_tree.h"
 #include "tests/support/seeded_random.h"
 
 namespace rollgait {
 namespace {
 
 constexpr int kStates = 1000;
-const Vector3 kGravity(1.7, 0.3, -9.6);
+using testing::kGravity;
 
 Scene Human(bool toes) {
   BodyRequest request;

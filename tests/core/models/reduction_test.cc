@@ -13,9 +13,8 @@ namespace rollgait {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kGravity;
 using testing::RandomTree;
-
-const Vector3 kGravity(1.5, -0.4, -9.7);
 
 struct Evaluation {
   MatrixX mass;

@@ -15,7 +15,7 @@
 namespace rollgait {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 OrientationChart RandomChart(SeededRandom* random) {
   OrientationChart chart;

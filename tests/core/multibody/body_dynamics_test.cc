@@ -14,10 +14,9 @@
 namespace rollgait {
 namespace {
 
+using testing::kGravity;
 using testing::RandomTree;
 using testing::RandomVector;
-
-const Vector3 kGravity(1.7, -0.4, -9.6);
 
 // A random tree on a smooth motion  q(t) = q + v t + a t²/2.
 class BodyDynamicsTest : public ::testing::TestWithParam<int> {

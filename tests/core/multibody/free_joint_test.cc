@@ -15,10 +15,10 @@
 namespace rollgait {
 namespace {
 
+using testing::kGravity;
 using testing::RandomTree;
 using testing::RandomVector;
 
-const Vector3 kGravity(1.7, -0.4, -9.6);
 constexpr int kArm = 4;  // joints after the floating link
 
 // The arm's joints, attached to the link `base` (which takes the place of the arm's first link).

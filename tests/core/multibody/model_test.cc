@@ -12,8 +12,8 @@
 namespace rollgait {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -81,7 +81,7 @@ struct Refusal {
   const char* message;
 };
 
-class ModelRefusalTest : public testing::TestWithParam<Refusal> {};
+class ModelRefusalTest : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(ModelRefusalTest, NamesFieldAndReason) {
   std::vector<Joint> joints = ValidJoints();
@@ -95,7 +95,7 @@ TEST_P(ModelRefusalTest, NamesFieldAndReason) {
 using Joints = std::vector<Joint>*;
 INSTANTIATE_TEST_SUITE_P(
     All, ModelRefusalTest,
-    testing::Values(
+    ::testing::Values(
         Refusal{"Nothing", [](Joints j) { j->clear(); }, "joints", "empty"},
         Refusal{"EmptyName", [](Joints j) { (*j)[1].name = ""; }, "joints[1].name", "empty"},
         Refusal{"RepeatedName", [](Joints j) { (*j)[3].name = "left"; }, "joints[3].name", "joints[2]"},
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "type"},
         Refusal{"MirrorSigns", [](Joints j) { (*j)[2].mirror_sign = 1; }, "joints[2].mirror_sign", "same"},
         Refusal{"MirrorSignSize", [](Joints j) { (*j)[1].mirror_sign = 0.5; }, "joints[1].mirror_sign", "1 or -1"}),
-    [](const testing::TestParamInfo<Refusal>& refusal) { return std::string(refusal.param.name); });
+    [](const ::testing::TestParamInfo<Refusal>& refusal) { return std::string(refusal.param.name); });
 
 TEST(ModelTest, ReportsEverythingThatIsWrong) {
   std::vector<Joint> joints = ValidJoints();

@@ -16,9 +16,8 @@
 namespace rollgait {
 namespace {
 
+using testing::kGravity;
 using testing::RandomVector;
-
-const Vector3 kGravity(0.8, -1.2, -9.4);
 
 class MotionDerivativesTest : public ::testing::TestWithParam<unsigned> {
  protected:

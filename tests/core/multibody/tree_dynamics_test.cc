@@ -7,10 +7,9 @@
 namespace rollgait {
 namespace {
 
+using testing::kGravity;
 using testing::RandomTree;
 using testing::RandomVector;
-
-const Vector3 kGravity(1.5, -0.4, -9.7);
 
 struct Point {
   VectorX q, v, a;

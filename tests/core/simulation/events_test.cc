@@ -8,28 +8,13 @@
 #include "core/simulation/simulation.h"
 #include "tests/support/matrix_near.h"
 #include "tests/support/passive_walker.h"
+#include "tests/support/recorded_simulation.h"
 #include "tests/support/rolling_scenes.h"
 
 namespace rollgait {
 namespace {
 
-struct Outcome {
-  SimulationReport report;
-  std::vector<SimulationEvent> events;
-  std::vector<SimulationSample> samples;
-};
-
-Outcome SimulateScene(const SimulationScene& scene) {
-  EXPECT_TRUE(CheckScene(scene).empty());
-  Outcome outcome;
-  SimulationObserver observer;
-  observer.sample = [&](const SimulationSample& sample) { return outcome.samples.push_back(sample), true; };
-  observer.event = [&](const SimulationEvent& event) { return outcome.events.push_back(event), true; };
-  Result<SimulationReport> report = Simulate(scene, observer);
-  EXPECT_TRUE(report.ok());
-  if (report.ok()) outcome.report = report.value();
-  return outcome;
-}
+using testing::Record, testing::RecordedSimulation;
 
 // A ball that rolls down on the outside of a fixed ball leaves it where cos θ = 10/17 (solid balls, no slip).
 TEST(Events, ABallLeavesABallAtTenSeventeenths) {
@@ -46,7 +31,7 @@ TEST(Events, ABallLeavesABallAtTenSeventeenths) {
   scene.v.head<3>() = Vector3(0, start / 0.1, 0);
   scene.options.duration = 3;
   scene.options.tolerance = 1e-11;
-  const Outcome outcome = SimulateScene(scene);
+  const RecordedSimulation outcome = Record(scene);
   ASSERT_FALSE(outcome.events.empty());
   EXPECT_EQ(outcome.events[0].kind, SimulationEventKind::kLiftOff);
   const Vector3 p = outcome.events[0].q.tail<3>();
@@ -69,7 +54,7 @@ TEST(Events, ABallTouchesDownOnTimeAndStays) {
   scene.q.tail<3>() = Vector3(0, 0, 1.1);
   scene.v.tail<3>() = Vector3(2, 0, 0);
   scene.options.duration = 1;
-  const Outcome outcome = SimulateScene(scene);
+  const RecordedSimulation outcome = Record(scene);
   ASSERT_EQ(outcome.events.size(), 1u);
   const SimulationEvent& event = outcome.events[0];
   EXPECT_EQ(event.kind, SimulationEventKind::kTouchDown);
@@ -95,13 +80,13 @@ TEST(Events, FrictionIsLostWhereItIsNotEnough) {
   scene.contacts[0].friction = 2.0 / 7 * std::tan(0.01);
   scene.options.duration = 10;
   scene.options.tolerance = 1e-10;
-  Outcome outcome = SimulateScene(scene);
+  RecordedSimulation outcome = Record(scene);
   ASSERT_EQ(outcome.events.size(), 1u);
   EXPECT_EQ(outcome.events[0].kind, SimulationEventKind::kFrictionLoss);
   EXPECT_NEAR(outcome.events[0].time, std::asin(0.01 / 0.3) * 1000 / (2 * M_PI), 0.05);
   EXPECT_EQ(outcome.report.end, SimulationEnd::kDuration);
   scene.contacts[0].friction_loss = FrictionLoss::kStop;
-  outcome = SimulateScene(scene);
+  outcome = Record(scene);
   EXPECT_EQ(outcome.report.end, SimulationEnd::kFrictionLoss);
   EXPECT_EQ(outcome.report.end_time, outcome.events[0].time);
 }
@@ -112,7 +97,7 @@ TEST(Events, APassiveWalkerWalks) {
   scene.options.duration = 30;
   scene.options.output_step = 0.5;
   scene.options.tolerance = 1e-10;
-  const Outcome outcome = SimulateScene(scene);
+  const RecordedSimulation outcome = Record(scene);
   ASSERT_GE(outcome.report.impacts, 10);
   for (size_t i = 0; i < outcome.events.size(); ++i) {
     EXPECT_EQ(outcome.events[i].kind, SimulationEventKind::kTouchDown);
@@ -136,12 +121,12 @@ TEST(Drift, ControlsKeepWhatTheySay) {
   scene.options.duration = 5;
   scene.options.tolerance = 1e-6;
   scene.options.drift = DriftControl::kNone;
-  const double none = SimulateScene(scene).report.max_gap;
+  const double none = Record(scene).report.max_gap;
   scene.options.drift = DriftControl::kBaumgarte;
   scene.options.baumgarte = {30, 1, 30};
-  const double baumgarte = SimulateScene(scene).report.max_gap;
+  const double baumgarte = Record(scene).report.max_gap;
   scene.options.drift = DriftControl::kProjection;
-  const Outcome projected = SimulateScene(scene);
+  const RecordedSimulation projected = Record(scene);
   EXPECT_GT(none, 3 * baumgarte);
   EXPECT_GT(none, 1e-9);
   for (const SimulationSample& sample : projected.samples) EXPECT_LT(std::abs(sample.contacts[0].gap), 1e-6);

@@ -12,34 +12,13 @@
 
 #include "core/simulation/simulation.h"
 #include "tests/support/matrix_near.h"
+#include "tests/support/recorded_simulation.h"
 #include "tests/support/sliding_ball.h"
 
 namespace rollgait {
 namespace {
 
-using testing::kG, testing::kMass, testing::kRadius;
-
-struct Outcome {
-  SimulationReport report;
-  std::vector<SimulationEvent> events;
-  std::vector<SimulationSample> samples;
-};
-
-Outcome Simulated(const SimulationScene& scene) {
-  Outcome outcome;
-  EXPECT_TRUE(CheckScene(scene).empty());
-  SimulationObserver observer;
-  observer.sample = [&](const SimulationSample& sample) {
-    outcome.samples.push_back(sample);
-    return true;
-  };
-  observer.event = [&](const SimulationEvent& event) {
-    outcome.events.push_back(event);
-    return true;
-  };
-  outcome.report = Simulate(scene, observer).value();
-  return outcome;
-}
+using testing::kG, testing::kMass, testing::kRadius, testing::Record, testing::RecordedSimulation;
 
 Vector3 WorldVelocity(const SimulationReport& report) {
   const Eigen::Quaterniond rotation(report.q[0], report.q[1], report.q[2], report.q[3]);
@@ -51,7 +30,7 @@ TEST(Sliding, BallBowledOnTheFlatBeginsToRoll) {
   SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, {v0, 0, 0}, Vector3::Zero());
   scene.options.duration = 2 * begin;
   scene.options.output_step = begin / 7;
-  const Outcome outcome = Simulated(scene);
+  const RecordedSimulation outcome = Record(scene);
   ASSERT_EQ(outcome.events.size(), 1u);
   EXPECT_EQ(outcome.events[0].kind, SimulationEventKind::kStick);
   EXPECT_NEAR(outcome.events[0].time, begin, 1e-9);
@@ -75,7 +54,7 @@ TEST(Sliding, BallBowledUpAnIncline) {
   const double begin = v0 / (along + 3.5 * mu * normal);
   SimulationScene scene = testing::Ball(mu, {-along, 0, -normal}, {v0, 0, 0}, Vector3::Zero());
   scene.options.duration = 1;
-  const Outcome outcome = Simulated(scene);
+  const RecordedSimulation outcome = Record(scene);
   ASSERT_EQ(outcome.events.size(), 1u);
   EXPECT_NEAR(outcome.events[0].time, begin, 1e-9);
   const double rolling = v0 - (along + mu * normal) * begin;
@@ -85,7 +64,7 @@ TEST(Sliding, BallBowledUpAnIncline) {
 // On a slope of tan > 7/2 μ it slides from the start and for ever.
 TEST(Sliding, SteepSlopeNeverLetsItRoll) {
   const double mu = 0.1, slope = 0.6, along = kG * std::sin(slope), normal = kG * std::cos(slope);
-  const Outcome outcome = Simulated(testing::Ball(mu, {along, 0, -normal}, Vector3::Zero(), Vector3::Zero()));
+  const RecordedSimulation outcome = Record(testing::Ball(mu, {along, 0, -normal}, Vector3::Zero(), Vector3::Zero()));
   ASSERT_EQ(outcome.events.size(), 1u);
   EXPECT_EQ(outcome.events[0].kind, SimulationEventKind::kFrictionLoss);
   EXPECT_EQ(outcome.events[0].time, 0);
@@ -109,14 +88,14 @@ TEST(Sliding, SlipThatTurns) {
     w += h / 6 * (a + 2 * b + 2 * c + slope_of(w + h * c));
   }
   scene.options.duration = end;
-  const Outcome outcome = Simulated(scene);
+  const RecordedSimulation outcome = Record(scene);
   EXPECT_TRUE(outcome.events.empty());
   const Vector3 found = outcome.samples.back().contacts[0].slip;
   // kSlidingBlend times the turn within a step over |w|.
   EXPECT_TRUE(MatrixNear(found.head<2>(), w, 1e-7));
   // Later it rolls: tan < 7/2 μ.
   scene.options.duration = 3;
-  const Outcome later = Simulated(scene);
+  const RecordedSimulation later = Record(scene);
   ASSERT_EQ(later.events.size(), 1u);
   EXPECT_EQ(later.events[0].kind, SimulationEventKind::kStick);
   EXPECT_LT(later.samples.back().contacts[0].slip.norm(), 1e-9);
@@ -133,7 +112,7 @@ TEST(Sliding, BoxOnFourFeetStops) {
     foot = {Sphere(0.02), Vector3(k % 2 == 0 ? 0.3 : -0.3, k < 2 ? 0.2 : -0.2, 0.02 - kRadius), Matrix3::Identity()};
   }
   scene.options.duration = 2 * stop;
-  const Outcome outcome = Simulated(scene);
+  const RecordedSimulation outcome = Record(scene);
   EXPECT_EQ(outcome.report.end, SimulationEnd::kDuration);
   ASSERT_FALSE(outcome.events.empty());
   EXPECT_NEAR(outcome.events[0].time, stop, 1e-9);
@@ -164,7 +143,7 @@ TEST(Sliding, BlockOnAShakenPlaneSticksAndSlips) {
   scene.ground[1].phase = M_PI / 2;  // at rest at t = 0, in its outermost place: acceleration −A rate²
   scene.v = VectorX::Zero(2);
   scene.options.duration = 4;
-  const Outcome outcome = Simulated(scene);
+  const RecordedSimulation outcome = Record(scene);
   EXPECT_EQ(outcome.report.end, SimulationEnd::kDuration);
   EXPECT_LT(outcome.report.max_energy_error, 1e-9);
   // Slides from t = 0 at −μ g until the plane, v = −A rate sin(rate t), is as slow.
@@ -195,9 +174,9 @@ TEST(Sliding, JammingIsRefused) {
   scene.q << std::cos(lean / 2), 0, std::sin(lean / 2), 0, 0, 0, std::cos(lean) + 1e-3;
   const Eigen::Quaterniond rotation(scene.q[0], scene.q[1], scene.q[2], scene.q[3]);
   scene.v.tail<3>() = rotation.inverse() * Vector3(-1, 0, 0);
-  EXPECT_EQ(Simulated(scene).report.end, SimulationEnd::kFrictionUndetermined);
+  EXPECT_EQ(Record(scene).report.end, SimulationEnd::kFrictionUndetermined);
   scene.contacts[0].friction = 0.3;
-  EXPECT_NE(Simulated(scene).report.end, SimulationEnd::kFrictionUndetermined);
+  EXPECT_NE(Record(scene).report.end, SimulationEnd::kFrictionUndetermined);
 }
 
 // Lands at an angle: with much friction the impact sticks, with little it slides on with an impulse on the cone.
@@ -207,7 +186,7 @@ TEST(Sliding, ImpactsKeepTheirSlipBeyondTheCone) {
     scene.contacts[0].active = false;
     scene.q[6] = kRadius + 0.2;
     scene.options.duration = 0.2;
-    const Outcome outcome = Simulated(scene);
+    const RecordedSimulation outcome = Record(scene);
     ASSERT_FALSE(outcome.events.empty());
     const SimulationEvent& impact = outcome.events[0];
     ASSERT_EQ(impact.kind, SimulationEventKind::kTouchDown);
