@@ -19,9 +19,10 @@ make_kubernetes_secrets() {
   kubernetes_secret rollgait-tls "$tls/tls.crt" "$tls/tls.key" && kubernetes_secret rollgait-postgres "$work/postgres-secrets/pgpass"
 }
 play_kubernetes() {
-  python3 $here/kubernetes_for_podman.py "$image" "$store_url" > "$work/kubernetes.yaml" || return 1
+  python3 $here/kubernetes_for_podman.py "$image" "$store_url" "${places[postgres]}" > "$work/kubernetes.yaml" || return 1
   printf '[containers]\ndefault_ulimits = ["nofile=10000:10000", "nproc=4000:4000"]\n' > "$work/containers.conf"
-  CONTAINERS_CONF=$work/containers.conf pod play kube --network "$network" "$work/kubernetes.yaml"
+  CONTAINERS_CONF=$work/containers.conf pod play kube --network "$network" --ip "${places[rollgaitd-pod-0]}" --ip "${places[rollgait-agent-pod-0]}" \
+    "$work/kubernetes.yaml"
 }
 in_pod() { pod exec rollgaitd-pod-0-rollgaitd "$@"; }
 pod_is_confined() {

@@ -40,7 +40,6 @@ health_says() {
   mapfile -t command < <(pod inspect --format '{{range .HealthCheck.Test}}{{println .}}{{end}}' "$image" | grep .)
   pod exec "$1" "${command[@]:1}"
 }
-address_of() { pod inspect --format "{{(index .NetworkSettings.Networks \"$network\").IPAddress}}" "$1"; }
 metric_at_least() {  # NAME METRIC VALUE
   local value
   value=$(curl -sf "http://$(address_of "$1"):9464/metrics" |
@@ -65,7 +64,7 @@ iterations_seen() { [ "$(grep -c '"iteration":' "$work/out/$1" 2> /dev/null)" -g
 long_solve=(--model human29 --speed 1.3 --slope 0)
 
 anonymous() {
-  pod run --rm "${limits[@]}" "${unattended[@]}" --network "$network" "${confined[@]}" "${client_options[@]}" "$image" \
+  pod run --rm "${limits[@]}" "${unattended[@]}" --network "$network" "${hosts[@]}" "${confined[@]}" "${client_options[@]}" "$image" \
     rollgait --timeout 5 "$@"
 }
 # The client is refused: exit code not 0, and its message has the word.
@@ -118,6 +117,7 @@ check_kill_and_reattach() {
   local name
   # The reference has answered this request: a server with a memory of its own solves it again.
   pod rm -f -t 0 rollgaitd > /dev/null
+  know  # nobody: this server is to be started again
   check "a server on a new volume starts" start_server rollgaitd fresh
   check "it becomes healthy" until_true 60 healthy rollgaitd
   check "a token is made in its container" prepare_clients
@@ -139,6 +139,7 @@ check_kill_and_reattach() {
   for field in termination objective; do
     check "the result's $field is that of the uninterrupted run" equal "$(result_field interrupted $field)" "$(result_field reference $field)"
   done
+  know_all
 }
 # in_background NAME COMMAND...: its exit code goes to a file, since check's subshell cannot wait for it.
 in_background() {

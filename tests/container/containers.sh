@@ -36,6 +36,22 @@ unattended=(--no-healthcheck)
 # As docker/compose.yaml has it.
 confined=(--read-only --tmpfs /tmp:rw,size=64m --cap-drop ALL --security-opt no-new-privileges)
 
+# know NAME...: containers of these names get fixed addresses, which the others have in their /etc/hosts: podman's name server for a
+# network now and then gives no answer for half a minute after a container has come or gone. Who is not known is found by the name
+# server; a container that is to be started again must be, since at its old address the others do not reach it then.
+declare -A places
+know() {
+  local name
+  places=()
+  hosts=()
+  for name in "$@"; do
+    places[$name]=${subnet%.*}.$((240 + ${#places[@]}))  # others get addresses from 2 on, one a start
+    hosts+=(--add-host "$name:${places[$name]}")
+  done
+}
+know_all() { know postgres rollgaitd agent1 agent2 slurm rollgaitd-pod-0 rollgait-agent-pod-0; }
+address_of() { pod inspect --format "{{(index .NetworkSettings.Networks \"$network\").IPAddress}}" "$1"; }
+
 set_up_containers() {
   work=$(mktemp -d /var/tmp/rollgait-containers.XXXXXX)
   logs=build/container-logs
@@ -46,6 +62,8 @@ set_up_containers() {
   network=rollgait-test
   pod network create $network > "$logs/network.log" 2>&1 ||
     { cat "$logs/network.log" >&2; fail "podman cannot make a network here; the container tests cannot run"; }
+  subnet=$(pod network inspect --format '{{range .Subnets}}{{.Subnet}}{{end}}' $network)
+  know_all
 }
 
 # No command of podman's may hang the run; the longest but for the image takes two minutes. pod_limit=S pod ... for another limit.
@@ -70,12 +88,13 @@ tear_down_containers() {
 run_in() {
   local name=$1
   shift
-  pod run -d --name "$name" "${limits[@]}" "${unattended[@]}" --network "$network" "${confined[@]}" "$@" > /dev/null
+  pod run -d --name "$name" "${limits[@]}" "${unattended[@]}" --network "$network" ${places[$name]:+--ip "${places[$name]}"} "${hosts[@]}" \
+    "${confined[@]}" "$@" > /dev/null
 }
 # client ARGUMENTS...: the client in a container that ends with it, over the network; /out is $work/out.
 client() {
-  pod run --rm "${limits[@]}" "${unattended[@]}" --network "$network" "${confined[@]}" -v "$work/out:/out" "${client_options[@]}" "$image" \
-    rollgait --tls-ca /run/secrets/ca.crt --token-file /run/secrets/token "$@"
+  pod run --rm "${limits[@]}" "${unattended[@]}" --network "$network" "${hosts[@]}" "${confined[@]}" -v "$work/out:/out" \
+    "${client_options[@]}" "$image" rollgait --tls-ca /run/secrets/ca.crt --token-file /run/secrets/token "$@"
 }
 
 make_base_image() {
