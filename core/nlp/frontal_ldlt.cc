@@ -67,16 +67,19 @@ void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vecto
     if (front_of_[b] < front_of_[a]) fronts_[front_of_[b]].update.push_back(a);
   }
   const auto earlier = [this](int a, int b) { return rank_[a] < rank_[b]; };
+  std::vector<int> found_by(size_, -1), found;
   for (int f = 0; f < count; ++f) {
     Front& front = fronts_[f];
-    for (int child : front.children) {
-      for (int i : fronts_[child].update) {
-        if (front_of_[i] > f) front.update.push_back(i);
-      }
-    }
-    std::sort(front.update.begin(), front.update.end(), earlier);
-    front.update.erase(std::unique(front.update.begin(), front.update.end()), front.update.end());
-    front.update.shrink_to_fit();
+    found.clear();
+    const auto find = [&](int i) {
+      if (front_of_[i] <= f || found_by[i] == f) return;
+      found_by[i] = f;
+      found.push_back(i);
+    };
+    std::for_each(front.update.begin(), front.update.end(), find);
+    for (int child : front.children) std::for_each(fronts_[child].update.begin(), fronts_[child].update.end(), find);
+    std::sort(found.begin(), found.end(), earlier);
+    front.update = std::vector<int>(found.begin(), found.end());
     if (front.update.empty()) continue;
     front.is_root = false;
     fronts_[front_of_[front.update.front()]].children.push_back(f);
