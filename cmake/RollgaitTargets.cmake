@@ -80,7 +80,8 @@ function(rollgait_test SOURCE)
 endfunction()
 
 # rollgait_tests(a_test.cc b_test.cc DEPS rollgait::base LABELS unit): the same for several files. With ROLLGAIT_UNITY they are one program,
-# compiled eight at a time, and each file's test asks it for the suites of that file.
+# <folder>.<label>_tests, compiled eight at a time, and each file's test asks it for the suites of that file. The test <program>.all is
+# red when the program holds a test that no file's test asks for.
 function(rollgait_tests)
   cmake_parse_arguments(ARG "" "" "DEPS;LABELS;DEFINITIONS;NEEDS" ${ARGN})
   set(options DEPS ${ARG_DEPS} LABELS ${ARG_LABELS} DEFINITIONS ${ARG_DEFINITIONS} NEEDS ${ARG_NEEDS})
@@ -90,10 +91,8 @@ function(rollgait_tests)
     endforeach()
     return()
   endif()
-  rollgait_test_name(tests program)
-  while(TARGET ${program})
-    string(APPEND program "_")
-  endwhile()
+  rollgait_test_name(${ARG_LABELS}_tests program)
+  set(asked "")
   rollgait_test_program(${program} "${ARG_UNPARSED_ARGUMENTS}" ${options})
   set_target_properties(${program} PROPERTIES UNITY_BUILD ON)
   foreach(source ${ARG_UNPARSED_ARGUMENTS})
@@ -108,8 +107,13 @@ function(rollgait_tests)
     list(TRANSFORM lines REPLACE "(.+)" "\\1.*:*/\\1.*:\\1/*:*/\\1/*")
     list(JOIN lines ":" filter)
     rollgait_add_test(${name} ${program} "--gtest_filter=${filter}" ${options})
+    list(APPEND asked "${filter}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
   endforeach()
+  list(JOIN asked ":" asked)
+  add_test(NAME ${program}.all COMMAND ${program} --gtest_list_tests "--gtest_filter=-${asked}")
+  # gtest lists tests indented below their suites.
+  set_tests_properties(${program}.all PROPERTIES LABELS "${ARG_LABELS}" FAIL_REGULAR_EXPRESSION "\n  ")
 endfunction()
 
 # tests/core/base/dual_test.cc: core.base.dual_test
