@@ -84,12 +84,9 @@ void MuscleEffortCost::AddHessian(const PointContext& at, double weight, Eigen::
 MuscleWorkCost::MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency,
                                double smoothing, const PointLayout& layout, double typical)
     : joints_(std::move(joints)),
-      absolute_((1 / positive_efficiency + 1 / negative_efficiency) / 2),
-      linear_((1 / positive_efficiency - 1 / negative_efficiency) / 2),
-      smoothing_(smoothing),
+      price_(1 / positive_efficiency, 1 / negative_efficiency, smoothing),
       layout_(layout),
       typical_(typical) {
-  ROLLGAIT_CHECK(positive_efficiency > 0 && negative_efficiency > 0);
   ROLLGAIT_CHECK(static_cast<int>(joints_.size()) == layout.efforts);
 }
 Entries MuscleWorkCost::HessianPattern() const {
@@ -109,10 +106,7 @@ double MuscleWorkCost::Value(const PointContext& at) {
   for (int j = 0; j < layout_.efforts; ++j) {
     const MuscledJoint& joint = joints_[j];
     const double m = TorqueOf(joint, at.z[layout_.tau() + j], at.z[layout_.q() + joint.coordinate]).value;
-    const double power = m * at.z[layout_.v() + joint.coordinate];
-    // √(P² + ε²) − ε without cancellation.
-    const double size = power * power / (std::sqrt(power * power + smoothing_ * smoothing_) + smoothing_);
-    sum += joint.weight * (absolute_ * size + linear_ * power);
+    sum += joint.weight * price_.At(m * at.z[layout_.v() + joint.coordinate]).value;
   }
   return sum;
 }
@@ -121,8 +115,7 @@ void MuscleWorkCost::AddGradient(const PointContext& at, double weight, Eigen::R
     const MuscledJoint& joint = joints_[j];
     const int tau = layout_.tau() + j, q = layout_.q() + joint.coordinate, v = layout_.v() + joint.coordinate;
     const MuscleTorque m = TorqueOf(joint, at.z[tau], at.z[q]);
-    const double power = m.value * at.z[v], root = std::sqrt(power * power + smoothing_ * smoothing_);
-    const double slope = weight * joint.weight * (absolute_ * power / root + linear_);
+    const double slope = weight * joint.weight * price_.At(m.value * at.z[v]).first;
     gradient(tau) += slope * at.z[v];
     gradient(q) += slope * at.z[v] * m.by_q;
     gradient(v) += slope * m.value;
@@ -133,10 +126,9 @@ void MuscleWorkCost::AddHessian(const PointContext& at, double weight, Eigen::Re
     const MuscledJoint& joint = joints_[j];
     const int tau = layout_.tau() + j, q = layout_.q() + joint.coordinate, v = layout_.v() + joint.coordinate;
     const MuscleTorque m = TorqueOf(joint, at.z[tau], at.z[q]);
-    const double rate = at.z[v], power = m.value * rate;
-    const double root = std::sqrt(power * power + smoothing_ * smoothing_);
-    const double slope = weight * joint.weight * (absolute_ * power / root + linear_);
-    const double curvature = weight * joint.weight * absolute_ * smoothing_ * smoothing_ / (root * root * root);
+    const double rate = at.z[v];
+    const PowerPrice::Jet price = price_.At(m.value * rate);
+    const double slope = weight * joint.weight * price.first, curvature = weight * joint.weight * price.second;
     const double by_q = m.by_q * rate;  // ∂P/∂q; ∂P/∂τ = v, ∂P/∂v = m
     hessian(tau, tau) += curvature * rate * rate;
     hessian(v, v) += curvature * m.value * m.value;

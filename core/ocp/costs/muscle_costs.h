@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/math/exponential_spring.h"
+#include "core/ocp/costs/power_price.h"
 #include "core/ocp/point_function.h"
 
 namespace rollgait {
@@ -35,16 +36,15 @@ class MuscleEffortCost : public PointCost {
   PointLayout layout_;
 };
 
-// Σ w_j (c_a (√(P_j² + ε²) − ε) + c_l P_j), W, of the power P_j = m_j v_j of the muscles, smooth by ε. With c_a = (1/η⁺ + 1/η⁻)/2
-// and c_l = (1/η⁺ − 1/η⁻)/2 this is the chemical energy of muscles that do positive work with the efficiency η⁺ and are
-// stretched at the price 1/η⁻ for each joule: P⁺/η⁺ + P⁻/η⁻.
+// Σ w_j E(P_j), W, of the power P_j = m_j v_j of the muscles at the prices 1/η⁺ and 1/η⁻ (power_price.h): the chemical energy of
+// muscles that do positive work with the efficiency η⁺ and are stretched at the price 1/η⁻ for each joule, P⁺/η⁺ + P⁻/η⁻.
 class MuscleWorkCost : public PointCost {
  public:
   MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency, double smoothing,
                  const PointLayout& layout, double typical);
   std::string Name() const override { return "muscle work"; }
   std::string Unit() const override { return "J"; }
-  double Typical() const override { return typical_ * absolute_; }
+  double Typical() const override { return typical_ * price_.mean(); }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
   void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
@@ -52,7 +52,7 @@ class MuscleWorkCost : public PointCost {
 
  private:
   std::vector<MuscledJoint> joints_;  // in the order of the efforts
-  double absolute_, linear_, smoothing_;
+  PowerPrice price_;
   PointLayout layout_;
   double typical_;  // W, of Σ |P_j|
 };

@@ -1,7 +1,6 @@
 #include "core/ocp/costs/point_costs.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rollgait {
 
@@ -36,7 +35,7 @@ void SquaredTorqueCost::AddHessian(const PointContext&, double weight, Eigen::Re
 
 MechanicalWorkCost::MechanicalWorkCost(double smoothing, std::vector<int> actuated, const PointLayout& layout,
                                        double typical)
-    : smoothing_(smoothing), actuated_(std::move(actuated)), layout_(layout), typical_(typical) {}
+    : price_(1, 1, smoothing), actuated_(std::move(actuated)), layout_(layout), typical_(typical) {}
 Entries MechanicalWorkCost::HessianPattern() const {
   Entries entries;
   for (int j = 0; j < layout_.efforts; ++j) {
@@ -50,17 +49,14 @@ Entries MechanicalWorkCost::HessianPattern() const {
 double MechanicalWorkCost::Value(const PointContext& at) {
   double sum = 0;
   for (int j = 0; j < layout_.efforts; ++j) {
-    const double power = at.z[layout_.tau() + j] * at.z[layout_.v() + actuated_[j]];
-    // √(p² + ε²) − ε without cancellation.
-    sum += power * power / (std::sqrt(power * power + smoothing_ * smoothing_) + smoothing_);
+    sum += price_.At(at.z[layout_.tau() + j] * at.z[layout_.v() + actuated_[j]]).value;
   }
   return sum;
 }
 void MechanicalWorkCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {
   for (int j = 0; j < layout_.efforts; ++j) {
     const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];
-    const double power = at.z[tau] * at.z[v];
-    const double slope = weight * power / std::sqrt(power * power + smoothing_ * smoothing_);
+    const double slope = weight * price_.At(at.z[tau] * at.z[v]).first;
     gradient(tau) += slope * at.z[v];
     gradient(v) += slope * at.z[tau];
   }
@@ -68,10 +64,8 @@ void MechanicalWorkCost::AddGradient(const PointContext& at, double weight, Eige
 void MechanicalWorkCost::AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) {
   for (int j = 0; j < layout_.efforts; ++j) {
     const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];
-    const double power = at.z[tau] * at.z[v];
-    const double root = std::sqrt(power * power + smoothing_ * smoothing_);
-    const double slope = weight * power / root;
-    const double curvature = weight * smoothing_ * smoothing_ / (root * root * root);
+    const PowerPrice::Jet price = price_.At(at.z[tau] * at.z[v]);
+    const double slope = weight * price.first, curvature = weight * price.second;
     hessian(tau, tau) += curvature * at.z[v] * at.z[v];
     hessian(v, v) += curvature * at.z[tau] * at.z[tau];
     hessian(v, tau) += curvature * at.z[v] * at.z[tau] + slope;

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
 #define ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
 
+#include "core/ocp/costs/power_price.h"
 #include "core/ocp/point_function.h"
 
 namespace rollgait {
@@ -23,7 +24,7 @@ class SquaredTorqueCost : public PointCost {
   double effort_size_;
 };
 
-// Σ ( √((τ_j v_j)² + ε²) − ε ), W: mechanical power of the joints, made smooth by ε.
+// Σ E(τ_j v_j), W: mechanical power of the joints at the price 1 in both directions (power_price.h), made smooth by ε.
 class MechanicalWorkCost : public PointCost {
  public:
   MechanicalWorkCost(double smoothing, std::vector<int> actuated, const PointLayout& layout, double typical);
@@ -36,7 +37,7 @@ class MechanicalWorkCost : public PointCost {
   void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
 
  private:
-  double smoothing_;
+  PowerPrice price_;
   std::vector<int> actuated_;
   PointLayout layout_;
   double typical_;

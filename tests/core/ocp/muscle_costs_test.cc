@@ -53,6 +53,17 @@ TEST(MuscleWorkCost, PaysForBothDirectionsByTheirEfficiency) {
   EXPECT_NEAR(ValueAt(cost, z), 0.7 * 10 / 0.25 + 1.3 * 15 / 1.25, 1e-4);  // 1e-6 of smoothing and rounding of ε²
 }
 
+// Muscles that are stretched slowly are not paid for it (a newcomer's walk downhill once "took" -37 J).
+TEST(MuscleWorkCost, IsNeverAnIncome) {
+  const PointLayout layout = SmallLayout();
+  MuscleWorkCost cost(TwoJoints(), 0.25, 1.2, 20, layout, 1);
+  VectorX z = RandomPoint(layout.size());
+  for (double rate = -30; rate <= 30; rate += 0.37) {
+    z.segment(layout.v(), 3) << 1, rate, -rate / 2;
+    EXPECT_GE(ValueAt(cost, z), 0) << rate;
+  }
+}
+
 TEST(MuscleWorkCost, DerivativesMeetDifferences) {
   const PointLayout layout = SmallLayout();
   MuscleWorkCost cost(TwoJoints(), 0.25, 1.2, 0.8, layout, 1);
