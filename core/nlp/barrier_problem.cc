@@ -20,8 +20,11 @@ double Relaxed(double bound, double sign) {
 BarrierProblem::BarrierProblem(NlpProblem& problem)
     : problem_(problem), n_(problem.variables()), m_(problem.constraints()), target_(VectorX::Zero(m_)), fixed_(n_, 0) {
   for (int r = 0; r < m_; ++r) {
-    if (problem.constraint_lower()(r) == problem.constraint_upper()(r)) {
-      target_(r) = problem.constraint_lower()(r);
+    const double lower = problem.constraint_lower()(r), upper = problem.constraint_upper()(r);
+    if (lower == upper) {
+      target_(r) = lower;
+    } else if (lower <= -kNoBound && upper >= kNoBound) {
+      free_rows_.push_back(r);
     } else {
       slack_rows_.push_back(r);
     }
@@ -73,6 +76,7 @@ bool BarrierProblem::Evaluate(Point* point) {
   if (!problem_.Objective(point->w.data(), &point->f)) return false;
   point->c -= target_;
   for (size_t k = 0; k < slack_rows_.size(); ++k) point->c(slack_rows_[k]) -= point->w(n_ + static_cast<int>(k));
+  for (const int r : free_rows_) point->c(r) = 0;
   point->theta = point->c.lpNorm<1>();
   return std::isfinite(point->theta);
 }

@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// A nonlinear program with a slack for every row that is not an equality,
-//   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i,
+// A nonlinear program with a slack for every row that has bounds and is not an equality,
+//   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i  or, without bounds, 0,
 // and its barrier function  φ_μ(w) = f − μ Σ ln(w − l) − μ Σ ln(u − w) + κ_d μ Σ (distance to a bound without an opposite one).
 // Bounds are moved outwards by a relative 1e-8, so that every problem has an interior. The problem must outlive this object.
 class BarrierProblem {
@@ -33,6 +33,8 @@ class BarrierProblem {
   double upper(int i) const { return upper_(i); }
   // Row of slack k, k = 0 … unknowns() − variables() − 1.
   const std::vector<int>& slack_rows() const { return slack_rows_; }
+  // Rows without bounds. They hold nothing, and their multipliers are 0.
+  const std::vector<int>& free_rows() const { return free_rows_; }
 
   // w with x moved inside its bounds by at least `push` (relative to their size and distance), slacks likewise from g(x).
   // False if the functions have no finite value there.
@@ -55,7 +57,7 @@ class BarrierProblem {
   int n_, m_;
   VectorX lower_, upper_, target_;
   std::vector<char> fixed_;
-  std::vector<int> slack_rows_;
+  std::vector<int> slack_rows_, free_rows_;
 };
 
 }  // namespace rollgait

@@ -68,6 +68,7 @@ class Solver {
         multipliers_.y.setZero();
       }
     }
+    for (const int row : barrier_.free_rows()) multipliers_.y(row) = 0;
     if (!Linearise()) return false;
     theta_min_ = 1e-4 * std::max(1.0, point_.theta);
     theta_max_ = 1e4 * std::max(1.0, point_.theta);

@@ -13,8 +13,10 @@ constexpr double kDualShift = 1e-8, kDualShiftExponent = 0.25;
 // Where no shift has failed before, it is tried again only after as many iterations as it has failed in a row, up to this. Differs
 // from Ipopt, which tries every time: each trial costs a factorisation.
 constexpr int kMostSkips = 3;
-// A row without effective bounds: its slack is free.
+// Of a slack that is far from its bounds.
 constexpr double kLeastCurvature = 1e-20;
+// On the diagonal of a row without bounds, it keeps the row's multiplier at 0.
+constexpr double kFreeRow = 1e20;
 // Products of distance and multiplier within these multiples of μ are central enough.
 constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
@@ -45,6 +47,7 @@ bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Mu
     dual_diagonal_(row) = 1;
     b_(row) = multipliers->lower(i) - multipliers->upper(i);
   }
+  for (const int row : barrier_.free_rows()) dual_diagonal_(row) = kFreeRow;
   if (kkt_.Factorise(primal_diagonal_, dual_diagonal_) != KktSystem::Outcome::kRight) return false;
   return kkt_.Solve(a_, b_, &x_, &multipliers->y);
 }
@@ -59,6 +62,7 @@ bool NewtonSystem::TryShift(double shift, double mu) {
       const double curvature = std::max(sigma_(n + static_cast<int>(k)) + shift, kLeastCurvature);
       dual_diagonal_(barrier_.slack_rows()[k]) = 1 / curvature;
     }
+    for (const int row : barrier_.free_rows()) dual_diagonal_(row) = kFreeRow;
     const auto outcome = kkt_.Factorise(primal_diagonal_, dual_diagonal_);
     if (outcome != KktSystem::Outcome::kSingular || degenerate_) return outcome == KktSystem::Outcome::kRight;
     degenerate_ = true;
@@ -142,6 +146,7 @@ bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& 
   }
   step->w.resize(barrier_.unknowns());
   if (!kkt_.Solve(a_, b_, &x_, &step->multipliers.y)) return false;
+  for (const int row : barrier_.free_rows()) step->multipliers.y(row) = 0;
   step->w.head(n) = x_;
   for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
     const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];

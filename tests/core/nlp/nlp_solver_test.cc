@@ -153,6 +153,60 @@ TEST_P(NlpSolverTest, KeepsFixedVariablesWhereTheyAre) {
   EXPECT_EQ(result.x.head(3), problem.lower_bounds().head(3));
 }
 
+// With a third row, 100 x₀x₁, that may have any value.
+class WithFreeRow : public Hs071 {
+ public:
+  WithFreeRow() : jacobian_(Hs071::jacobian_pattern()) {
+    row_lower_ = Eigen::Vector3d(25, 40, -kInfinity);
+    row_upper_ = Eigen::Vector3d(kInfinity, 40, kInfinity);
+    jacobian_.Add(2, 0);
+    jacobian_.Add(2, 1);
+  }
+  int constraints() const override { return 3; }
+  const VectorX& constraint_lower() const override { return row_lower_; }
+  const VectorX& constraint_upper() const override { return row_upper_; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
+  bool Constraints(const double* x, double* g) override {
+    g[2] = 100 * x[0] * x[1];
+    return Hs071::Constraints(x, g);
+  }
+  bool Jacobian(const double* x, double* values) override {
+    values[8] = 100 * x[1];
+    values[9] = 100 * x[0];
+    return Hs071::Jacobian(x, values);
+  }
+  bool Hessian(const double* x, double sigma, const double* lambda, double* values) override {
+    if (!Hs071::Hessian(x, sigma, lambda, values)) return false;
+    values[1] += 100 * lambda[2];  // of x₁ and x₀
+    return true;
+  }
+
+ private:
+  VectorX row_lower_, row_upper_;
+  SparsityPattern jacobian_;
+};
+
+TEST_P(NlpSolverTest, ARowWithoutBoundsChangesNothing) {
+  std::vector<IterationInfo> with, without;
+  SolveControl control;
+  WithFreeRow problem;
+  control.observer = [&with](const IterationInfo& info) { with.push_back(info); };
+  const NlpResult result = GetParam()(problem, {Hs071::Start(), {}, {}, {}}, {}, control);
+  control.observer = [&without](const IterationInfo& info) { without.push_back(info); };
+  const NlpResult expected = SolveHs071(40, {}, control);
+  ASSERT_EQ(result.termination, Termination::kOptimal) << result.message;
+  EXPECT_TRUE(result.x.isApprox(expected.x, 1e-9));
+  ASSERT_EQ(result.constraint_multipliers.size(), 3);
+  EXPECT_NEAR(result.constraint_multipliers(2), 0, 1e-12);
+  if (GetParam() == SolveWithIpopt) return;  // Ipopt gives the row a slack, which its residuals count
+  ASSERT_EQ(with.size(), without.size());
+  for (size_t i = 0; i < with.size(); ++i) {
+    EXPECT_NEAR(with[i].objective, without[i].objective, 1e-9) << i;
+    EXPECT_NEAR(with[i].primal_infeasibility, without[i].primal_infeasibility, 1e-9) << i;
+    EXPECT_NEAR(with[i].primal_step, without[i].primal_step, 1e-9) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(IpoptAndInteriorPointAndBoth, NlpSolverTest,
                          ::testing::Values(SolveWithIpopt, SolveAlone, SolveNlp));
 
