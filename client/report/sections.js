@@ -172,7 +172,7 @@ function numerics() {
   const solved = SOLVES.filter((s) => s.costs.length);
   if (solved.length) {
     section("Cost", "What was minimised, term by term: the unweighted integral and what it adds to the objective after weighting and normalisation.",
-      table(["Slope", "Term", "Weight", "Value", "Adds to the objective"], solved.flatMap((s) => s.costs.map((c, i) => [i ? "" : labelOf(s), c.name, fmt(c.weight), `${fmt(c.value, 6)} ${c.unit}`, fmt(c.contribution, 6)])), [2, 3, 4]));
+      table(["Slope", "Term", "Weight", "Value", "Without smoothing", "Adds to the objective"], solved.flatMap((s) => s.costs.map((c, i) => [i ? "" : labelOf(s), c.name, fmt(c.weight), `${fmt(c.value, 6)} ${c.unit}`, c.unsmoothed === c.value ? "" : `${fmt(c.unsmoothed, 6)} ${c.unit}`, fmt(c.contribution, 6)])), [2, 3, 4, 5]));
   }
   const meshed = SOLVES.filter((s) => s.meshes.length);
   if (meshed.length) {

@@ -39,7 +39,7 @@ struct TermCheck {
   }
 
   void operator()(GaitRequest::MechanicalWork& term) const {
-    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 20, {0.01, 1000, "W"});
+    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 5, {0.01, 1000, "W"});
   }
 
   void operator()(GaitRequest::SquaredForceRate&) const {}
@@ -71,7 +71,7 @@ struct TermCheck {
     const NumberLimits efficiency{0.01, 100};
     term.positive_efficiency = check.Number(field + ".positive_efficiency", term.positive_efficiency, 0.25, efficiency);
     term.negative_efficiency = check.Number(field + ".negative_efficiency", term.negative_efficiency, 1.2, efficiency);
-    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, 20, {0.01, 1000, "W"});
+    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, 5, {0.01, 1000, "W"});
     term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
   }
 

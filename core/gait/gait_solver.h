@@ -20,6 +20,7 @@ struct CostValue {
   double value = 0;
   std::string unit;
   double contribution = 0;
+  double unsmoothed = 0;
 };
 
 struct UnmetConstraint {
@@ -34,6 +35,7 @@ struct MeshStatistics {
   std::vector<int> intervals;
   int unknowns = 0, constraints = 0, jacobian_nonzeros = 0, hessian_nonzeros = 0, iterations = 0;
   double wall_time = 0, evaluation_time = 0, objective = 0, kkt_error = 0, max_gap = 0, max_slip = 0;
+  double smoothing = 0;  // W, of the powers in the costs; 0: none
 };
 
 // What a solve gives back, whatever its termination.

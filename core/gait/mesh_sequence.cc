@@ -9,13 +9,14 @@
 
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
+#include "core/gait/power_smoothing.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 namespace {
 
 std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, CollocationNlp& nlp, const double* x) {
-  const VectorX integrals = nlp.CostIntegrals(x);
+  const VectorX integrals = nlp.CostIntegrals(x), unsmoothed = nlp.CostIntegrals(x, CostForm::kUnsmoothed);
   std::vector<CostValue> values;
   for (size_t t = 0; t < problem.costs.size(); ++t) {
     const CostDescription& term = problem.costs[t];
@@ -24,6 +25,7 @@ std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, Colloca
     value.unit = term.Unit();
     value.weight = term.weight;
     value.value = integrals(static_cast<int>(t));
+    value.unsmoothed = unsmoothed(static_cast<int>(t));
     value.contribution = term.weight * value.value / nlp.Denominator(x);
     values.push_back(value);
   }
@@ -67,7 +69,7 @@ ValidationOptions JudgeOptions(const GaitSpec& spec) {
   return options;
 }
 
-MeshStatistics Describe(const CollocationNlp& nlp, const NlpResult& result) {
+MeshStatistics Describe(const GaitSpec& spec, const CollocationNlp& nlp, const NlpResult& result) {
   MeshStatistics statistics;
   statistics.intervals = nlp.mesh().Intervals();
   statistics.unknowns = nlp.variables();
@@ -78,6 +80,7 @@ MeshStatistics Describe(const CollocationNlp& nlp, const NlpResult& result) {
   statistics.wall_time = result.wall_time_s;
   statistics.evaluation_time = result.evaluation_time_s;
   statistics.kkt_error = result.kkt_error;
+  statistics.smoothing = LeastSmoothing(spec).value_or(0);
   return statistics;
 }
 
@@ -156,7 +159,7 @@ NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
 
 // From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
 // Chosen by trial on human29 (docs/optimizer.md).
-NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
+NlpOptions OptionsForNeighbour(const GaitSpec& spec, int max_iterations) {
   NlpOptions options;
   options.tolerance = spec.kkt_tolerance;
   options.initial_barrier = 1e-2;
@@ -165,7 +168,7 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   options.barrier_exponent = 2.2;
   options.recentre = true;
   options.step_residual = 1e-8;
-  options.max_iterations = 200;  // cold starts take fewer
+  options.max_iterations = max_iterations;
   return options;
 }
 
@@ -196,7 +199,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     Predecessor current = SolveOneMesh(spec, problem, mesh, guess, previous, options, budget);
     CollocationNlp& nlp = *current.nlp;
     const NlpResult& result = current.result;
-    MeshStatistics statistics = Describe(nlp, result);
+    MeshStatistics statistics = Describe(spec, nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
     const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(spec, solution);
     if (!keep_previous) {
@@ -252,7 +255,7 @@ Ascent Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, const 
   Ascent ascent{guess, {}, {}};
   for (auto next = coarser.rbegin(); next != coarser.rend(); ++next) {
     Predecessor solved = SolveOneMesh(spec, problem, *next, ascent.guess, ascent.previous, OptionsFor(spec, ascent.guess), budget);
-    ascent.meshes.push_back(Describe(*solved.nlp, solved.result));
+    ascent.meshes.push_back(Describe(spec, *solved.nlp, solved.result));
     GaitSolution solution;
     if (Converged(solved.result.termination)) {
       Adopt(spec, problem, *solved.nlp, solved.result, &solution, &ascent.meshes.back());
@@ -318,13 +321,14 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
   return with_earlier(SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget));
 }
 
-GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget) {
+GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                                SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
   Predecessor previous = PredecessorOf(spec, problem);
   const bool used_multipliers = previous.nlp != nullptr;
-  GaitSolution solution = SolveFrom(spec, problem, GuessFromTrajectory(trajectory), OptionsForNeighbour(spec),
+  GaitSolution solution = SolveFrom(spec, problem, GuessFromTrajectory(trajectory), OptionsForNeighbour(spec, max_iterations),
                                     std::move(previous), std::move(mesh), budget);
   solution.warm_started = true;
   solution.used_multipliers = used_multipliers;

@@ -20,8 +20,9 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
                            SolveBudget* budget);
 
 // The same from the warm start of the spec. The first mesh is that of its trajectory, where gap and slip are bounded and it is
-// nowhere coarser than what the request asks for.
-GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget);
+// nowhere coarser than what the request asks for, and has to converge within max_iterations.
+GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                                SolveBudget* budget);
 
 // The mesh that the request asks for.
 Mesh RequestedMesh(const GaitSpec& spec);

@@ -1,11 +1,14 @@
 #include "core/gait/optimizing_gait_solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/power_smoothing.h"
+#include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
 #include "core/gait/walking_search.h"
 
@@ -30,7 +33,7 @@ void PutBefore(const GaitSolution& earlier, GaitSolution* solution) {
 }
 
 // From the requested starts, and on a slope that these do not reach by continuation.
-GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
   const auto problem = BuildProblem(spec);
   GaitSolution solution = spec.starts > 1
                               ? SolveFromStarts(spec, *problem, budget)
@@ -42,10 +45,29 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   return std::move(*continued);
 }
 
+// The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+  constexpr double kCoarseTolerance = 1e-3;  // of what is only a start
+  if (LeastSmoothing(spec).value_or(kSmoothingFromAfar) >= kSmoothingFromAfar) return SearchFromAfar(spec, budget);
+  GaitSpec smooth = SmoothedBy(kSmoothingFromAfar, spec);
+  smooth.max_refinements = 0;
+  smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
+  GaitSolution solution = SearchFromAfar(smooth, budget);
+  if (!Converged(solution.termination) && spec.max_refinements > 0 && budget->Left()) {
+    smooth.max_refinements = spec.max_refinements;
+    GaitSolution refined = SearchFromAfar(smooth, budget);
+    PutBefore(solution, &refined);
+    solution = std::move(refined);
+  }
+  if (!Converged(solution.termination)) return solution;
+  return Sharpen(spec, std::move(solution), budget);
+}
+
 // From the warm start, if there is one, and without it where that does not converge.
 GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   if (!spec.warm_start) return SearchCold(spec, budget);
-  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), budget);
+  constexpr int kMostIterations = 200;  // cold starts take fewer
+  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), kMostIterations, budget);
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
   PutBefore(warm, &cold);

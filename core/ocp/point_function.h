@@ -38,6 +38,9 @@ class PointConstraint {
   virtual void AddHessian(const PointContext& at, const double* lambda, Eigen::Ref<MatrixX> hessian) = 0;
 };
 
+// Of a cost: as it is minimised, or with the corners that are made round for that.
+enum class CostForm { kMinimised, kUnsmoothed };
+
 // Integrand of one cost term.
 class PointCost {
  public:
@@ -48,6 +51,8 @@ class PointCost {
   virtual double Typical() const = 0;
   virtual Entries HessianPattern() const = 0;
   virtual double Value(const PointContext& at) = 0;
+  // With the corners that Value makes round.
+  virtual double Unsmoothed(const PointContext& at) { return Value(at); }
   virtual void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) = 0;
   // As PointConstraint::AddHessian.
   virtual void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) = 0;

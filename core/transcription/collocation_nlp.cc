@@ -136,10 +136,10 @@ double CollocationNlp::Denominator(const double* x) const {
   return sum;
 }
 
-double CollocationNlp::WeightedIntegral(const double* x) {
+double CollocationNlp::WeightedIntegral(const double* x, CostForm form) {
   integrals_.setZero();
   for (int k = 0; k < layout_.intervals(); ++k) {
-    blocks_[layout_.phase(k)]->Integrals(x + layout_.node(k), Step(x, k), integrals_.data());
+    blocks_[layout_.phase(k)]->Integrals(x + layout_.node(k), Step(x, k), form, integrals_.data());
   }
   double sum = 0;
   for (size_t t = 0; t < coupling_.size(); ++t) {
@@ -150,8 +150,8 @@ double CollocationNlp::WeightedIntegral(const double* x) {
   return sum;
 }
 
-VectorX CollocationNlp::CostIntegrals(const double* x) {
-  WeightedIntegral(x);
+VectorX CollocationNlp::CostIntegrals(const double* x, CostForm form) {
+  WeightedIntegral(x, form);
   return integrals_;
 }
 

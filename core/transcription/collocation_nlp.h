@@ -71,7 +71,7 @@ class CollocationNlp : public NlpProblem {
   void TransferMultipliers(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   Trajectory Extract(const double* x);
   // Unweighted integral of every cost term in the order of the problem, and what their weighted sum is divided by.
-  VectorX CostIntegrals(const double* x);
+  VectorX CostIntegrals(const double* x, CostForm form = CostForm::kMinimised);
   double Denominator(const double* x) const;
   double displacement(const double* x) const { return x[layout_.displacement()]; }
   double duration(const double* x) const;
@@ -101,7 +101,7 @@ class CollocationNlp : public NlpProblem {
   void AddDenominatorPattern();
   void ScaleObjective();
   // Fills integrals_ and returns their weighted sum.
-  double WeightedIntegral(const double* x);
+  double WeightedIntegral(const double* x, CostForm form = CostForm::kMinimised);
   // weights_ = factor · weight of every term.
   void SetWeights(double factor);
   void AddCouplingGradient(const double* x, double* gradient);

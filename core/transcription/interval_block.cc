@@ -70,12 +70,14 @@ const VectorX& IntervalBlock::PointState(const double* y, double h, int i) {
   return z_;
 }
 
-void IntervalBlock::Integrals(const double* y, double h, double* integrals) {
+void IntervalBlock::Integrals(const double* y, double h, CostForm form, double* integrals) {
   SetStep(h);
   for (int i = 0; i < points_count_; ++i) {
     LoadPoint(y, i);
     for (size_t t = 0; t < costs_.size(); ++t) {
-      if (costs_[t] != nullptr) integrals[t] += h * scheme_.tableau().b(i) * costs_[t]->Value(context_);
+      if (costs_[t] == nullptr) continue;
+      const double value = form == CostForm::kMinimised ? costs_[t]->Value(context_) : costs_[t]->Unsmoothed(context_);
+      integrals[t] += h * scheme_.tableau().b(i) * value;
     }
   }
 }

@@ -46,7 +46,7 @@ class IntervalBlock {
   RowInfo Describe(int row) const;
 
   // integrals (one per cost term; those without an integrand are left alone) are added to.
-  void Integrals(const double* y, double h, double* integrals);
+  void Integrals(const double* y, double h, CostForm form, double* integrals);
   // gradient (local_size() + 1) = ∂/∂(y, h) of Σ_t weights[t] · integral_t.
   void CostGradient(const double* y, double h, const double* weights, Eigen::Ref<VectorX> gradient);
   void Values(const double* y, double h, double* g);

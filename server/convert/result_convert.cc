@@ -112,6 +112,7 @@ void EncodeCost(const CostValue& cost, v1::CostValue* encoded) {
   encoded->set_value(cost.value);
   encoded->set_unit(cost.unit);
   encoded->set_contribution(cost.contribution);
+  encoded->set_unsmoothed_value(cost.unsmoothed);
 }
 
 void EncodeUnmet(const UnmetConstraint& unmet, v1::UnmetConstraint* encoded) {
@@ -135,6 +136,7 @@ void EncodeMesh(const MeshStatistics& mesh, v1::MeshStatistics* encoded) {
   encoded->set_kkt_error(mesh.kkt_error);
   encoded->set_max_gap_m(mesh.max_gap);
   encoded->set_max_slip_m_s(mesh.max_slip);
+  encoded->set_smoothing_w(mesh.smoothing);
 }
 
 }  // namespace

@@ -240,6 +240,7 @@ v1::Solve SampleSolve(const std::string& name, double slope_rad) {
   cost.set_name("squared torque");
   cost.set_weight(1);
   cost.set_value(580.9);
+  cost.set_unsmoothed_value(580.9);
   cost.set_unit("N² m² s");
   cost.set_contribution(812.5);
   for (int i = 0; i < 2; ++i) {

@@ -110,6 +110,15 @@ double MuscleWorkCost::Value(const PointContext& at) {
   }
   return sum;
 }
+double MuscleWorkCost::Unsmoothed(const PointContext& at) {
+  double sum = 0;
+  for (int j = 0; j < layout_.efforts; ++j) {
+    const MuscledJoint& joint = joints_[j];
+    const double m = TorqueOf(joint, at.z[layout_.tau() + j], at.z[layout_.q() + joint.coordinate]).value;
+    sum += joint.weight * price_.Unsmoothed(m * at.z[layout_.v() + joint.coordinate]);
+  }
+  return sum;
+}
 void MuscleWorkCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {
   for (int j = 0; j < layout_.efforts; ++j) {
     const MuscledJoint& joint = joints_[j];

@@ -47,6 +47,7 @@ class MuscleWorkCost : public PointCost {
   double Typical() const override { return typical_ * price_.mean(); }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
+  double Unsmoothed(const PointContext& at) override;
   void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
   void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
 

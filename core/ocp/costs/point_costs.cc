@@ -53,6 +53,13 @@ double MechanicalWorkCost::Value(const PointContext& at) {
   }
   return sum;
 }
+double MechanicalWorkCost::Unsmoothed(const PointContext& at) {
+  double sum = 0;
+  for (int j = 0; j < layout_.efforts; ++j) {
+    sum += price_.Unsmoothed(at.z[layout_.tau() + j] * at.z[layout_.v() + actuated_[j]]);
+  }
+  return sum;
+}
 void MechanicalWorkCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {
   for (int j = 0; j < layout_.efforts; ++j) {
     const int tau = layout_.tau() + j, v = layout_.v() + actuated_[j];

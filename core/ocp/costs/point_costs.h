@@ -33,6 +33,7 @@ class MechanicalWorkCost : public PointCost {
   double Typical() const override { return typical_; }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
+  double Unsmoothed(const PointContext& at) override;
   void AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) override;
   void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
 

@@ -17,7 +17,11 @@ namespace rollgait {
 class PowerPrice {
  public:
   PowerPrice(double positive, double negative, double smoothing)
-      : mean_((positive + negative) / 2), tilt_((positive - negative) / (positive + negative)), smoothing_(smoothing) {
+      : positive_(positive),
+        negative_(negative),
+        mean_((positive + negative) / 2),
+        tilt_((positive - negative) / (positive + negative)),
+        smoothing_(smoothing) {
     ROLLGAIT_CHECK(positive > 0 && negative > 0 && smoothing > 0);
     upright_ = 4 * positive * negative / ((positive + negative) * (positive + negative));
   }
@@ -35,11 +39,13 @@ class PowerPrice {
     return {mean_ * excess, mean_ * (upright_ * power + tilt_ * excess) / root,
             mean_ * upright_ * smoothing_ * smoothing_ / (root * root * root)};
   }
+  // The energy with the corner.
+  double Unsmoothed(double power) const { return power > 0 ? positive_ * power : -negative_ * power; }
   // Mean of c⁺ and c⁻.
   double mean() const { return mean_; }
 
  private:
-  double mean_, tilt_;
+  double positive_, negative_, mean_, tilt_;
   double upright_;    // 1 − t²
   double smoothing_;  // ε
 };

@@ -120,7 +120,7 @@ TEST(CheckRequest, FillsTheOptionalsOfCosts) {
   request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0, 1}, {}}}}, 2.5});
   request.costs.push_back({GaitRequest::SquaredTorqueRate{{{"hip_l", 0.0}}}, {}});
   const GaitSpec spec = CheckRequest(request).value();
-  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(spec.costs[0].term).smoothing, 20);
+  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(spec.costs[0].term).smoothing, 5);
   EXPECT_EQ(std::get<GaitRequest::Tracking>(spec.costs[1].term).channels[0].weight, 1);
   EXPECT_EQ(spec.costs[1].weight, 2.5);
   const auto& weights = std::get<GaitRequest::SquaredTorqueRate>(spec.costs[2].term).joint_weights;

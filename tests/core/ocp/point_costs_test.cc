@@ -24,6 +24,7 @@ TEST(MechanicalWorkCost, IsTheAbsolutePowerForLargePowers) {
   z.segment(layout.v(), 3) << 7, 2, 3;  // the first coordinate is not actuated
   // √(p² + ε²) − ε = |p| − ε + ε²/(2|p|) …
   EXPECT_NEAR(ValueAt(cost, z), 200 + 300 - 2 * 0.5 + 0.125 / 200 + 0.125 / 300, 1e-6);
+  EXPECT_DOUBLE_EQ(cost.Unsmoothed({z.data()}), 200 + 300);
   z.segment(layout.tau(), 2).setZero();
   EXPECT_EQ(ValueAt(cost, z), 0);
   CheckDerivatives(cost, layout);

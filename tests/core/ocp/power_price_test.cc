@@ -52,6 +52,7 @@ TEST(PowerPrice, LiesBetweenNothingAndThePriceWithTheCorner) {
         const double corner = WithCorner(prices, power), value = price.At(power).value;
         const double least = corner * std::max(0.0, 1 - prices.smoothing / size);
         EXPECT_GT(value, 0) << power;
+        EXPECT_EQ(price.Unsmoothed(power), corner);
         EXPECT_GE(value, least * (1 - kRounding)) << power;
         EXPECT_LE(value, corner * (1 + kRounding)) << power;
       }

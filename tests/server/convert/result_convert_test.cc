@@ -119,9 +119,9 @@ GaitSolution Solution() {
   solution.kkt_error = 13;
   solution.constraint_violation = 14;
   solution.objective = 15;
-  solution.costs = {{"time", 16, 17, "s", 18}};
+  solution.costs = {{"time", 16, 17, "s", 18, 35}};
   solution.unmet_constraints = {{"speed", 1, 19, 20, "m/s"}};
-  solution.meshes = {{{8, 16}, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31}};
+  solution.meshes = {{{8, 16}, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 36}};
   solution.speed = 32;
   solution.step_length = 33;
   solution.wall_time = 34;
@@ -162,6 +162,7 @@ TEST(EncodeResult, EveryFigureArrives) {
   EXPECT_EQ(result.costs(0).value(), 17);
   EXPECT_EQ(result.costs(0).unit(), "s");
   EXPECT_EQ(result.costs(0).contribution(), 18);
+  EXPECT_EQ(result.costs(0).unsmoothed_value(), 35);
   EXPECT_EQ(result.unmet_constraints(0).name(), "speed");
   EXPECT_EQ(result.unmet_constraints(0).phase(), 1);
   EXPECT_EQ(result.unmet_constraints(0).time_s(), 19);
@@ -189,6 +190,7 @@ TEST(EncodeResult, MeshStatisticsArrive) {
   EXPECT_EQ(mesh.kkt_error(), 29);
   EXPECT_EQ(mesh.max_gap_m(), 30);
   EXPECT_EQ(mesh.max_slip_m_s(), 31);
+  EXPECT_EQ(mesh.smoothing_w(), 36);
 }
 
 TEST(EncodeResult, WithoutATrajectoryThereIsNone) {

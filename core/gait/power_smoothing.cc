@@ -1,0 +1,34 @@
+#include "core/gait/power_smoothing.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace rollgait {
+namespace {
+
+// Of a term that is a power; null for others. The spec's are filled.
+std::optional<double>* SmoothingOf(GaitSpec::CostTerm* cost) {
+  if (auto* work = std::get_if<GaitRequest::MechanicalWork>(&cost->term)) return &work->smoothing;
+  if (auto* work = std::get_if<GaitRequest::MuscleWork>(&cost->term)) return &work->smoothing;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<double> LeastSmoothing(const GaitSpec& spec) {
+  std::optional<double> least;
+  for (GaitSpec::CostTerm cost : spec.costs) {
+    const std::optional<double>* smoothing = SmoothingOf(&cost);
+    if (smoothing && (!least || **smoothing < *least)) least = *smoothing;
+  }
+  return least;
+}
+
+GaitSpec SmoothedBy(double smoothing, GaitSpec spec) {
+  for (GaitSpec::CostTerm& cost : spec.costs) {
+    if (std::optional<double>* of_term = SmoothingOf(&cost)) **of_term = std::max(**of_term, smoothing);
+  }
+  return spec;
+}
+
+}  // namespace rollgait

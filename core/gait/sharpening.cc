@@ -1,0 +1,49 @@
+#include "core/gait/sharpening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/mesh_sequence.h"
+#include "core/gait/power_smoothing.h"
+
+namespace rollgait {
+
+GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget) {
+  constexpr double kFirstStep = 8, kLeastStep = 1.3;
+  // Where minima follow one another closely 10 to 60 iterations do; beyond that a smaller step costs less than patience.
+  constexpr int kMostIterations = 80, kPatience = 300;
+  const double least = LeastSmoothing(spec).value();
+  double reached = kSmoothingFromAfar, step = kFirstStep;
+  GaitSolution last = std::move(smooth);
+  while (reached > least) {
+    // Where even small steps fail the path of minima ends: on to the spec at once, with patience.
+    const bool path_ends = step < kLeastStep;
+    const double next = path_ends ? least : std::max(least, reached / step);
+    GaitSpec sharper = SmoothedBy(next, spec);
+    if (next > least) sharper.max_refinements = 0;
+    sharper.warm_start = WarmStart{*last.trajectory, last.multipliers};
+    GaitSolution solution =
+        SolveFromWarmStart(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
+    solution.warm_started = solution.used_multipliers = false;  // not from what the request named
+    solution.meshes.insert(solution.meshes.begin(), last.meshes.begin(), last.meshes.end());
+    if (Converged(solution.termination)) {
+      last = std::move(solution);
+      reached = next;
+      continue;
+    }
+    if (path_ends || !budget->Left()) {
+      std::ostringstream note;
+      note << " It converged with powers smoothed by " << reached << " W, not by " << next << " W.";
+      solution.message += note.str();
+      return solution;
+    }
+    last.meshes = std::move(solution.meshes);
+    step = std::sqrt(step);
+  }
+  return last;
+}
+
+}  // namespace rollgait
