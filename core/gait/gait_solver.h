@@ -42,6 +42,7 @@ struct MeshStatistics {
 struct GaitSolution {
   Termination termination = Termination::kNumericalDifficulty;
   std::string message;
+  std::string note;                          // how it was reached, where not at once; the end of the message of a whole solve
   std::optional<Trajectory> trajectory;      // present if the last iterate is finite
   std::optional<AccuracyReport> accuracy;    // present with the trajectory
   std::optional<NormativeComparison> normative;  // present with a trajectory of a human that walks

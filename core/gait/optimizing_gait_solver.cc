@@ -71,7 +71,7 @@ GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
   PutBefore(warm, &cold);
-  cold.message += " Started afresh, since the warm start did not converge (" + warm.message + ")";
+  cold.note += " Started afresh, since the warm start did not converge (" + warm.message + ")";
   return cold;
 }
 
@@ -88,6 +88,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
   GaitSolution solution = Search(spec, &budget);
+  solution.message += solution.note;
   if (solution.trajectory) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
   return solution;
 }

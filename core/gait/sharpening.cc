@@ -27,6 +27,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     sharper.warm_start = WarmStart{*last.trajectory, last.multipliers};
     GaitSolution solution =
         SolveFromWarmStart(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
+    solution.note = last.note;
     solution.warm_started = solution.used_multipliers = false;  // not from what the request named
     solution.meshes.insert(solution.meshes.begin(), last.meshes.begin(), last.meshes.end());
     if (Converged(solution.termination)) {

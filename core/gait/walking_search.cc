@@ -70,7 +70,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
     }
   }
   best->meshes = std::move(meshes);
-  best->message += note;
+  best->note = note;
   best->wall_time = budget->elapsed();
   return std::move(*best);
 }
@@ -103,7 +103,7 @@ std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudge
   }
   if (reached < steepness) return std::nullopt;
   last.meshes = std::move(meshes);
-  last.message += " Reached by continuation from level ground, where the start converges.";
+  last.note = " Reached by continuation from level ground, where the start converges.";
   return last;
 }
 

@@ -57,7 +57,7 @@ TEST(Starts, KeepTheCheapestAndSayWhichItWas) {
   ASSERT_EQ(one.termination, Termination::kOptimal);
   ASSERT_EQ(two.termination, Termination::kOptimal);
   EXPECT_LE(two.objective, one.objective);
-  EXPECT_EQ(two.meshes.size(), 2u);
+  EXPECT_EQ(two.meshes.size(), 3u);  // one from each start with smooth powers, one with the preset's
   EXPECT_NE(two.message.find("from 2 starts"), std::string::npos) << two.message;
   EXPECT_EQ(two.objective, again.objective);
 }
@@ -87,7 +87,7 @@ TEST(Continuation, ReachesWhatTheColdStartFinds) {
   const std::optional<GaitSolution> continued = SolveByContinuation(spec, &budget);
   ASSERT_TRUE(continued);
   EXPECT_EQ(continued->meshes.size(), 4u);
-  EXPECT_NE(continued->message.find("continuation"), std::string::npos);
+  EXPECT_NE(continued->note.find("continuation"), std::string::npos);
   const GaitSolution cold = Solve(request);
   ASSERT_EQ(cold.termination, Termination::kOptimal);
   // Both to a KKT error of 1e-6; as local minima they may differ, the better one then being that of the walk.
