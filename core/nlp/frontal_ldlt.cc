@@ -162,7 +162,10 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
   front->rows = static_cast<int>(front->unknowns.size());
   const size_t size = static_cast<size_t>(front->rows) * front->columns;
-  if (front->panel.size() < size) front->panel.resize(size);
+  if (front->panel.size() < size) {
+    front->panel = {};  // to grow by what is needed, not to double
+    front->panel.resize(size);
+  }
   ClearLowerTriangle(front->panel.data(), front->rows, front->columns, front->rows);
   const int order = front->rows - front->columns;
   if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
