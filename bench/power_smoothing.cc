@@ -2,11 +2,11 @@
 //   power_smoothing [--model planar] [--preset transport] [--intervals 16] [--slope 0]
 // "at once" is the same program from the built-in guess, without the way down from 40 W.
 #include <cstdio>
-#include <ctime>
 #include <numbers>
 #include <string>
 #include <variant>
 
+#include "bench/measured_solve.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_sequence.h"
@@ -15,22 +15,6 @@
 
 namespace rollgait {
 namespace {
-
-struct Run {
-  GaitSolution solution;
-  double cpu = 0;
-  int iterations = 0;
-};
-
-template <typename Solver>
-Run Measure(Solver solver) {
-  Run run;
-  const std::clock_t begin = std::clock();
-  run.solution = solver();
-  run.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  for (const MeshStatistics& mesh : run.solution.meshes) run.iterations += mesh.iterations;
-  return run;
-}
 
 // The request with the costs of its preset, powers smoothed by `smoothing`.
 GaitSpec Spec(GaitRequest request, double smoothing) {
@@ -63,10 +47,10 @@ int Main(int argc, char** argv) {
               "unsmoothed", "at once", "cpu s");
   for (const double smoothing : {40.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5}) {
     const GaitSpec spec = Spec(request, smoothing);
-    const Run run = Measure([&] { return OptimizingGaitSolver().Solve(spec, SolveControl()); });
+    const MeasuredSolve run = Measure([&] { return OptimizingGaitSolver().Solve(spec, SolveControl()); });
     const SolveControl control;
     SolveBudget budget(spec, control);
-    const Run at_once = Measure([&] {
+    const MeasuredSolve at_once = Measure([&] {
       const auto problem = BuildProblem(spec);
       return SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), &budget);
     });

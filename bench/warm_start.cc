@@ -3,31 +3,20 @@
 // Without a preset: squared torque with a little rate. CPU time of the whole solve, judgement included.
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <numbers>
 #include <string>
 
+#include "bench/measured_solve.h"
 #include "core/gait/optimizing_gait_solver.h"
 
 namespace rollgait {
 namespace {
 
-struct Run {
-  GaitSolution solution;
-  double cpu = 0;
-  int iterations = 0;
-};
-
-Run Solve(const GaitSpec& spec) {
-  Run run;
-  const std::clock_t begin = std::clock();
-  run.solution = OptimizingGaitSolver().Solve(spec, SolveControl());
-  run.cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  for (const MeshStatistics& mesh : run.solution.meshes) run.iterations += mesh.iterations;
-  return run;
+MeasuredSolve Solve(const GaitSpec& spec) {
+  return Measure([&spec] { return OptimizingGaitSolver().Solve(spec, SolveControl()); });
 }
 
-void Print(const Run& run) {
+void Print(const MeasuredSolve& run) {
   std::printf(" | %4d %6.2f %12.5f%s", run.iterations, run.cpu, run.solution.objective,
               run.solution.termination == Termination::kOptimal ? "" : " not optimal");
 }
@@ -60,7 +49,7 @@ int Main(int argc, char** argv) {
     std::fprintf(stderr, "%s: %s\n", level.violations()[0].field.c_str(), level.violations()[0].message.c_str());
     return 2;
   }
-  const Run base = Solve(level.value());
+  const MeasuredSolve base = Solve(level.value());
   std::printf("%6s %6s | %4s %6s %12s | %4s %6s %12s\n", "slope", "m/s", "cold", "cpu s", "objective", "warm", "cpu s",
               "objective");
   std::printf("%6g %6g", 0.0, 1.3);

@@ -101,22 +101,19 @@ Entries MuscleWorkCost::HessianPattern() const {
   }
   return entries;
 }
+double MuscleWorkCost::Power(int joint, const PointContext& at) const {
+  const int coordinate = joints_[joint].coordinate;
+  const double m = TorqueOf(joints_[joint], at.z[layout_.tau() + joint], at.z[layout_.q() + coordinate]).value;
+  return m * at.z[layout_.v() + coordinate];
+}
 double MuscleWorkCost::Value(const PointContext& at) {
   double sum = 0;
-  for (int j = 0; j < layout_.efforts; ++j) {
-    const MuscledJoint& joint = joints_[j];
-    const double m = TorqueOf(joint, at.z[layout_.tau() + j], at.z[layout_.q() + joint.coordinate]).value;
-    sum += joint.weight * price_.At(m * at.z[layout_.v() + joint.coordinate]).value;
-  }
+  for (int j = 0; j < layout_.efforts; ++j) sum += joints_[j].weight * price_.At(Power(j, at)).value;
   return sum;
 }
 double MuscleWorkCost::Unsmoothed(const PointContext& at) {
   double sum = 0;
-  for (int j = 0; j < layout_.efforts; ++j) {
-    const MuscledJoint& joint = joints_[j];
-    const double m = TorqueOf(joint, at.z[layout_.tau() + j], at.z[layout_.q() + joint.coordinate]).value;
-    sum += joint.weight * price_.Unsmoothed(m * at.z[layout_.v() + joint.coordinate]);
-  }
+  for (int j = 0; j < layout_.efforts; ++j) sum += joints_[j].weight * price_.Unsmoothed(Power(j, at));
   return sum;
 }
 void MuscleWorkCost::AddGradient(const PointContext& at, double weight, Eigen::Ref<VectorX> gradient) {

@@ -52,6 +52,8 @@ class MuscleWorkCost : public PointCost {
   void AddHessian(const PointContext& at, double weight, Eigen::Ref<MatrixX> hessian) override;
 
  private:
+  double Power(int joint, const PointContext& at) const;
+
   std::vector<MuscledJoint> joints_;  // in the order of the efforts
   PowerPrice price_;
   PointLayout layout_;

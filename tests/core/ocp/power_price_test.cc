@@ -84,13 +84,17 @@ TEST(PowerPrice, DerivativesMeetDifferencesOfTheHyperbola) {
     for (double x = -3; x <= 3; x += 0.21) {
       const double power = x * prices.smoothing;
       const long double step = 1e-5L * prices.smoothing;
-      const long double ahead = Hyperbola(prices, power + step), here = Hyperbola(prices, power), behind = Hyperbola(prices, power - step);
+      const long double here = Hyperbola(prices, power);
+      const long double ahead = Hyperbola(prices, power + step), behind = Hyperbola(prices, power - step);
       const PowerPrice::Jet jet = price.At(power);
-      // Truncation: 1e-10 of the third derivative, which of a hyperbola with t near 1 is 1/(1 − t²) = 2500 times the price over ε².
+      // Truncation: 1e-10 of the third derivative, which of a hyperbola with t near 1 is 1/(1 − t²) = 2500 times the price
+      // over ε².
       const double slope_size = price.mean(), curvature_size = price.mean() / prices.smoothing;
       const double bend = prices.positive * prices.negative / (price.mean() * price.mean());
-      EXPECT_NEAR(jet.first, static_cast<double>((ahead - behind) / (2 * step)), 1e-9 / bend * slope_size) << power;
-      EXPECT_NEAR(jet.second, static_cast<double>((ahead - 2 * here + behind) / (step * step)), 1e-7 / bend * curvature_size) << power;
+      const double slope = static_cast<double>((ahead - behind) / (2 * step));
+      const double curvature = static_cast<double>((ahead - 2 * here + behind) / (step * step));
+      EXPECT_NEAR(jet.first, slope, 1e-9 / bend * slope_size) << power;
+      EXPECT_NEAR(jet.second, curvature, 1e-7 / bend * curvature_size) << power;
     }
   }
 }
