@@ -53,7 +53,7 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   smooth.max_refinements = 0;
   smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
   GaitSolution solution = SearchFromAfar(smooth, budget);
-  if (!Converged(solution.termination) && spec.max_refinements > 0 && budget->Left()) {
+  if (solution.termination == Termination::kNumericalDifficulty && spec.max_refinements > 0 && budget->Left()) {
     smooth.max_refinements = spec.max_refinements;
     GaitSolution refined = SearchFromAfar(smooth, budget);
     PutBefore(solution, &refined);
