@@ -64,7 +64,7 @@ Rows CostRows(const v1::SolveResult& result) {
   for (const v1::CostValue& cost : result.costs()) {
     rows.push_back({"  " + cost.name(), FormatNumber(cost.value(), 6), cost.unit(),
                     "weight " + FormatNumber(cost.weight()), "adds " + FormatNumber(cost.contribution(), 6)});
-    if (cost.unsmoothed_value() != cost.value()) {
+    if (cost.has_unsmoothed_value() && cost.unsmoothed_value() != cost.value()) {
       rows.push_back({"    without smoothing", FormatNumber(cost.unsmoothed_value(), 6), cost.unit()});
     }
   }

@@ -82,7 +82,7 @@ json CostRows(const v1::SolveResult& result) {
     rows.push_back({{"name", cost.name()},
                     {"weight", cost.weight()},
                     {"value", cost.value()},
-                    {"unsmoothed", cost.unsmoothed_value()},
+                    {"unsmoothed", cost.has_unsmoothed_value() ? cost.unsmoothed_value() : cost.value()},
                     {"unit", cost.unit()},
                     {"contribution", cost.contribution()}});
   }
@@ -99,7 +99,6 @@ json MeshRows(const v1::SolveResult& result) {
                     {"constraints", mesh.constraints()},
                     {"jacobian", mesh.jacobian_nonzeros()},
                     {"hessian", mesh.hessian_nonzeros()},
-                    {"smoothing_w", mesh.smoothing_w()},
                     {"iterations", mesh.iterations()},
                     {"wall", FormatDuration(mesh.wall_time_s())},
                     {"evaluation", FormatDuration(mesh.evaluation_time_s())},
