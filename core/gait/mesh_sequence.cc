@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/gait/initial_guess.h"
@@ -132,6 +132,12 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
 
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
 
+bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
+
+void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution) {
+  solution->meshes.insert(solution->meshes.begin(), earlier.begin(), earlier.end());
+}
+
 Mesh RequestedMesh(const GaitSpec& spec) {
   std::vector<int> intervals;
   for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
@@ -146,31 +152,50 @@ struct Predecessor {
   NlpResult result;
 };
 
-// The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
-// closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). Other costs need fewer iterations from further off (human29, torque, level: 80 against 137).
-constexpr double kBarrierNearSolution = 1e-3, kBarrierNearSharpSolution = 1e-4;
-
-NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
+// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
+// Chosen by trial on human29 (docs/optimizer.md).
+NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   NlpOptions options;
   options.tolerance = spec.kkt_tolerance;
   options.max_iterations = spec.max_iterations;
-  if (guess.near_solution) options.initial_barrier = LeastSmoothing(spec) ? kBarrierNearSharpSolution : kBarrierNearSolution;
-  return options;
-}
-
-// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
-// Chosen by trial on human29 (docs/optimizer.md).
-NlpOptions OptionsForNeighbour(const GaitSpec& spec, int max_iterations) {
-  NlpOptions options;
-  options.tolerance = spec.kkt_tolerance;
   options.initial_barrier = 1e-2;
   options.warm_push = 1e-2;
   options.barrier_tolerance = 1000;
   options.barrier_exponent = 2.2;
   options.recentre = true;
   options.step_residual = 1e-8;
-  options.max_iterations = max_iterations;
+  return options;
+}
+
+bool HasRates(const GaitSpec& spec) {
+  return std::any_of(spec.costs.begin(), spec.costs.end(), [](const GaitSpec::CostTerm& cost) {
+    return std::holds_alternative<GaitRequest::SquaredTorqueRate>(cost.term) ||
+           std::holds_alternative<GaitRequest::SquaredForceRate>(cost.term);
+  });
+}
+
+// The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
+// closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
+// none within 900 with 1e-3). Rates jump where feet come down, and the finer the mesh the more that costs: where they decide, the
+// solution of another mesh is that of a neighbour. Other costs need fewest iterations from between (human29, torque, level: 80
+// against 137 with 1e-4).
+NlpOptions OptionsForNextMesh(const GaitSpec& spec) {
+  constexpr double kBarrierNearSolution = 1e-3, kBarrierNearSharpSolution = 1e-4;
+  const bool sharp = LeastSmoothing(spec).has_value();
+  if (!sharp && HasRates(spec)) return OptionsForNeighbour(spec);
+  NlpOptions options;
+  if (sharp) options = OptionsForNeighbour(spec);
+  options.tolerance = spec.kkt_tolerance;
+  options.max_iterations = spec.max_iterations;
+  options.initial_barrier = options.warm_push = sharp ? kBarrierNearSharpSolution : kBarrierNearSolution;
+  return options;
+}
+
+NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
+  if (guess.near_solution) return OptionsForNextMesh(spec);
+  NlpOptions options;
+  options.tolerance = spec.kkt_tolerance;
+  options.max_iterations = spec.max_iterations;
   return options;
 }
 
@@ -234,41 +259,6 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   return solution;
 }
 
-// What the requested mesh starts from, and the meshes that led there. Without a predecessor: the guess alone.
-struct Ascent {
-  MotionGuess guess;
-  Predecessor previous;
-  std::vector<MeshStatistics> meshes;
-};
-
-// From afar the iterations grow with the number of intervals, from the solution of half as many they do not: meshes with more than
-// kMostFromAfar intervals in all are reached by way of coarser ones.
-Ascent Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, const Mesh& mesh,
-              SolveBudget* budget) {
-  constexpr int kMostFromAfar = 36;
-  // A coarse mesh may slip at half the speed and still lead to a motion that does not; beyond that it leads astray.
-  constexpr double kLeadsAstray = 0.5;
-  std::vector<Mesh> coarser;
-  std::vector<int> intervals = mesh.Intervals();
-  while (std::accumulate(intervals.begin(), intervals.end(), 0) > kMostFromAfar) {
-    for (int& count : intervals) count = (count + 1) / 2;
-    coarser.push_back(Mesh::Uniform(intervals));
-  }
-  Ascent ascent{guess, {}, {}};
-  for (auto next = coarser.rbegin(); next != coarser.rend(); ++next) {
-    Predecessor solved = SolveOneMesh(spec, problem, *next, ascent.guess, ascent.previous, OptionsFor(spec, ascent.guess), budget);
-    ascent.meshes.push_back(Describe(spec, *solved.nlp, solved.result));
-    GaitSolution solution;
-    if (Converged(solved.result.termination)) {
-      Adopt(spec, problem, *solved.nlp, solved.result, &solution, &ascent.meshes.back());
-    }
-    if (!solution.trajectory || SlipsBy(kLeadsAstray, spec, solution)) return {guess, {}, std::move(ascent.meshes)};
-    ascent.guess = GuessFromTrajectory(*solution.trajectory);
-    ascent.previous = std::move(solved);
-  }
-  return ascent;
-}
-
 Mesh MeshOf(const Trajectory& trajectory) {
   Mesh mesh;
   for (const TrajectoryPhase& phase : trajectory.phases) {
@@ -288,13 +278,13 @@ bool IsAtLeastAsFine(const Mesh& mesh, const Mesh& other) {
   return true;
 }
 
-// The program that the warm start solved, as if this problem had been: its rows and unknowns mean the same. None without
+// The program that led to the solution, as if this problem had been it: its rows and unknowns mean the same. None without
 // multipliers, and where their numbers tell that it had other rows.
-Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem) {
+Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution) {
   Predecessor previous;
-  if (!spec.warm_start->multipliers) return previous;
-  const SolutionMultipliers& multipliers = *spec.warm_start->multipliers;
-  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, MeshOf(spec.warm_start->trajectory));
+  if (!solution.multipliers) return previous;
+  const SolutionMultipliers& multipliers = *solution.multipliers;
+  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, MeshOf(solution.trajectory));
   if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
   previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
   previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
@@ -307,20 +297,14 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget) {
-  Ascent ascent = Ascend(spec, problem, guess, mesh, budget);
-  std::vector<MeshStatistics> earlier = std::move(ascent.meshes);
-  const auto with_earlier = [&earlier](GaitSolution solution) {
-    solution.meshes.insert(solution.meshes.begin(), earlier.begin(), earlier.end());
-    return solution;
-  };
-  if (ascent.previous.nlp) {
-    const NlpOptions options = OptionsFor(spec, ascent.guess);
-    GaitSolution solution =
-        SolveFrom(spec, problem, std::move(ascent.guess), options, std::move(ascent.previous), mesh, budget);
-    if ((Converged(solution.termination) && !IsArtefact(spec, solution)) || !budget->Left()) return with_earlier(solution);
-    earlier.insert(earlier.end(), solution.meshes.begin(), solution.meshes.end());
-  }
-  return with_earlier(SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget));
+  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget);
+}
+
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+                              SolveBudget* budget) {
+  const MotionGuess guess = GuessFromTrajectory(coarser.trajectory);
+  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), PredecessorOf(spec, problem, coarser), RequestedMesh(spec),
+                   budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
@@ -328,10 +312,12 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
-  Predecessor previous = PredecessorOf(spec, problem);
+  Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start);
   const bool used_multipliers = previous.nlp != nullptr;
-  GaitSolution solution = SolveFrom(spec, problem, GuessFromTrajectory(trajectory), OptionsForNeighbour(spec, max_iterations),
-                                    std::move(previous), std::move(mesh), budget);
+  NlpOptions options = OptionsForNeighbour(spec);
+  options.max_iterations = max_iterations;
+  GaitSolution solution =
+      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);
   solution.warm_started = true;
   solution.used_multipliers = used_multipliers;
   return solution;

@@ -13,9 +13,14 @@ bool Converged(Termination termination);
 // exists on its mesh only.
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
+// True beyond that, where not even a finer mesh started from it is likely to find a motion that is none.
+bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
+
+// The meshes of a solve that went before this one.
+void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);
+
 // Solves the problem of the spec from a guess on `mesh`, and on finer meshes started from its solution until gap and slip
-// between the nodes are within the bounds of the request. A fine `mesh` is reached by way of coarser ones, and from the guess where
-// that fails. One entry of GaitSolution::meshes for each program.
+// between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget);
 
@@ -23,6 +28,10 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 // nowhere coarser than what the request asks for, and has to converge within max_iterations.
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
+
+// The same on the requested mesh, from the solution of a coarser one.
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+                              SolveBudget* budget);
 
 // The mesh that the request asks for.
 Mesh RequestedMesh(const GaitSpec& spec);

@@ -7,6 +7,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/mesh_ascent.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
@@ -28,10 +29,6 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   return UnmetConstraint{"friction, mean over the motion", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
-void PutBefore(const GaitSolution& earlier, GaitSolution* solution) {
-  solution->meshes.insert(solution->meshes.begin(), earlier.meshes.begin(), earlier.meshes.end());
-}
-
 // From the requested starts, and on a slope that these do not reach by continuation.
 GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
   const auto problem = BuildProblem(spec);
@@ -41,12 +38,12 @@ GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
   if (Converged(solution.termination) || spec.slope == 0 || !budget->Left()) return solution;
   std::optional<GaitSolution> continued = SolveByContinuation(spec, budget);
   if (!continued) return solution;
-  PutBefore(solution, &*continued);
+  PutBefore(solution.meshes, &*continued);
   return std::move(*continued);
 }
 
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
-GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchOnMesh(const GaitSpec& spec, SolveBudget* budget) {
   constexpr double kCoarseTolerance = 1e-3;  // of what is only a start
   if (LeastSmoothing(spec).value_or(kSmoothingFromAfar) >= kSmoothingFromAfar) return SearchFromAfar(spec, budget);
   GaitSpec smooth = SmoothedBy(kSmoothingFromAfar, spec);
@@ -56,11 +53,22 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   if (solution.termination == Termination::kNumericalDifficulty && spec.max_refinements > 0 && budget->Left()) {
     smooth.max_refinements = spec.max_refinements;
     GaitSolution refined = SearchFromAfar(smooth, budget);
-    PutBefore(solution, &refined);
+    PutBefore(solution.meshes, &refined);
     solution = std::move(refined);
   }
   if (!Converged(solution.termination)) return solution;
   return Sharpen(spec, std::move(solution), budget);
+}
+
+// By way of coarser meshes where the requested one is fine, and without them where that fails.
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+  const std::optional<GaitSpec> coarse = CoarseStart(spec);
+  if (!coarse) return SearchOnMesh(spec, budget);
+  GaitSolution ascended = Ascend(spec, *BuildProblem(spec), SearchOnMesh(*coarse, budget), budget);
+  if ((Converged(ascended.termination) && !IsArtefact(spec, ascended)) || !budget->Left()) return ascended;
+  GaitSolution solution = SearchOnMesh(spec, budget);
+  PutBefore(ascended.meshes, &solution);
+  return solution;
 }
 
 // From the warm start, if there is one, and without it where that does not converge.
@@ -70,7 +78,7 @@ GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), kMostIterations, budget);
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
-  PutBefore(warm, &cold);
+  PutBefore(warm.meshes, &cold);
   cold.note += " Started afresh, since the warm start did not converge (" + warm.message + ")";
   return cold;
 }

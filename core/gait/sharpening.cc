@@ -29,7 +29,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
         SolveFromWarmStart(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;
     solution.warm_started = solution.used_multipliers = false;  // not from what the request named
-    solution.meshes.insert(solution.meshes.begin(), last.meshes.begin(), last.meshes.end());
+    PutBefore(last.meshes, &solution);
     if (Converged(solution.termination)) {
       last = std::move(solution);
       reached = next;

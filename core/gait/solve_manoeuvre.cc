@@ -11,6 +11,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/mesh_ascent.h"
 #include "core/gait/rolling_path.h"
 
 namespace rollgait {
@@ -111,12 +112,24 @@ bool Better(const Attempt& a, const Attempt& b) {
   return a.solution.objective < b.solution.objective;
 }
 
-// The best of the sketches on finer meshes, in its chart.
-GaitSolution Refine(const GaitSpec& spec, const Attempt& best, SolveBudget* budget) {
-  const RollingPath path = PathOf(*best.solution.scene, *best.solution.trajectory);
-  const Charted charted(spec, path, ChartOf(*best.solution.scene));
-  GaitSolution refined = SolveOnMeshes(charted.spec, *charted.problem, GuessFromTrajectory(*best.solution.trajectory),
-                                       RequestedMesh(spec), budget);
+// The best of all sketches, on the requested mesh.
+Attempt FindBest(const GaitSpec& spec, SolveBudget* budget, std::vector<MeshStatistics>* meshes) {
+  std::optional<Attempt> best;
+  for (const Detour& detour : Detours(spec)) {
+    if (best && !budget->Left()) break;
+    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget, meshes);
+    if (!best || Better(attempt, *best)) best = std::move(attempt);
+  }
+  return std::move(*best);
+}
+
+// On finer meshes, in its chart.
+GaitSolution Refine(const GaitSpec& spec, const GaitSolution& best, SolveBudget* budget) {
+  const RollingPath path = PathOf(*best.scene, *best.trajectory);
+  const Charted charted(spec, path, ChartOf(*best.scene));
+  GaitSolution start = best;
+  start.meshes.clear();
+  GaitSolution refined = Ascend(charted.spec, *charted.problem, std::move(start), budget);
   refined.scene = charted.spec.scene;
   if (Converged(refined.termination) && !WithinChart(*refined.trajectory)) {
     refined.termination = Termination::kNumericalDifficulty;
@@ -125,32 +138,40 @@ GaitSolution Refine(const GaitSpec& spec, const Attempt& best, SolveBudget* budg
   return refined;
 }
 
+// Why the best attempt is no solution.
+void Explain(const Attempt& best, GaitSolution* solution) {
+  if (!solution->trajectory) {
+    if (solution->meshes.empty()) solution->message = "No chart of the orientation covers the way to the end.";
+  } else if (Converged(solution->termination)) {
+    solution->termination = Termination::kNumericalDifficulty;
+    solution->message = best.within_chart
+                            ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
+                              "intervals or more time."
+                            : "Only motions that reach the edge of the chart of their orientation were found.";
+  }
+}
+
+// Sketches are compared on the mesh of `first`, the best of them is refined to the spec's.
+GaitSolution SearchSketches(const GaitSpec& spec, const GaitSpec& first, SolveBudget* budget) {
+  std::vector<MeshStatistics> meshes;
+  const Attempt best = FindBest(first, budget, &meshes);
+  GaitSolution solution = best.valid ? Refine(spec, best.solution, budget) : best.solution;
+  if (!best.valid) solution.meshes.clear();
+  PutBefore(meshes, &solution);
+  if (!best.valid) Explain(best, &solution);
+  return solution;
+}
+
 }  // namespace
 
 GaitSolution SolveManoeuvre(const GaitSpec& spec, SolveBudget* budget) {
-  std::optional<Attempt> best;
-  std::vector<MeshStatistics> meshes;
-  for (const Detour& detour : Detours(spec)) {
-    if (best && !budget->Left()) break;
-    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget, &meshes);
-    if (!best || Better(attempt, *best)) best = std::move(attempt);
+  const std::optional<GaitSpec> coarse = CoarseStart(spec);
+  GaitSolution solution = SearchSketches(spec, coarse ? *coarse : spec, budget);
+  if (coarse && !Converged(solution.termination) && budget->Left()) {
+    GaitSolution on_mesh = SearchSketches(spec, spec, budget);
+    PutBefore(solution.meshes, &on_mesh);
+    solution = std::move(on_mesh);
   }
-  GaitSolution solution = std::move(best->solution);
-  if (!solution.trajectory) {
-    if (meshes.empty()) solution.message = "No chart of the orientation covers the way to the end.";
-  } else if (best->valid) {
-    Attempt found{std::move(solution), true, true};
-    solution = Refine(spec, found, budget);
-    Append(solution.meshes, &meshes);
-  } else if (Converged(solution.termination)) {
-    solution.termination = Termination::kNumericalDifficulty;
-    solution.message =
-        best->within_chart
-            ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
-              "intervals or more time."
-            : "Only motions that reach the edge of the chart of their orientation were found.";
-  }
-  solution.meshes = std::move(meshes);
   solution.wall_time = budget->elapsed();
   return solution;
 }

@@ -120,6 +120,25 @@ TEST(Indirect, ConvergesWithTheOrderOfTheScheme) {
   EXPECT_GT(order->order, 2.5) << errors[0].error << " " << errors[1].error << " " << errors[2].error;
 }
 
+// On a fine mesh the same cost, from sketches that are compared on a coarse one: only the best of them is carried up, 25 to 50, 100 and
+// 200 intervals.
+TEST(Indirect, AFineMeshIsClimbedByTheBestSketchAlone) {
+  const double least = *BallExtremals(1, kBallRadius, 1)
+                            .Least({0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX())), 3, 6);
+  GaitRequest request = RollTo(0, 0, 1, {kPi / 2, 0, 0});
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  request.discretization.single_support_intervals = 200;
+  const GaitSolution solution = Solve(request);
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  // Ten times what 200 intervals of order 3 leave.
+  EXPECT_NEAR(solution.objective / least, 1, 1e-5);
+  std::vector<int> fine;
+  for (const MeshStatistics& mesh : solution.meshes) {
+    if (mesh.intervals[0] > 25) fine.push_back(mesh.intervals[0]);
+  }
+  EXPECT_EQ(fine, (std::vector<int>{50, 100, 200}));
+}
+
 // Mirrored at the plane y = 0, and turned about the vertical, the manoeuvre costs the same.
 TEST(Symmetry, MirrorImageAndTurnCostTheSame) {
   const auto cost = [](double x, double y, const Vector3& turn) {

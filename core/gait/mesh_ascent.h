@@ -1,0 +1,26 @@
+#ifndef ROLLGAIT_CORE_GAIT_MESH_ASCENT_H_
+#define ROLLGAIT_CORE_GAIT_MESH_ASCENT_H_
+
+#include <optional>
+
+#include "core/gait/gait_solver.h"
+#include "core/gait/solve_budget.h"
+#include "core/ocp/problem.h"
+
+namespace rollgait {
+
+// From afar the iterations grow with the number of intervals, from the solution of half as many they do not: a fine mesh is reached by
+// way of coarser ones.
+
+// The spec with half as many intervals in each phase, as often as it takes to be solved well from afar; motions between the nodes
+// are not bounded and nothing is refined. Nothing where the spec has few enough.
+std::optional<GaitSpec> CoarseStart(const GaitSpec& spec);
+
+// From a solution on a coarser mesh to the spec, by way of the meshes between CoarseStart's and the spec's that are finer than its own.
+// The meshes list every program from `start` on. Where one does not converge, or leads astray: that one's solution, which is not the
+// spec's and says so by its termination.
+GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start, SolveBudget* budget);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_MESH_ASCENT_H_

@@ -1,0 +1,116 @@
+#include "core/gait/mesh_ascent.h"
+
+#include <gtest/gtest.h>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/mesh_sequence.h"
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+GaitRequest Fine(int intervals) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.motion.speed = 1.3;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  request.discretization.single_support_intervals = intervals;
+  request.discretization.double_support_intervals = intervals / 2;
+  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  return request;
+}
+
+GaitSpec Check(const GaitRequest& request) { return CheckRequest(request).value(); }
+
+GaitSolution Solve(const GaitSpec& spec) { return OptimizingGaitSolver().Solve(spec, SolveControl()); }
+
+std::vector<int> Totals(const GaitSolution& solution) {
+  std::vector<int> totals;
+  for (const MeshStatistics& mesh : solution.meshes) {
+    totals.push_back(mesh.intervals[0] + mesh.intervals[1]);
+  }
+  return totals;
+}
+
+TEST(CoarseStart, HalvesUntilFewEnoughAreLeft) {
+  EXPECT_EQ(CoarseStart(Check(Fine(24))), std::nullopt);  // 36 in all
+  GaitRequest request = Fine(100);
+  request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
+  const auto coarse = CoarseStart(Check(request));
+  ASSERT_TRUE(coarse);
+  // 50 + 100, 25 + 50, 13 + 25 are too many, in the order of the phases.
+  EXPECT_EQ(coarse->phases[0].intervals, 7);
+  EXPECT_EQ(coarse->phases[1].intervals, 13);
+  EXPECT_EQ(coarse->max_slip, kInfinity);
+  EXPECT_EQ(coarse->max_gap, kInfinity);
+  EXPECT_EQ(coarse->max_refinements, 0);
+  EXPECT_EQ(coarse->kkt_tolerance, Check(request).kkt_tolerance);
+}
+
+// Every mesh on the way has twice as many intervals as the one before, and the end is a minimum of the spec's own program: started from
+// there nothing moves.
+TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
+  const GaitSpec spec = Check(Fine(96));
+  const GaitSolution solution = Solve(spec);
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  EXPECT_EQ(Totals(solution), (std::vector<int>{36, 72, 144}));
+  GaitSpec again = spec;
+  again.warm_start = WarmStart{*solution.trajectory, solution.multipliers};
+  const GaitSolution repeated = Solve(again);
+  ASSERT_EQ(repeated.termination, Termination::kOptimal) << repeated.message;
+  EXPECT_EQ(repeated.meshes.size(), 1u);
+  EXPECT_NEAR(repeated.objective, solution.objective, 1e-6 * solution.objective);
+}
+
+// Powers are sharpened on the coarsest mesh, where it is cheap and steps succeed; all finer ones are solved with the spec's.
+TEST(Ascend, ClimbsWithTheSmoothingOfTheSpec) {
+  GaitRequest request = Fine(60);
+  request.costs.clear();
+  request.preset = Preset::kTransport;
+  request.starts = 1;
+  const GaitSpec spec = Check(request);
+  const GaitSolution solution = Solve(spec);
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  int coarsest = 0, smooth = 0;
+  for (const MeshStatistics& mesh : solution.meshes) {
+    const bool first = mesh.intervals == solution.meshes.front().intervals;
+    if (first) ++coarsest;
+    if (mesh.smoothing > 5) {
+      ++smooth;
+      EXPECT_TRUE(first);
+    }
+  }
+  EXPECT_GE(smooth, 1);
+  EXPECT_GT(coarsest, smooth);
+  EXPECT_EQ(Totals(solution).back(), 90);
+}
+
+// A start whose feet slip at more than half the speed is no start, and nothing is solved from there.
+TEST(Ascend, RefusesAStartThatLeadsAstray) {
+  const GaitSpec spec = Check(Fine(48));
+  GaitSolution start = Solve(*CoarseStart(spec));
+  ASSERT_EQ(start.termination, Termination::kOptimal) << start.message;
+  start.accuracy->max_slip = 0.51 * start.speed;
+  ASSERT_TRUE(LeadsAstray(spec, start));
+  const SolveControl control;
+  SolveBudget budget(spec, control);
+  const GaitSolution refused = Ascend(spec, *BuildProblem(spec), start, &budget);
+  EXPECT_EQ(refused.termination, Termination::kNumericalDifficulty);
+  EXPECT_EQ(refused.meshes.size(), start.meshes.size());
+  start.accuracy->max_slip = 0.49 * start.speed;
+  EXPECT_EQ(Ascend(spec, *BuildProblem(spec), start, &budget).termination, Termination::kOptimal);
+}
+
+// Where the iterations end on the way, no answer of a coarse mesh is passed off as the request's.
+TEST(Ascend, GivesNoCoarseAnswer) {
+  GaitRequest request = Fine(48);
+  const GaitSolution whole = Solve(Check(request));
+  ASSERT_EQ(whole.termination, Termination::kOptimal) << whole.message;
+  request.solver_limits.max_iterations = whole.meshes[0].iterations + 2;
+  const GaitSolution cut = Solve(Check(request));
+  EXPECT_EQ(cut.termination, Termination::kIterationLimit);
+  EXPECT_FALSE(cut.within_requested_accuracy);
+}
+
+}  // namespace
+}  // namespace rollgait
