@@ -176,8 +176,8 @@ bool HasRates(const GaitSpec& spec) {
 
 // The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
 // closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). Rates jump where feet come down, and the finer the mesh the more that costs: where they decide, the
-// solution of another mesh is that of a neighbour. Other costs need fewest iterations from between (human29, torque, level: 80
+// none within 900 with 1e-3). Efforts jump where feet come down, and the finer the mesh the more their rate costs: with a price of
+// rates the solution of another mesh is that of a neighbour. Other costs need fewest iterations from between (human29, torque, level: 80
 // against 137 with 1e-4).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec) {
   constexpr double kBarrierNearSolution = 1e-3, kBarrierNearSharpSolution = 1e-4;
