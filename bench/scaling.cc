@@ -1,8 +1,9 @@
 // How time and memory of a solve grow with the number of intervals: one process for each mesh, cold, draft accuracy, level ground.
 //   scaling [--model human29] [--preset human] [--intervals 15,30,60,120,240]
 // --intervals are those of single support; double support has half as many. Without a preset: squared torque with a little rate.
-// Prints the iterations on that mesh and those with the coarser ones before it, CPU time in all, of the nonlinear program alone per iteration, and the peak of resident memory of the whole process; then
-// the exponents p of least-squares fits of c N^p.
+// Prints the iterations on that mesh and those with the coarser ones before it, the objective, CPU time in all, of the nonlinear
+// program alone per iteration, and the peak of resident memory of the whole process; then the exponents p of least-squares fits of
+// c N^p.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,6 +27,7 @@ struct Sample {
   int iterations = 0, all_iterations = 0;  // on the mesh asked for; with the coarser ones before it
   double cpu = 0, program_cpu = 0;  // s
   double memory = 0;                // MB
+  double objective = 0;
 };
 
 double CpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -50,6 +52,7 @@ Sample Solve(const GaitRequest& request) {
   sample.unknowns = solution.meshes.back().unknowns;
   sample.iterations = solution.meshes.back().iterations;
   for (const MeshStatistics& mesh : solution.meshes) sample.all_iterations += mesh.iterations;
+  sample.objective = solution.objective;
   sample.optimal = solution.termination == Termination::kOptimal ? 1 : 0;
   return sample;
 }
@@ -106,15 +109,17 @@ int Main(int argc, char** argv) {
   if (!request.preset) {
     request.costs = {{GaitRequest::SquaredTorque{}, 1.0}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
   }
-  std::printf("%5s %5s %8s %5s %5s | %8s %12s %8s\n", "N", "all", "unknowns", "iter", "total", "cpu s", "ms/iteration", "peak MB");
+  std::printf("%5s %5s %8s %5s %5s %9s | %8s %12s %8s\n", "N", "all", "unknowns", "iter", "total", "objective", "cpu s",
+              "ms/iteration", "peak MB");
   std::vector<Sample> samples;
   std::stringstream stream(counts);
   for (std::string count; std::getline(stream, count, ',');) {
     request.discretization.single_support_intervals = std::stoi(count);
     request.discretization.double_support_intervals = std::max(1, std::stoi(count) / 2);
     const Sample sample = SolveApart(request);
-    std::printf("%5s %5d %8d %5d %5d | %8.2f %12.2f %8.1f%s\n", count.c_str(), sample.intervals, sample.unknowns,
-                sample.iterations, sample.all_iterations, sample.cpu, 1000 * sample.program_cpu / sample.iterations, sample.memory,
+    std::printf("%5s %5d %8d %5d %5d %9.4g | %8.2f %12.2f %8.1f%s\n", count.c_str(), sample.intervals, sample.unknowns,
+                sample.iterations, sample.all_iterations, sample.objective, sample.cpu,
+                1000 * sample.program_cpu / sample.iterations, sample.memory,
                 sample.optimal != 0 ? "" : "  not optimal");
     std::fflush(stdout);
     samples.push_back(sample);

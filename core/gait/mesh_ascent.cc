@@ -1,5 +1,6 @@
 #include "core/gait/mesh_ascent.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -29,12 +30,15 @@ GaitSpec WithHalfTheIntervals(GaitSpec spec) {
 
 // The spec on meshes that only lead to others, coarsest last.
 std::vector<GaitSpec> CoarserOnes(const GaitSpec& spec) {
-  GaitSpec unbounded = spec;
-  unbounded.max_gap = unbounded.max_slip = kInfinity;
-  unbounded.max_refinements = 0;
+  // A phase has one interval at least, so many short phases have more in all however often they are halved.
+  const int fewest = std::max(kMostFromAfar, static_cast<int>(spec.phases.size()));
+  GaitSpec next = spec;
+  next.max_gap = next.max_slip = kInfinity;
+  next.max_refinements = 0;
   std::vector<GaitSpec> coarser;
-  while (Intervals(coarser.empty() ? unbounded : coarser.back()) > kMostFromAfar) {
-    coarser.push_back(WithHalfTheIntervals(coarser.empty() ? unbounded : coarser.back()));
+  while (Intervals(next) > fewest) {
+    next = WithHalfTheIntervals(std::move(next));
+    coarser.push_back(next);
   }
   return coarser;
 }

@@ -132,6 +132,7 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
 
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
 
+// A coarse mesh may slip at half the speed and still lead to a motion that does not.
 bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
 
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution) {
@@ -152,12 +153,17 @@ struct Predecessor {
   NlpResult result;
 };
 
-// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
-// Chosen by trial on human29 (docs/optimizer.md).
-NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
+NlpOptions OptionsFromAfar(const GaitSpec& spec) {
   NlpOptions options;
   options.tolerance = spec.kkt_tolerance;
   options.max_iterations = spec.max_iterations;
+  return options;
+}
+
+// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
+// Chosen by trial on human29 (docs/optimizer.md).
+NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
+  NlpOptions options = OptionsFromAfar(spec);
   options.initial_barrier = 1e-2;
   options.warm_push = 1e-2;
   options.barrier_tolerance = 1000;
@@ -183,20 +189,13 @@ NlpOptions OptionsForNextMesh(const GaitSpec& spec) {
   constexpr double kBarrierNearSolution = 1e-3, kBarrierNearSharpSolution = 1e-4;
   const bool sharp = LeastSmoothing(spec).has_value();
   if (!sharp && HasRates(spec)) return OptionsForNeighbour(spec);
-  NlpOptions options;
-  if (sharp) options = OptionsForNeighbour(spec);
-  options.tolerance = spec.kkt_tolerance;
-  options.max_iterations = spec.max_iterations;
+  NlpOptions options = sharp ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
   options.initial_barrier = options.warm_push = sharp ? kBarrierNearSharpSolution : kBarrierNearSolution;
   return options;
 }
 
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
-  if (guess.near_solution) return OptionsForNextMesh(spec);
-  NlpOptions options;
-  options.tolerance = spec.kkt_tolerance;
-  options.max_iterations = spec.max_iterations;
-  return options;
+  return guess.near_solution ? OptionsForNextMesh(spec) : OptionsFromAfar(spec);
 }
 
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
@@ -302,9 +301,8 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
                               SolveBudget* budget) {
-  const MotionGuess guess = GuessFromTrajectory(coarser.trajectory);
-  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), PredecessorOf(spec, problem, coarser), RequestedMesh(spec),
-                   budget);
+  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec),
+                   PredecessorOf(spec, problem, coarser), RequestedMesh(spec), budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,

@@ -13,7 +13,7 @@ bool Converged(Termination termination);
 // exists on its mesh only.
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
-// True beyond that, where not even a finer mesh started from it is likely to find a motion that is none.
+// True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
 bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
 
 // The meshes of a solve that went before this one.

@@ -112,24 +112,24 @@ bool Better(const Attempt& a, const Attempt& b) {
   return a.solution.objective < b.solution.objective;
 }
 
-// The best of all sketches, on the requested mesh.
-Attempt FindBest(const GaitSpec& spec, SolveBudget* budget, std::vector<MeshStatistics>* meshes) {
+// The best of all sketches, on the requested mesh. Its solution's meshes are those of all of them.
+Attempt FindBest(const GaitSpec& spec, SolveBudget* budget) {
   std::optional<Attempt> best;
+  std::vector<MeshStatistics> meshes;
   for (const Detour& detour : Detours(spec)) {
     if (best && !budget->Left()) break;
-    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget, meshes);
+    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget, &meshes);
     if (!best || Better(attempt, *best)) best = std::move(attempt);
   }
+  best->solution.meshes = std::move(meshes);
   return std::move(*best);
 }
 
 // On finer meshes, in its chart.
-GaitSolution Refine(const GaitSpec& spec, const GaitSolution& best, SolveBudget* budget) {
+GaitSolution Refine(const GaitSpec& spec, GaitSolution best, SolveBudget* budget) {
   const RollingPath path = PathOf(*best.scene, *best.trajectory);
   const Charted charted(spec, path, ChartOf(*best.scene));
-  GaitSolution start = best;
-  start.meshes.clear();
-  GaitSolution refined = Ascend(charted.spec, *charted.problem, std::move(start), budget);
+  GaitSolution refined = Ascend(charted.spec, *charted.problem, std::move(best), budget);
   refined.scene = charted.spec.scene;
   if (Converged(refined.termination) && !WithinChart(*refined.trajectory)) {
     refined.termination = Termination::kNumericalDifficulty;
@@ -138,28 +138,25 @@ GaitSolution Refine(const GaitSpec& spec, const GaitSolution& best, SolveBudget*
   return refined;
 }
 
-// Why the best attempt is no solution.
-void Explain(const Attempt& best, GaitSolution* solution) {
-  if (!solution->trajectory) {
-    if (solution->meshes.empty()) solution->message = "No chart of the orientation covers the way to the end.";
-  } else if (Converged(solution->termination)) {
-    solution->termination = Termination::kNumericalDifficulty;
-    solution->message = best.within_chart
-                            ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
-                              "intervals or more time."
-                            : "Only motions that reach the edge of the chart of their orientation were found.";
+// What is left where no attempt is valid: the best one, and why it is no solution.
+GaitSolution Refused(Attempt best) {
+  GaitSolution solution = std::move(best.solution);
+  if (!solution.trajectory) {
+    if (solution.meshes.empty()) solution.message = "No chart of the orientation covers the way to the end.";
+  } else if (Converged(solution.termination)) {
+    solution.termination = Termination::kNumericalDifficulty;
+    solution.message = best.within_chart
+                           ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
+                             "intervals or more time."
+                           : "Only motions that reach the edge of the chart of their orientation were found.";
   }
+  return solution;
 }
 
 // Sketches are compared on the mesh of `first`, the best of them is refined to the spec's.
 GaitSolution SearchSketches(const GaitSpec& spec, const GaitSpec& first, SolveBudget* budget) {
-  std::vector<MeshStatistics> meshes;
-  const Attempt best = FindBest(first, budget, &meshes);
-  GaitSolution solution = best.valid ? Refine(spec, best.solution, budget) : best.solution;
-  if (!best.valid) solution.meshes.clear();
-  PutBefore(meshes, &solution);
-  if (!best.valid) Explain(best, &solution);
-  return solution;
+  Attempt best = FindBest(first, budget);
+  return best.valid ? Refine(spec, std::move(best.solution), budget) : Refused(std::move(best));
 }
 
 }  // namespace

@@ -47,6 +47,18 @@ TEST(CoarseStart, HalvesUntilFewEnoughAreLeft) {
   EXPECT_EQ(coarse->kkt_tolerance, Check(request).kkt_tolerance);
 }
 
+// As many phases as a request may have, of one interval each: there is nothing to halve, though they are more than 36.
+TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
+  GaitSpec spec = Check(Fine(8));
+  spec.phases.resize(40, spec.phases.front());
+  for (GaitSpec::Phase& phase : spec.phases) phase.intervals = 1;
+  EXPECT_EQ(CoarseStart(spec), std::nullopt);
+  spec.phases.front().intervals = 3;
+  const auto coarse = CoarseStart(spec);
+  ASSERT_TRUE(coarse);
+  for (const GaitSpec::Phase& phase : coarse->phases) EXPECT_EQ(phase.intervals, 1);
+}
+
 // Every mesh on the way has twice as many intervals as the one before, and the end is a minimum of the spec's own program: started from
 // there nothing moves.
 TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
