@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
@@ -137,6 +138,9 @@ std::vector<pid_t> AgentsOf(const std::string& data_dir) {
     const bool is_agent = command.substr(0, command.find('\0')).find("rollgait-agent") != std::string::npos;
     if (is_agent && command.find(data_dir + '\0') != std::string::npos && ParentOf(pid) != 0) agents.push_back(pid);
   }
+  // A solver has its agent's command line until it becomes the program that it was started for.
+  const std::vector<pid_t> found = agents;
+  std::erase_if(agents, [&](pid_t pid) { return std::find(found.begin(), found.end(), ParentOf(pid)) != found.end(); });
   return agents;
 }
 
