@@ -182,20 +182,26 @@ bool HasRates(const GaitSpec& spec) {
 
 // The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
 // closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). Efforts jump where feet come down, and the finer the mesh the more their rate costs: with a price of
-// rates the solution of another mesh is that of a neighbour. Other costs need fewest iterations from between (human29, torque, level: 80
-// against 137 with 1e-4).
-NlpOptions OptionsForNextMesh(const GaitSpec& spec) {
-  constexpr double kBarrierNearSolution = 1e-3, kBarrierNearSharpSolution = 1e-4;
-  const bool sharp = LeastSmoothing(spec).has_value();
-  if (!sharp && HasRates(spec)) return OptionsForNeighbour(spec);
-  NlpOptions options = sharp ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
-  options.initial_barrier = options.warm_push = sharp ? kBarrierNearSharpSolution : kBarrierNearSolution;
+// none within 900 with 1e-3). Efforts jump where feet come down, and the shorter the intervals there the more their rates cost: with a
+// price of rates the solution of a mesh with shorter intervals is that of a neighbour. Where no interval is shorter than any before,
+// the solution is closest of all, whatever the cost (docs/optimizer.md).
+NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
+  constexpr double kBarrierNearSolution = 1e-3, kBarrierClose = 1e-4;
+  const bool close = !has_shorter_intervals || LeastSmoothing(spec).has_value();
+  if (!close && HasRates(spec)) return OptionsForNeighbour(spec);
+  NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
+  options.initial_barrier = options.warm_push = close ? kBarrierClose : kBarrierNearSolution;
   return options;
 }
 
+double ShortestInterval(const Mesh& mesh) {
+  double least = 1;
+  for (const std::vector<double>& phase : mesh.fractions) least = std::min(least, *std::min_element(phase.begin(), phase.end()));
+  return least;
+}
+
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
-  return guess.near_solution ? OptionsForNextMesh(spec) : OptionsFromAfar(spec);
+  return guess.near_solution ? OptionsForNextMesh(spec, true) : OptionsFromAfar(spec);
 }
 
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
@@ -299,10 +305,12 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
   return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget);
 }
 
-GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget) {
-  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec),
-                   PredecessorOf(spec, problem, coarser), RequestedMesh(spec), budget);
+  constexpr double kRounding = 1e-9;
+  const bool has_shorter_intervals = ShortestInterval(mesh) < (1 - kRounding) * ShortestInterval(MeshOf(coarser.trajectory));
+  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec, has_shorter_intervals),
+                   PredecessorOf(spec, problem, coarser), std::move(mesh), budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,

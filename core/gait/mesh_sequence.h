@@ -29,8 +29,8 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
-// The same on the requested mesh, from the solution of a coarser one.
-GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+// The same from the solution of a coarser mesh.
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget);
 
 // The mesh that the request asks for.

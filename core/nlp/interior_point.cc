@@ -24,6 +24,8 @@ constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kKappaEnd =
 constexpr int kMostCorrections = 4;
 // Of recentred steps: shorter ones are worth it; how much longer they are to be, and the part of that which is enough.
 constexpr double kLongStep = 0.9, kLengthening = 0.6, kLeastGain = 0.1;
+// Share of the optimality error that a step past the filter may leave.
+constexpr double kWorthwhile = 0.9;
 constexpr double kEpsilon = 2.2e-16;
 
 // a ≤ b up to the rounding of numbers of the size of `scale`.
@@ -102,12 +104,12 @@ class Solver {
       ReduceBarrier(tiny_steps > 1);
       if (tiny_steps > 3) return Termination::kNumericalDifficulty;
       if (!newton_.Compute(point_, multipliers_, lagrangian_, mu_, &step_)) {
-        needs_restoration_ = true;
+        needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
       }
       const Search outcome = LineSearch();
       if (outcome == Search::kFailed) {
-        needs_restoration_ = true;
+        needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
       }
       tiny_steps = outcome == Search::kTinyStep ? tiny_steps + 1 : 0;
@@ -116,6 +118,8 @@ class Solver {
       if (!Linearise()) return Termination::kNumericalDifficulty;
     }
   }
+
+  bool HasAcceptableError() const { return error_.scaled <= kAcceptableFactor * options_.tolerance; }
 
   // ∇f + Aᵀ y of w = (x, s), without the multipliers of bounds.
   void SetLagrangian() {
@@ -173,7 +177,27 @@ class Solver {
       }
       if (first && valid && trial_.theta >= point_.theta && SecondOrderCorrection(alpha)) return Search::kStep;
     }
-    return Search::kFailed;
+    return TryForOptimality() ? Search::kStep : Search::kFailed;
+  }
+
+  // The whole Newton step for what it does to the optimality conditions, whatever the filter says of it: close to a solution the
+  // filter compares roundings (Wächter and Biegler, section 3.3, before the restoration phase).
+  bool TryForOptimality() {
+    const double before = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled;
+    const Multipliers old_multipliers = multipliers_;
+    const double alpha =
+        std::min(MaxPrimalStep(barrier_, point_, step_.w, tau_), MaxDualStep(multipliers_, step_.multipliers, tau_));
+    ++trials_;
+    if (!Try(alpha, step_.w)) return false;
+    dual_step_ = alpha;
+    Accept(alpha, step_);
+    if (Linearise() &&
+        ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <= kWorthwhile * before) {
+      return true;
+    }
+    std::swap(point_, trial_);
+    multipliers_ = old_multipliers;
+    return false;
   }
 
   // The recentred step, if it is longer in one and not much shorter in the other of primal and dual, and the filter takes it whole.
@@ -307,8 +331,7 @@ class Solver {
       result->kkt_error = error_.scaled;
       result->constraint_violation = error_.primal;
     }
-    if (termination == Termination::kNumericalDifficulty && result->x.size() > 0 &&
-        error_.scaled <= kAcceptableFactor * options_.tolerance) {
+    if (termination == Termination::kNumericalDifficulty && result->x.size() > 0 && HasAcceptableError()) {
       result->termination = Termination::kAcceptable;
     }
     result->message = Explain(result->termination);
