@@ -87,7 +87,7 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
   GaitSpec rough = OnTheWay(spec);
   rough.kkt_tolerance = std::max(spec.kkt_tolerance, kRoughTolerance);
   GaitSolution last = std::move(start);
-  for (int halvings = Halvings(spec) - 1; halvings >= 0; --halvings) {
+  for (int halvings = std::max(Halvings(spec) - 1, 0); halvings >= 0; --halvings) {
     if (!Converged(last.termination)) return last;
     if (LeadsAstray(spec, last)) {
       last.termination = Termination::kNumericalDifficulty;

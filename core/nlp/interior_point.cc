@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/nlp/bound_multipliers.h"
-#include "core/nlp/filter.h"
 #include "core/nlp/newton_step.h"
 #include "core/nlp/optimality.h"
+#include "core/nlp/step_acceptance.h"
 #include "core/nlp/step_length.h"
 #include "core/nlp/termination.h"
 
@@ -19,17 +19,13 @@ using Point = BarrierProblem::Point;
 
 // Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
 constexpr double kTauMin = 0.99, kKappaMu = 0.2;
-constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
-constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10, kMostMultiplier = 1000;
+constexpr double kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10, kMostMultiplier = 1000;
 constexpr int kMostCorrections = 4;
 // Of recentred steps: shorter ones are worth it; how much longer they are to be, and the part of that which is enough.
 constexpr double kLongStep = 0.9, kLengthening = 0.6, kLeastGain = 0.1;
 // Share of the optimality error that a step past the filter may leave.
 constexpr double kWorthwhile = 0.9;
 constexpr double kEpsilon = 2.2e-16;
-
-// a ≤ b up to the rounding of numbers of the size of `scale`.
-bool AtMost(double a, double b, double scale) { return a - b <= 10 * kEpsilon * std::abs(scale); }
 
 class Solver {
  public:
@@ -72,9 +68,7 @@ class Solver {
     }
     for (const int row : barrier_.free_rows()) multipliers_.y(row) = 0;
     if (!Linearise()) return false;
-    theta_min_ = 1e-4 * std::max(1.0, point_.theta);
-    theta_max_ = 1e4 * std::max(1.0, point_.theta);
-    filter_.Reset(theta_max_);
+    acceptance_.Begin(point_.theta);
     return true;
   }
 
@@ -140,7 +134,7 @@ class Solver {
                          options_.barrier_tolerance * mu_)) {
       mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, options_.barrier_exponent)));
       tau_ = std::max(kTauMin, 1 - mu_);
-      filter_.Reset(theta_max_);
+      acceptance_.ForgetFilter();
       stuck = false;
     }
   }
@@ -153,11 +147,10 @@ class Solver {
   }
 
   Search LineSearch() {
-    phi_ = barrier_.Barrier(point_, mu_);
     objective_gradient_.setZero(barrier_.unknowns());
     objective_gradient_.head(barrier_.variables()) = gradient_;
     barrier_.AddBarrierGradient(point_, mu_, objective_gradient_, &barrier_gradient_);
-    slope_ = barrier_gradient_.dot(step_.w);
+    from_ = {point_.theta, barrier_.Barrier(point_, mu_), barrier_gradient_.dot(step_.w)};
     double alpha = MaxPrimalStep(barrier_, point_, step_.w, tau_);
     dual_step_ = MaxDualStep(multipliers_, step_.multipliers, tau_);
     trials_ = 0;
@@ -167,7 +160,7 @@ class Solver {
       return Search::kTinyStep;
     }
     if (options_.recentre && std::min(alpha, dual_step_) < kLongStep && TryRecentred(alpha)) return Search::kStep;
-    const double least = SmallestStep();
+    const double least = acceptance_.SmallestStep(from_);
     for (bool first = true; first || alpha > least; first = false, alpha *= 0.5) {
       ++trials_;
       const bool valid = Try(alpha, step_.w);
@@ -210,27 +203,16 @@ class Solver {
     const double dual = MaxDualStep(multipliers_, corrected_.multipliers, tau_);
     if (std::max(primal - alpha, dual - dual_step_) < kLeastGain * kLengthening) return false;
     if (primal < 0.9 * alpha || dual < 0.9 * dual_step_) return false;
-    const double slope = slope_;
-    slope_ = barrier_gradient_.dot(corrected_.w);
+    const double slope = from_.slope;
+    from_.slope = barrier_gradient_.dot(corrected_.w);
     ++trials_;
     if (Try(primal, corrected_.w) && IsAcceptable(primal)) {
       dual_step_ = dual;
       Accept(primal, corrected_);
       return true;
     }
-    slope_ = slope;
+    from_.slope = slope;
     return false;
-  }
-
-  double SmallestStep() const {
-    double least = kGammaTheta;
-    if (slope_ < 0) {
-      least = std::min(least, kGammaPhi * point_.theta / -slope_);
-      if (point_.theta <= theta_min_) {
-        least = std::min(least, kDelta * std::pow(point_.theta, kSTheta) / std::pow(-slope_, kSPhi));
-      }
-    }
-    return kGammaAlpha * least;
   }
 
   bool Try(double alpha, const VectorX& step) {
@@ -239,31 +221,8 @@ class Solver {
     return barrier_.Evaluate(&trial_);
   }
 
-  bool Switching(double alpha) const {
-    return slope_ < 0 && alpha * std::pow(-slope_, kSPhi) > kDelta * std::pow(point_.theta, kSTheta);
-  }
-  bool Armijo(double alpha, double phi) const { return AtMost(phi - phi_, kEtaPhi * alpha * slope_, phi_); }
-
   bool IsAcceptable(double alpha) {
-    const double phi = barrier_.Barrier(trial_, mu_);
-    if (!std::isfinite(phi) || trial_.theta > theta_max_) return false;
-    if (Switching(alpha) && point_.theta <= theta_min_) {
-      if (!Armijo(alpha, phi)) return false;
-    } else {
-      // An objective that grows by orders of magnitude is not paid for by a little feasibility.
-      if (phi > phi_ && std::log10(phi - phi_) > 5 + std::max(1.0, std::log10(std::max(10.0, std::abs(phi_))))) {
-        return false;
-      }
-      if (!AtMost(trial_.theta, (1 - kGammaTheta) * point_.theta, point_.theta) &&
-          !AtMost(phi - phi_, -kGammaPhi * point_.theta, phi_)) {
-        return false;
-      }
-    }
-    if (!filter_.Accepts(trial_.theta, phi)) return false;
-    if (!Switching(alpha) || !Armijo(alpha, phi)) {
-      filter_.Add((1 - kGammaTheta) * point_.theta, phi_ - kGammaPhi * point_.theta);
-    }
-    return true;
+    return acceptance_.Accepts(from_, alpha, {trial_.theta, barrier_.Barrier(trial_, mu_), 0});
   }
 
   bool SecondOrderCorrection(double alpha) {
@@ -348,9 +307,10 @@ class Solver {
   Point point_, trial_;
   Multipliers multipliers_;
   NewtonStep step_, corrected_;
-  Filter filter_;
+  StepAcceptance acceptance_;
+  LinePoint from_;
   VectorX gradient_, objective_gradient_, barrier_gradient_, lagrangian_, transposed_, corrected_c_;
-  double mu_ = 0, tau_ = 0, theta_min_ = 0, theta_max_ = 0, phi_ = 0, slope_ = 0;
+  double mu_ = 0, tau_ = 0;
   OptimalityError error_;
   double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
   int iteration_ = 0, trials_ = 0;

@@ -59,13 +59,14 @@ TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
   for (const GaitSpec::Phase& phase : coarse->phases) EXPECT_EQ(phase.intervals, 1);
 }
 
-// Every mesh on the way has twice as many intervals as the one before, and the end is a minimum of the spec's own program: started from
+// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; and the end is a minimum of the spec's own program: started from
 // there nothing moves.
 TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
   const GaitSpec spec = Check(Fine(96));
   const GaitSolution solution = Solve(spec);
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
-  EXPECT_EQ(Totals(solution), (std::vector<int>{36, 72, 144}));
+  EXPECT_EQ(Totals(solution), (std::vector<int>{36, 84, 144}));
+  EXPECT_EQ(solution.meshes[1].intervals, (std::vector<int>{6 + 18 + 6, 6 + 42 + 6}));
   GaitSpec again = spec;
   again.warm_start = WarmStart{*solution.trajectory, solution.multipliers};
   const GaitSolution repeated = Solve(again);

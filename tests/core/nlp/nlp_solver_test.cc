@@ -1,6 +1,7 @@
 // What every solver of nonlinear programs must do: Ipopt, the interior point method of our own, and the one that combines them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/nlp/interior_point.h"
@@ -242,6 +243,58 @@ TEST(InteriorPoint, AsksForRestoration) {
   EXPECT_EQ(both.restored_from, alone.result.iterations);
   EXPECT_GT(restored, 0);
   for (size_t i = 0; i < indices.size(); ++i) EXPECT_EQ(indices[i], static_cast<int>(i));
+}
+
+// ½ x² whose last digits are lost, so near its minimum no step lowers it, and whose derivative is off by `error` times the sign of x.
+class Coarse : public NlpProblem {
+ public:
+  explicit Coarse(double error) : error_(error) { hessian_pattern_.Add(0, 0); }
+  int variables() const override { return 1; }
+  int constraints() const override { return 0; }
+  const VectorX& lower_bounds() const override { return lower_; }
+  const VectorX& upper_bounds() const override { return upper_; }
+  const VectorX& constraint_lower() const override { return none_; }
+  const VectorX& constraint_upper() const override { return none_; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
+  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
+  bool Objective(const double* x, double* value) override {
+    const volatile double large = 1 << 26;  // an ulp of 1.5e-8
+    const volatile double sum = large + 0.5 * x[0] * x[0];
+    *value = sum - large;
+    return true;
+  }
+  bool Gradient(const double* x, double* gradient) override {
+    gradient[0] = x[0] + std::copysign(error_, x[0]);
+    return true;
+  }
+  bool Constraints(const double*, double*) override { return true; }
+  bool Jacobian(const double*, double*) override { return true; }
+  bool Hessian(const double*, double sigma, const double*, double* values) override {
+    values[0] = sigma;
+    return true;
+  }
+
+ private:
+  double error_;
+  VectorX lower_ = VectorX::Constant(1, -1e20), upper_ = VectorX::Constant(1, 1e20), none_;
+  SparsityPattern jacobian_pattern_, hessian_pattern_;
+};
+
+TEST(InteriorPoint, StepsPastTheFilterWhereItComparesRoundings) {
+  Coarse problem(0);
+  const InteriorPointResult out = SolveWithInteriorPoint(problem, {VectorX::Constant(1, 1e-5), {}, {}, {}}, {}, {});
+  EXPECT_EQ(out.result.termination, Termination::kOptimal) << out.result.message;
+  EXPECT_NEAR(out.result.x(0), 0, 1e-20);
+}
+
+// Where no step helps, nothing is to be restored at a point that is good to 100 times the tolerance; beyond that there is.
+TEST(InteriorPoint, EndsWhereNothingHelps) {
+  Coarse near(2e-5), far(2e-4);
+  const NlpStart start{VectorX::Constant(1, 1e-6), {}, {}, {}};
+  const InteriorPointResult good = SolveWithInteriorPoint(near, start, {}, {});
+  EXPECT_EQ(good.result.termination, Termination::kAcceptable) << good.result.message;
+  EXPECT_FALSE(good.needs_restoration);
+  EXPECT_TRUE(SolveWithInteriorPoint(far, start, {}, {}).needs_restoration);
 }
 
 TEST(IpoptSolver, NamesItsVersion) { EXPECT_EQ(IpoptVersion().rfind("Ipopt 3.", 0), 0u) << IpoptVersion(); }

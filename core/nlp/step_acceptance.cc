@@ -1,0 +1,67 @@
+#include "core/nlp/step_acceptance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollgait {
+namespace {
+
+// Names as in Wächter and Biegler, values as in Ipopt.
+constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
+constexpr double kGammaAlpha = 0.05;
+constexpr double kEpsilon = 2.2e-16;
+
+// a ≤ b up to the rounding of numbers of the size of `scale`.
+bool AtMost(double a, double b, double scale) { return a - b <= 10 * kEpsilon * std::abs(scale); }
+
+// Whether φ is expected to fall by so much that it, and not θ, is to be judged.
+bool Switching(const LinePoint& from, double alpha) {
+  return from.slope < 0 && alpha * std::pow(-from.slope, kSPhi) > kDelta * std::pow(from.theta, kSTheta);
+}
+
+bool Armijo(const LinePoint& from, double alpha, double phi) {
+  return AtMost(phi - from.phi, kEtaPhi * alpha * from.slope, from.phi);
+}
+
+}  // namespace
+
+void StepAcceptance::Begin(double first_theta) {
+  theta_min_ = 1e-4 * std::max(1.0, first_theta);
+  theta_max_ = 1e4 * std::max(1.0, first_theta);
+  ForgetFilter();
+}
+
+bool StepAcceptance::Accepts(const LinePoint& from, double alpha, const LinePoint& to) {
+  if (!std::isfinite(to.phi) || to.theta > theta_max_) return false;
+  if (Switching(from, alpha) && from.theta <= theta_min_) {
+    if (!Armijo(from, alpha, to.phi)) return false;
+  } else {
+    // An objective that grows by orders of magnitude is not paid for by a little feasibility.
+    if (to.phi > from.phi &&
+        std::log10(to.phi - from.phi) > 5 + std::max(1.0, std::log10(std::max(10.0, std::abs(from.phi))))) {
+      return false;
+    }
+    if (!AtMost(to.theta, (1 - kGammaTheta) * from.theta, from.theta) &&
+        !AtMost(to.phi - from.phi, -kGammaPhi * from.theta, from.phi)) {
+      return false;
+    }
+  }
+  if (!filter_.Accepts(to.theta, to.phi)) return false;
+  if (!Switching(from, alpha) || !Armijo(from, alpha, to.phi)) {
+    filter_.Add((1 - kGammaTheta) * from.theta, from.phi - kGammaPhi * from.theta);
+  }
+  return true;
+}
+
+double StepAcceptance::SmallestStep(const LinePoint& from) const {
+  double least = kGammaTheta;
+  if (from.slope < 0) {
+    least = std::min(least, kGammaPhi * from.theta / -from.slope);
+    if (from.theta <= theta_min_) {
+      least = std::min(least, kDelta * std::pow(from.theta, kSTheta) / std::pow(-from.slope, kSPhi));
+    }
+  }
+  return kGammaAlpha * least;
+}
+
+}  // namespace rollgait
