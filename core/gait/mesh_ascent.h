@@ -18,8 +18,8 @@ namespace rollgait {
 std::optional<GaitSpec> CoarseStart(const GaitSpec& spec);
 
 // From a solution on a coarser mesh to the spec, by way of those meshes between its own and the spec's that have more intervals than
-// the one and fewer than the other. The meshes list every program from `start` on. Where one does not converge, or leads astray: that one's solution, which is
-// not the spec's and says so by its termination.
+// the one and fewer than the other. The meshes list every program from `start` on. Where one does not converge, or leads astray: that
+// one's solution, which is not the spec's and says so by its termination.
 GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start, SolveBudget* budget);
 
 }  // namespace rollgait

@@ -194,10 +194,14 @@ NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) 
   return options;
 }
 
-double ShortestInterval(const Mesh& mesh) {
-  double least = 1;
-  for (const std::vector<double>& phase : mesh.fractions) least = std::min(least, *std::min_element(phase.begin(), phase.end()));
-  return least;
+// Whether some phase of a mesh has an interval that is shorter than all of that phase on the other.
+bool HasShorterIntervals(const Mesh& mesh, const Mesh& other) {
+  constexpr double kRounding = 1e-9;
+  const auto shortest = [](const std::vector<double>& phase) { return *std::min_element(phase.begin(), phase.end()); };
+  for (size_t p = 0; p < mesh.fractions.size(); ++p) {
+    if (shortest(mesh.fractions[p]) < (1 - kRounding) * shortest(other.fractions[p])) return true;
+  }
+  return false;
 }
 
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
@@ -307,8 +311,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget) {
-  constexpr double kRounding = 1e-9;
-  const bool has_shorter_intervals = ShortestInterval(mesh) < (1 - kRounding) * ShortestInterval(MeshOf(coarser.trajectory));
+  const bool has_shorter_intervals = HasShorterIntervals(mesh, MeshOf(coarser.trajectory));
   return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec, has_shorter_intervals),
                    PredecessorOf(spec, problem, coarser), std::move(mesh), budget);
 }

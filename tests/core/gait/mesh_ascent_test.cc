@@ -59,8 +59,8 @@ TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
   for (const GaitSpec::Phase& phase : coarse->phases) EXPECT_EQ(phase.intervals, 1);
 }
 
-// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; and the end is a minimum of the spec's own program: started from
-// there nothing moves.
+// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; and the end is a minimum
+// of the spec's own program: started from there nothing moves.
 TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
   const GaitSpec spec = Check(Fine(96));
   const GaitSolution solution = Solve(spec);
