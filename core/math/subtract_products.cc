@@ -148,6 +148,20 @@ ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, 
   for (; k < count; ++k) Dots<1>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
 }
 
+// most = max(most, value), and most where value is no number.
+template <typename L>
+ROLLGAIT_INLINE void Raise(const L& value, L* most) {
+  *most = value > *most ? value : *most;
+}
+
+template <typename L>
+ROLLGAIT_INLINE void RaiseByMagnitudes(const double* x, L* most) {
+  L value;
+  std::memcpy(&value, x, sizeof(L));
+  value = value < 0 ? -value : value;
+  Raise(value, most);
+}
+
 template <typename L>
 ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
   // Several at once, because each waits for its last comparison.
@@ -155,22 +169,14 @@ ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
   L most[kChains] = {};
   int i = 0;
   for (; i + kChains * kWidth<L> <= n; i += kChains * kWidth<L>) {
-    for (int s = 0; s < kChains; ++s) {
-      L value;
-      std::memcpy(&value, x + i + s * kWidth<L>, sizeof(L));
-      value = value < 0 ? -value : value;
-      most[s] = value > most[s] ? value : most[s];
-    }
+    for (int s = 0; s < kChains; ++s) RaiseByMagnitudes(x + i + s * kWidth<L>, &most[s]);
   }
-  double largest = 0;
-  for (int s = 0; s < kChains; ++s) {
-    for (int k = 0; k < kWidth<L>; ++k) largest = most[s][k] > largest ? most[s][k] : largest;
-  }
-  for (; i < n; ++i) {
-    const double value = x[i] < 0 ? -x[i] : x[i];
-    largest = value > largest ? value : largest;
-  }
-  return largest;
+  for (; i + kWidth<L> <= n; i += kWidth<L>) RaiseByMagnitudes(x + i, &most[0]);
+  for (int s = 1; s < kChains; ++s) Raise(most[s], &most[0]);
+  double largest[2] = {};
+  for (int k = 0; k < kWidth<L>; ++k) Raise(static_cast<double>(most[0][k]), &largest[k % 2]);
+  for (; i < n; ++i) RaiseByMagnitudes(x + i, &largest[i % 2]);
+  return std::max(largest[0], largest[1]);
 }
 
 // The four kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the

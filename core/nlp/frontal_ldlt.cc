@@ -10,6 +10,9 @@
 namespace rollgait {
 namespace {
 
+// Columns of L that a solution takes together.
+constexpr int kColumnsAtOnce = 8;
+
 void AddTo(double* __restrict sum, const double* __restrict term, int n) {
   for (int i = 0; i < n; ++i) sum[i] += term[i];
 }
@@ -138,6 +141,7 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
   inertia_ = {};
   factor_entries_ = 0;
   delayed_pivots_ = 0;
+  panels_.Reset();
   for (Front& front : fronts_) {
     Assemble(values, &front);
     FactorPanel(&front, threshold);
@@ -161,12 +165,8 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   front->columns = static_cast<int>(front->unknowns.size());
   front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
   front->rows = static_cast<int>(front->unknowns.size());
-  const size_t size = static_cast<size_t>(front->rows) * front->columns;
-  if (front->panel.size() < size) {
-    front->panel = {};  // to grow by what is needed, not to double
-    front->panel.resize(size);
-  }
-  ClearLowerTriangle(front->panel.data(), front->rows, front->columns, front->rows);
+  front->panel = panels_.Take(static_cast<size_t>(front->rows) * front->columns);
+  ClearLowerTriangle(front->panel, front->rows, front->columns, front->rows);
   const int order = front->rows - front->columns;
   if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
   const int shift = front->columns - own;
@@ -179,7 +179,7 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
     AddChild(fronts_[c], slot, front);
     slot += fronts_[c].columns - fronts_[c].pivots;
   }
-  MirrorLowerTriangle(front->panel.data(), front->rows, front->columns);
+  MirrorLowerTriangle(front->panel, front->rows, front->columns);
 }
 
 // What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its `update`.
@@ -197,7 +197,7 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
     return front->panel[static_cast<size_t>(column) * front->rows + row];
   };
   for (int j = 0; j < delayed; ++j) {
-    const double* column = child.panel.data() + static_cast<size_t>(child.pivots + j) * child.rows;
+    const double* column = child.panel + static_cast<size_t>(child.pivots + j) * child.rows;
     const int slot = first_slot + j;
     for (int i = j; i < delayed; ++i) panel(first_slot + i, slot) += column[child.pivots + i];
     for (int i = 0; i < update; ++i) panel(std::max(map_[i], slot), std::min(map_[i], slot)) += column[child.columns + i];
@@ -251,11 +251,12 @@ void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
 void FrontalLdlt::FactorPanel(Front* front, double threshold) {
   front->diagonal.assign(front->columns, 0.0);
   front->coupling.assign(front->columns, 0.0);
-  if (scaled_.size() < front->panel.size()) scaled_.resize(front->panel.size());
+  const size_t size = static_cast<size_t>(front->rows) * front->columns;
+  if (scaled_.size() < size) scaled_.resize(size);
   if (updated_.size() < static_cast<size_t>(front->columns)) updated_.resize(front->columns);
   FrontPanel panel{front->rows,
                    front->columns,
-                   front->panel.data(),
+                   front->panel,
                    scaled_.data(),
                    front->diagonal.data(),
                    front->coupling.data(),
@@ -269,7 +270,7 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 
 void FrontalLdlt::UpdateSchur(Front* front) {
   const int order = front->rows - front->columns;
-  SubtractProductTriangle(front->panel.data() + front->columns, front->rows, scaled_.data() + front->columns, front->rows,
+  SubtractProductTriangle(front->panel + front->columns, front->rows, scaled_.data() + front->columns, front->rows,
                           front->pivots, order, Schur(*front), order);
 }
 
@@ -278,12 +279,15 @@ void FrontalLdlt::Solve(double* x) {
   for (const Front& front : fronts_) {
     const int pivots = front.pivots, rows = front.rows;
     for (int i = 0; i < rows; ++i) y[i] = i < pivots ? x[front.unknowns[i]] : 0.0;
-    for (int k = 0; k < pivots; ++k) {
-      const double* column = front.panel.data() + static_cast<size_t>(k) * rows;
-      const double value = y[k];
-      for (int i = k + 1; i < pivots; ++i) y[i] -= column[i] * value;
+    for (int first = 0, end; first < pivots; first = end) {
+      end = std::min(first + kColumnsAtOnce, pivots);
+      const double* columns = front.panel + static_cast<size_t>(first) * rows;
+      for (int k = first; k < end; ++k) {
+        const double* column = columns + static_cast<size_t>(k - first) * rows;
+        for (int i = k + 1; i < end; ++i) y[i] -= column[i] * y[k];
+      }
+      SubtractProducts(columns + end, rows, y + first, 1, end - first, rows - end, y + end);
     }
-    SubtractProducts(front.panel.data() + pivots, rows, y, 1, pivots, rows - pivots, y + pivots);
     for (int i = pivots; i < rows; ++i) x[front.unknowns[i]] += y[i];
     for (int k = 0; k < pivots; ++k) {
       double* value = y + k;
@@ -304,10 +308,14 @@ void FrontalLdlt::Solve(double* x) {
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const int pivots = front->pivots, rows = front->rows;
     for (int i = 0; i < rows; ++i) y[i] = x[front->unknowns[i]];
-    SubtractTransposedProduct(front->panel.data() + pivots, rows, pivots, rows - pivots, y + pivots, y);
-    for (int k = pivots - 1; k >= 0; --k) {
-      const double* column = front->panel.data() + static_cast<size_t>(k) * rows;
-      SubtractTransposedProduct(column + k + 1, rows, 1, pivots - k - 1, y + k + 1, y + k);
+    for (int end = pivots, first; end > 0; end = first) {
+      first = (end - 1) / kColumnsAtOnce * kColumnsAtOnce;
+      const double* columns = front->panel + static_cast<size_t>(first) * rows;
+      SubtractTransposedProduct(columns + end, rows, end - first, rows - end, y + end, y + first);
+      for (int k = end - 1; k >= first; --k) {
+        const double* column = columns + static_cast<size_t>(k - first) * rows;
+        for (int i = k + 1; i < end; ++i) y[k] -= column[i] * y[i];
+      }
     }
     for (int k = 0; k < pivots; ++k) x[front->unknowns[k]] = y[k];
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/nlp/panel_store.h"
 #include "core/nlp/problem.h"
 
 namespace rollgait {
@@ -51,7 +52,7 @@ class FrontalLdlt {
     // Numeric. Rows: pivots, columns that were delayed, update.
     int columns = 0, rows = 0, pivots = 0;
     std::vector<int> unknowns;    // of every row
-    std::vector<double> panel;    // at least rows × columns, L in the first `pivots` columns
+    double* panel = nullptr;      // rows × columns, of panels_; L in the first `pivots` columns
     std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
     int block = 0;                // of blocks_, with the Schur complement: update × update, lower triangle
   };
@@ -69,6 +70,7 @@ class FrontalLdlt {
 
   int size_;
   std::vector<Front> fronts_;
+  PanelStore panels_;
   std::vector<std::vector<double>> blocks_;  // as many as are in use at once, until the parent has taken them up
   std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
   std::vector<int> map_, run_ends_;   // of the update of the child in work: rows in its parent, where a run of neighbours ends
