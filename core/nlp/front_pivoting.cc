@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/subtract_products.h"
+#include "core/nlp/panel_store.h"
 
 namespace rollgait {
 namespace {
@@ -37,25 +38,28 @@ class Elimination {
   }
 
  private:
-  double* Column(int c) const { return p_.l + static_cast<size_t>(c) * p_.rows; }
-  double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.rows; }
+  double* Column(int c) const { return p_.l + static_cast<size_t>(c) * p_.stride; }
+  double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.stride; }
+
+  // First row of an update: that of the next pivot, or a little before it for the sake of whole lines. Nobody reads what becomes of
+  // the rows of pivots.
+  int FirstRow() const { return found_.count / kNumbersPerLine * kNumbersPerLine; }
 
   void Update(int c) {
-    const int first = p_.updated[c];
-    SubtractProducts(p_.l + static_cast<size_t>(first) * p_.rows + found_.count, p_.rows,
-                     p_.ld + static_cast<size_t>(first) * p_.rows + c, p_.rows, found_.count - first,
-                     p_.rows - found_.count, Column(c) + found_.count);
+    const int first = p_.updated[c], row = FirstRow();
+    SubtractProducts(Column(first) + row, p_.stride, Scaled(first) + c, p_.stride, found_.count - first, p_.rows - row,
+                     Column(c) + row);
     p_.updated[c] = found_.count;
   }
 
   // Columns that have seen equally many pivots go together.
   void UpdateAll() {
+    const int row = FirstRow();
     for (int c = found_.count, end; c < p_.columns; c = end) {
       const int first = p_.updated[c];
       for (end = c + 1; end < p_.columns && p_.updated[end] == first;) ++end;
-      SubtractProductMatrix(p_.l + static_cast<size_t>(first) * p_.rows + found_.count, p_.rows,
-                            p_.ld + static_cast<size_t>(first) * p_.rows + c, p_.rows, found_.count - first,
-                            p_.rows - found_.count, end - c, Column(c) + found_.count, p_.rows);
+      SubtractProductMatrix(Column(first) + row, p_.stride, Scaled(first) + c, p_.stride, found_.count - first, p_.rows - row,
+                            end - c, Column(c) + row, p_.stride);
       std::fill(p_.updated + c, p_.updated + end, found_.count);
     }
     flushed_ = found_.count;

@@ -26,14 +26,14 @@ void ClearLowerTriangle(double* a, int stride, int columns, int rows) {
 }
 
 // The upper triangle of the first `columns` rows becomes the lower one's transpose.
-void MirrorLowerTriangle(double* a, int rows, int columns) {
+void MirrorLowerTriangle(double* a, int stride, int columns) {
   // Both sides of a block stay in the first cache.
   constexpr int kBlock = 16;
   for (int first = 0; first < columns; first += kBlock) {
     const int end = std::min(first + kBlock, columns);
     for (int i = first; i < columns; ++i) {
-      double* row = a + static_cast<size_t>(i) * rows;
-      for (int j = first; j < std::min(end, i); ++j) row[j] = a[static_cast<size_t>(j) * rows + i];
+      double* row = a + static_cast<size_t>(i) * stride;
+      for (int j = first; j < std::min(end, i); ++j) row[j] = a[static_cast<size_t>(j) * stride + i];
     }
   }
 }
@@ -165,21 +165,22 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   front->columns = static_cast<int>(front->unknowns.size());
   front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
   front->rows = static_cast<int>(front->unknowns.size());
-  front->panel = panels_.Take(static_cast<size_t>(front->rows) * front->columns);
-  ClearLowerTriangle(front->panel, front->rows, front->columns, front->rows);
+  front->stride = (front->rows + kNumbersPerLine - 1) / kNumbersPerLine * kNumbersPerLine;
+  front->panel = panels_.Take(static_cast<size_t>(front->stride) * front->columns);
+  ClearLowerTriangle(front->panel, front->stride, front->columns, front->rows);
   const int order = front->rows - front->columns;
   if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
   const int shift = front->columns - own;
   for (const Entry& e : front->entries) {
     const int row = e.row < own ? e.row : e.row + shift;
-    front->panel[static_cast<size_t>(e.column) * front->rows + row] += values[e.value];
+    front->Column(e.column)[row] += values[e.value];
   }
   int slot = own;
   for (int c : front->children) {
     AddChild(fronts_[c], slot, front);
     slot += fronts_[c].columns - fronts_[c].pivots;
   }
-  MirrorLowerTriangle(front->panel, front->rows, front->columns);
+  MirrorLowerTriangle(front->panel, front->stride, front->columns);
 }
 
 // What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its `update`.
@@ -193,18 +194,15 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
   for (int row : child.parent_row) map_.push_back(row < own ? row : row + shift);
   run_ends_.assign(update, update);
   for (int i = update - 2; i >= 0; --i) run_ends_[i] = map_[i] + 1 == map_[i + 1] ? run_ends_[i + 1] : i + 1;
-  const auto panel = [front](int row, int column) -> double& {
-    return front->panel[static_cast<size_t>(column) * front->rows + row];
-  };
   for (int j = 0; j < delayed; ++j) {
-    const double* column = child.panel + static_cast<size_t>(child.pivots + j) * child.rows;
+    const double* column = child.Column(child.pivots + j);
     const int slot = first_slot + j;
-    for (int i = j; i < delayed; ++i) panel(first_slot + i, slot) += column[child.pivots + i];
-    for (int i = 0; i < update; ++i) panel(std::max(map_[i], slot), std::min(map_[i], slot)) += column[child.columns + i];
+    for (int i = j; i < delayed; ++i) front->Column(slot)[first_slot + i] += column[child.pivots + i];
+    for (int i = 0; i < update; ++i) front->Column(std::min(map_[i], slot))[std::max(map_[i], slot)] += column[child.columns + i];
   }
   int summed = 0;  // rows of the child's update that this front eliminates
   for (; summed < update && map_[summed] < front->columns; ++summed) {
-    AddRuns(Schur(child) + static_cast<size_t>(summed) * update, summed, update, &panel(0, map_[summed]));
+    AddRuns(Schur(child) + static_cast<size_t>(summed) * update, summed, update, front->Column(map_[summed]));
   }
   if (&child == &fronts_[front->children.front()]) {
     CopySchur(child, summed, front);
@@ -251,11 +249,12 @@ void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
 void FrontalLdlt::FactorPanel(Front* front, double threshold) {
   front->diagonal.assign(front->columns, 0.0);
   front->coupling.assign(front->columns, 0.0);
-  const size_t size = static_cast<size_t>(front->rows) * front->columns;
+  const size_t size = static_cast<size_t>(front->stride) * front->columns;
   if (scaled_.size() < size) scaled_.resize(size);
   if (updated_.size() < static_cast<size_t>(front->columns)) updated_.resize(front->columns);
   FrontPanel panel{front->rows,
                    front->columns,
+                   front->stride,
                    front->panel,
                    scaled_.data(),
                    front->diagonal.data(),
@@ -270,7 +269,7 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 
 void FrontalLdlt::UpdateSchur(Front* front) {
   const int order = front->rows - front->columns;
-  SubtractProductTriangle(front->panel + front->columns, front->rows, scaled_.data() + front->columns, front->rows,
+  SubtractProductTriangle(front->panel + front->columns, front->stride, scaled_.data() + front->columns, front->stride,
                           front->pivots, order, Schur(*front), order);
 }
 
@@ -281,12 +280,12 @@ void FrontalLdlt::Solve(double* x) {
     for (int i = 0; i < rows; ++i) y[i] = i < pivots ? x[front.unknowns[i]] : 0.0;
     for (int first = 0, end; first < pivots; first = end) {
       end = std::min(first + kColumnsAtOnce, pivots);
-      const double* columns = front.panel + static_cast<size_t>(first) * rows;
+      const double* columns = front.Column(first);
       for (int k = first; k < end; ++k) {
-        const double* column = columns + static_cast<size_t>(k - first) * rows;
+        const double* column = front.Column(k);
         for (int i = k + 1; i < end; ++i) y[i] -= column[i] * y[k];
       }
-      SubtractProducts(columns + end, rows, y + first, 1, end - first, rows - end, y + end);
+      SubtractProducts(columns + end, front.stride, y + first, 1, end - first, rows - end, y + end);
     }
     for (int i = pivots; i < rows; ++i) x[front.unknowns[i]] += y[i];
     for (int k = 0; k < pivots; ++k) {
@@ -310,10 +309,10 @@ void FrontalLdlt::Solve(double* x) {
     for (int i = 0; i < rows; ++i) y[i] = x[front->unknowns[i]];
     for (int end = pivots, first; end > 0; end = first) {
       first = (end - 1) / kColumnsAtOnce * kColumnsAtOnce;
-      const double* columns = front->panel + static_cast<size_t>(first) * rows;
-      SubtractTransposedProduct(columns + end, rows, end - first, rows - end, y + end, y + first);
+      const double* columns = front->Column(first);
+      SubtractTransposedProduct(columns + end, front->stride, end - first, rows - end, y + end, y + first);
       for (int k = end - 1; k >= first; --k) {
-        const double* column = columns + static_cast<size_t>(k - first) * rows;
+        const double* column = front->Column(k);
         for (int i = k + 1; i < end; ++i) y[k] -= column[i] * y[i];
       }
     }

@@ -8,7 +8,6 @@
 namespace rollgait {
 namespace {
 
-constexpr size_t kLine = 64 / sizeof(double);
 constexpr std::align_val_t kHugePage{size_t{2} << 20};
 constexpr size_t kBlock = 2 * static_cast<size_t>(kHugePage) / sizeof(double);
 
@@ -21,7 +20,7 @@ void PanelStore::Free::operator()(double* block) const { ::operator delete(block
 void PanelStore::Reset() { current_ = used_ = 0; }
 
 double* PanelStore::Take(size_t count) {
-  count = RoundedUp(count, kLine);
+  count = RoundedUp(count, kNumbersPerLine);
   while (current_ < blocks_.size() && used_ + count > blocks_[current_].size) {
     ++current_;
     used_ = 0;

@@ -7,13 +7,16 @@
 
 namespace rollgait {
 
+// Numbers in 64 bytes, a line of the cache.
+inline constexpr int kNumbersPerLine = 8;
+
 // Memory for the panels of one factorisation after the other. They lie side by side in a few blocks of huge pages, where the system
 // has them: a solve visits all panels several times an iteration. What has been allocated stays.
 class PanelStore {
  public:
   // Everything taken before may be taken again.
   void Reset();
-  // `count` numbers, not cleared, at a multiple of 64 bytes; they stay where they are until the next Reset.
+  // `count` numbers, not cleared, from the start of a line on; they stay where they are until the next Reset.
   double* Take(size_t count);
 
  private:
