@@ -34,6 +34,15 @@ void* operator new(size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return __real_malloc(size == 0 ? 1 : size);
 }
+void* operator new(size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const size_t step = static_cast<size_t>(alignment);
+  void* block = std::aligned_alloc(step, (size + step - 1) / step * step);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, size_t, std::align_val_t) noexcept { std::free(block); }
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, size_t) noexcept { std::free(block); }
 
