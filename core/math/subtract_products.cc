@@ -179,7 +179,14 @@ ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
   return std::max(largest[0], largest[1]);
 }
 
-// The four kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the
+ROLLGAIT_INLINE void ScaleKernel(double factor, int n, double* __restrict x, double* __restrict kept) {
+  for (int i = 0; i < n; ++i) {
+    kept[i] = x[i];
+    x[i] *= factor;
+  }
+}
+
+// The five kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the
 // lanes; g++ 12 makes the same bits of it with AVX2 and AVX-512, g++ 14 fuses the wide ones only.
 #define ROLLGAIT_KERNELS(NAME, TARGET, L)                                                                                 \
   TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count,   \
@@ -194,14 +201,16 @@ ROLLGAIT_INLINE double LargestKernel(const double* x, int n) {
     TransposedKernel(l, l_stride, count, n, x, y);                                                                        \
   }                                                                                                                       \
   TARGET double NAME##Largest(const double* x, int n) { return LargestKernel<L>(x, n); }                                  \
-  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME, NAME##Column, NAME##Matrix, NAME##Transposed, NAME##Largest};
+  TARGET void NAME##Scale(double factor, int n, double* x, double* kept) { ScaleKernel(factor, n, x, kept); }             \
+  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME,            NAME##Column,  NAME##Matrix,                     \
+                                                       NAME##Transposed, NAME##Largest, NAME##Scale};
 
 ROLLGAIT_KERNELS(Portable, , Lanes)
 #if defined(__x86_64__)
 ROLLGAIT_KERNELS(Avx2, __attribute__((target("avx2,fma"))), Lanes)
 ROLLGAIT_KERNELS(Wide, __attribute__((target("avx512f,avx2,fma"))), WideLanes)
 // Dot products are bound by memory: nothing is gained by wider ones.
-constexpr ProductKernels kAvx512 = {"Avx512", WideColumn, WideMatrix, Avx2Transposed, WideLargest};
+constexpr ProductKernels kAvx512 = {"Avx512", WideColumn, WideMatrix, Avx2Transposed, WideLargest, WideScale};
 #endif
 
 const ProductKernels& Chosen() {
@@ -244,5 +253,7 @@ void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, 
 }
 
 double LargestMagnitude(const double* x, int n) { return Chosen().largest(x, n); }
+
+void ScaleAndKeep(double factor, int n, double* x, double* kept) { Chosen().scale(factor, n, x, kept); }
 
 }  // namespace rollgait

@@ -27,6 +27,9 @@ void SubtractTransposedProduct(const double* l, int l_stride, int count, int n, 
 // Largest |x_i| of n numbers, 0 of none. NaNs count as 0.
 double LargestMagnitude(const double* x, int n);
 
+// kept (n) = x, x *= factor. The two do not overlap.
+void ScaleAndKeep(double factor, int n, double* x, double* kept);
+
 // The same for one instruction set; the functions above call the last of those available.
 struct ProductKernels {
   const char* name;
@@ -37,6 +40,7 @@ struct ProductKernels {
                  int y_stride, int first_step);
   void (*transposed)(const double* l, int l_stride, int count, int n, const double* x, double* y);
   double (*largest)(const double* x, int n);
+  void (*scale)(double factor, int n, double* x, double* kept);
 };
 std::vector<const ProductKernels*> AvailableProductKernels();
 

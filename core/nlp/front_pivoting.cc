@@ -125,14 +125,10 @@ class Elimination {
   }
 
   int Single(int p) {
-    double* __restrict x = Column(p);
-    double* __restrict scaled = Scaled(p);
-    const double d = x[p], inverse = 1 / d;
+    double* x = Column(p);
+    const double d = x[p];
     p_.diagonal[p] = d;
-    for (int i = p; i < p_.rows; ++i) {
-      scaled[i] = x[i];
-      x[i] *= inverse;
-    }
+    ScaleAndKeep(1 / d, p_.rows - p, x + p, Scaled(p) + p);
     x[p] = 1;
     found_.negative += d < 0 ? 1 : 0;
     return 1;

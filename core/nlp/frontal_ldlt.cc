@@ -13,6 +13,8 @@ namespace {
 // Columns of L that a solution takes together.
 constexpr int kColumnsAtOnce = 8;
 
+int WholeLines(int numbers) { return (numbers + kNumbersPerLine - 1) / kNumbersPerLine * kNumbersPerLine; }
+
 void AddTo(double* __restrict sum, const double* __restrict term, int n) {
   for (int i = 0; i < n; ++i) sum[i] += term[i];
 }
@@ -117,7 +119,7 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
   }
   map_.reserve(most);
   run_ends_.reserve(most);
-  gathered_.resize(size_);
+  gathered_.resize(size_ + kNumbersPerLine);  // the rows of a front, with zeros up to the next line
 }
 
 // A chain needs a handful of Schur complements at once, and its fronts find them in the cache.
@@ -146,7 +148,7 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
     Assemble(values, &front);
     FactorPanel(&front, threshold);
     UpdateSchur(&front);
-    factor_entries_ += static_cast<long>(front.pivots) * front.rows;
+    factor_entries_ += static_cast<long>(front.pivots) * (front.columns + static_cast<long>(front.update.size()));
     const int left = front.columns - front.pivots;
     (front.is_root ? inertia_.zero : delayed_pivots_) += left;
   }
@@ -163,14 +165,14 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
                            child.unknowns.begin() + child.columns);
   }
   front->columns = static_cast<int>(front->unknowns.size());
-  front->unknowns.insert(front->unknowns.end(), front->update.begin(), front->update.end());
-  front->rows = static_cast<int>(front->unknowns.size());
-  front->stride = (front->rows + kNumbersPerLine - 1) / kNumbersPerLine * kNumbersPerLine;
+  const int order = static_cast<int>(front->update.size());
+  front->first_update = WholeLines(front->columns);
+  front->rows = front->first_update + order;
+  front->stride = WholeLines(front->rows);
   front->panel = panels_.Take(static_cast<size_t>(front->stride) * front->columns);
   ClearLowerTriangle(front->panel, front->stride, front->columns, front->rows);
-  const int order = front->rows - front->columns;
   if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
-  const int shift = front->columns - own;
+  const int shift = front->first_update - own;
   for (const Entry& e : front->entries) {
     const int row = e.row < own ? e.row : e.row + shift;
     front->Column(e.column)[row] += values[e.value];
@@ -186,7 +188,7 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
 // What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its `update`.
 void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
   const int own = static_cast<int>(front->own.size());
-  const int shift = front->columns - own;
+  const int shift = front->first_update - own;
   const int delayed = child.columns - child.pivots;
   const int update = static_cast<int>(child.update.size());
   // The map is ascending, so a lower triangle stays one; rows that stay neighbours are added in one go.
@@ -198,7 +200,7 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
     const double* column = child.Column(child.pivots + j);
     const int slot = first_slot + j;
     for (int i = j; i < delayed; ++i) front->Column(slot)[first_slot + i] += column[child.pivots + i];
-    for (int i = 0; i < update; ++i) front->Column(std::min(map_[i], slot))[std::max(map_[i], slot)] += column[child.columns + i];
+    for (int i = 0; i < update; ++i) front->Column(std::min(map_[i], slot))[std::max(map_[i], slot)] += column[child.first_update + i];
   }
   int summed = 0;  // rows of the child's update that this front eliminates
   for (; summed < update && map_[summed] < front->columns; ++summed) {
@@ -208,10 +210,10 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
     CopySchur(child, summed, front);
     return;
   }
-  const int order = front->rows - front->columns;
+  const int order = static_cast<int>(front->update.size());
   for (int j = summed; j < update; ++j) {
     AddRuns(Schur(child) + static_cast<size_t>(j) * update, j, update,
-            Schur(*front) + static_cast<size_t>(map_[j] - front->columns) * order - front->columns);
+            Schur(*front) + static_cast<size_t>(map_[j] - front->first_update) * order - front->first_update);
   }
 }
 
@@ -223,7 +225,7 @@ void FrontalLdlt::AddRuns(const double* column, int first, int end, double* targ
 // The first child's part of the Schur complement, from its row `first` on, and zeros elsewhere: what is written once need not be
 // cleared before.
 void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
-  const int update = static_cast<int>(child.update.size()), order = front->rows - front->columns;
+  const int update = static_cast<int>(child.update.size()), order = static_cast<int>(front->update.size());
   int done = 0;
   const auto clear_until = [&](int column) {
     ClearLowerTriangle(Schur(*front) + static_cast<size_t>(done) * order + done, order, column - done, order - done);
@@ -231,12 +233,12 @@ void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
   };
   for (int j = first; j < update; ++j) {
     const double* column = Schur(child) + static_cast<size_t>(j) * update;
-    const int place = map_[j] - front->columns;
+    const int place = map_[j] - front->first_update;
     clear_until(place);
     double* target = Schur(*front) + static_cast<size_t>(place) * order;
     int row = place;
     for (int i = j; i < update; i = run_ends_[i]) {
-      const int start = map_[i] - front->columns;
+      const int start = map_[i] - front->first_update;
       std::fill(target + row, target + start, 0.0);
       std::copy(column + i, column + run_ends_[i], target + start);
       row = start + run_ends_[i] - i;
@@ -268,8 +270,8 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 }
 
 void FrontalLdlt::UpdateSchur(Front* front) {
-  const int order = front->rows - front->columns;
-  SubtractProductTriangle(front->panel + front->columns, front->stride, scaled_.data() + front->columns, front->stride,
+  const int order = static_cast<int>(front->update.size());
+  SubtractProductTriangle(front->panel + front->first_update, front->stride, scaled_.data() + front->first_update, front->stride,
                           front->pivots, order, Schur(*front), order);
 }
 
@@ -277,7 +279,8 @@ void FrontalLdlt::Solve(double* x) {
   double* y = gathered_.data();
   for (const Front& front : fronts_) {
     const int pivots = front.pivots, rows = front.rows;
-    for (int i = 0; i < rows; ++i) y[i] = i < pivots ? x[front.unknowns[i]] : 0.0;
+    for (int i = 0; i < pivots; ++i) y[i] = x[front.unknowns[i]];
+    std::fill(y + pivots, y + rows, 0.0);
     for (int first = 0, end; first < pivots; first = end) {
       end = std::min(first + kColumnsAtOnce, pivots);
       const double* columns = front.Column(first);
@@ -287,7 +290,8 @@ void FrontalLdlt::Solve(double* x) {
       }
       SubtractProducts(columns + end, front.stride, y + first, 1, end - first, rows - end, y + end);
     }
-    for (int i = pivots; i < rows; ++i) x[front.unknowns[i]] += y[i];
+    for (int i = pivots; i < front.columns; ++i) x[front.unknowns[i]] += y[i];
+    for (int i = front.first_update; i < rows; ++i) x[front.update[i - front.first_update]] += y[i];
     for (int k = 0; k < pivots; ++k) {
       double* value = y + k;
       if (front.coupling[k] != 0) {
@@ -306,7 +310,9 @@ void FrontalLdlt::Solve(double* x) {
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const int pivots = front->pivots, rows = front->rows;
-    for (int i = 0; i < rows; ++i) y[i] = x[front->unknowns[i]];
+    for (int i = 0; i < front->columns; ++i) y[i] = x[front->unknowns[i]];
+    std::fill(y + front->columns, y + front->first_update, 0.0);
+    for (int i = front->first_update; i < rows; ++i) y[i] = x[front->update[i - front->first_update]];
     for (int end = pivots, first; end > 0; end = first) {
       first = (end - 1) / kColumnsAtOnce * kColumnsAtOnce;
       const double* columns = front->Column(first);

@@ -50,9 +50,9 @@ class FrontalLdlt {
     std::vector<Entry> entries;
     bool is_root = true;
     double* Column(int c) const { return panel + static_cast<size_t>(c) * stride; }
-    // Numeric. Rows: pivots, columns that were delayed, update.
-    int columns = 0, rows = 0, stride = 0, pivots = 0;
-    std::vector<int> unknowns;    // of every row
+    // Numeric. Rows: pivots, columns that were delayed, zeros up to the next line of the cache, update.
+    int columns = 0, first_update = 0, rows = 0, stride = 0, pivots = 0;
+    std::vector<int> unknowns;    // of the columns
     double* panel = nullptr;      // rows × columns in steps of `stride`; L in the first `pivots` columns
     std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
     int block = 0;                // of blocks_, with the Schur complement: update × update, lower triangle

@@ -131,5 +131,19 @@ TEST(LargestMagnitude, PassesOverWhatIsNoNumber) {
   EXPECT_EQ(LargestMagnitude(x.data(), 40), 2);
 }
 
+TEST(ScaleAndKeep, TouchesWhatItIsGiven) {
+  for (const ProductKernels* kernels : AvailableProductKernels()) {
+    for (int n = 0; n <= 40; ++n) {
+      const VectorX before = VectorX::Random(n + 1);
+      VectorX x = before, kept = VectorX::Constant(n + 1, kGuard);
+      kernels->scale(-0.3, n, x.data(), kept.data());
+      EXPECT_EQ(x.head(n), -0.3 * before.head(n)) << kernels->name << ", " << n;
+      EXPECT_EQ(kept.head(n), before.head(n)) << kernels->name << ", " << n;
+      EXPECT_EQ(x(n), before(n));
+      EXPECT_EQ(kept(n), kGuard);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rollgait
