@@ -59,7 +59,7 @@ TEST(Sharpen, EndsInAMinimumOfTheRequest) {
 
 // The less smoothing the more of the energy counts; without any all of it.
 TEST(Sharpen, TheEnergyGrowsTowardsTheUnsmoothedOne) {
-  const GaitSolution much = Solve(Draft(40)), little = Solve(Draft(2));
+  const GaitSolution much = Solve(Draft(40)), little = Solve(Draft(5));
   ASSERT_EQ(much.termination, Termination::kOptimal) << much.message;
   ASSERT_EQ(little.termination, Termination::kOptimal) << little.message;
   EXPECT_EQ(much.meshes.size(), 1u);
