@@ -55,7 +55,9 @@ std::unique_ptr<SqlConnection> Database::Take(SqlConnection::Access access) {
   const int most = write ? options_.writers : options_.readers;
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    std::erase_if(pool.overdue, [](const auto& connection) { return !connection->AnswerDue(); });
+    for (Pool* each : {&writers_, &readers_}) {
+      std::erase_if(each->overdue, [](const auto& connection) { return !connection->AnswerDue(); });
+    }
     // As many again as may be in use: enough for those of a host that is gone.
     if (static_cast<int>(pool.overdue.size()) >= 2 * most) {
       throw SqlFailure(Kind::kUnavailable, std::to_string(pool.overdue.size()) + " earlier calls are still waiting for the database");

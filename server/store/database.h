@@ -60,7 +60,8 @@ class Database {
   struct Pool {
     std::vector<std::unique_ptr<SqlConnection>> idle;
     int open = 0;  // idle or in use
-    // Not in use any more, but the database works on an answer for them: kept, so that they are counted.
+    // Not in use any more, but the database works on an answer for them: kept, so that they are counted, until a call
+    // of either kind finds it there.
     std::vector<std::unique_ptr<SqlConnection>> overdue = {};
   };
 
