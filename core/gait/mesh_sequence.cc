@@ -194,9 +194,10 @@ NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) 
   return options;
 }
 
+constexpr double kRounding = 1e-9;  // of lengths of intervals that were read from times
+
 // Whether some phase of a mesh has an interval that is shorter than all of that phase on the other.
 bool HasShorterIntervals(const Mesh& mesh, const Mesh& other) {
-  constexpr double kRounding = 1e-9;
   const auto shortest = [](const std::vector<double>& phase) { return *std::min_element(phase.begin(), phase.end()); };
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
     if (shortest(mesh.fractions[p]) < (1 - kRounding) * shortest(other.fractions[p])) return true;
@@ -217,12 +218,20 @@ bool Stalled(const std::vector<MeshStatistics>& meshes) {
   return meshes.size() > 1 && meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
 }
 
-// The program on one mesh, from a guess and the multipliers of its predecessor, if there is one.
+// The program on one mesh, from a guess and the multipliers of its predecessor, if there is one; on the same mesh it is the same
+// program.
 Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh, const MotionGuess& guess,
-                         const Predecessor& previous, const NlpOptions& options, SolveBudget* budget) {
-  Predecessor solved{std::make_unique<CollocationNlp>(problem, spec.scheme, mesh), {}};
-  NlpStart start{solved.nlp->MakeStart(guess), {}, {}, {}};
-  if (previous.nlp) solved.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
+                         Predecessor previous, const NlpOptions& options, SolveBudget* budget) {
+  Predecessor solved;
+  NlpStart start;
+  if (previous.nlp && previous.nlp->mesh().fractions == mesh.fractions) {
+    previous.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
+    solved.nlp = std::move(previous.nlp);
+  } else {
+    solved.nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
+    if (previous.nlp) solved.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
+  }
+  start.x = solved.nlp->MakeStart(guess);
   solved.result = budget->Run(*solved.nlp, start, options);
   return solved;
 }
@@ -232,7 +241,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   GaitSolution solution;
 
   for (int level = 0; level <= spec.max_refinements; ++level) {
-    Predecessor current = SolveOneMesh(spec, problem, mesh, guess, previous, options, budget);
+    Predecessor current = SolveOneMesh(spec, problem, mesh, guess, std::move(previous), options, budget);
     CollocationNlp& nlp = *current.nlp;
     const NlpResult& result = current.result;
     MeshStatistics statistics = Describe(spec, nlp, result);
@@ -254,7 +263,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     if (IsArtefact(spec, solution)) {
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
-      previous.nlp = nullptr;
+      previous = {};
       continue;
     }
     guess = GuessFromTrajectory(*solution.trajectory);
@@ -280,6 +289,13 @@ Mesh MeshOf(const Trajectory& trajectory) {
   return mesh;
 }
 
+bool IsSame(const Mesh& mesh, const Mesh& other) {
+  const auto same_phase = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return std::abs(x - y) <= kRounding * x; });
+  };
+  return std::equal(mesh.fractions.begin(), mesh.fractions.end(), other.fractions.begin(), other.fractions.end(), same_phase);
+}
+
 bool IsAtLeastAsFine(const Mesh& mesh, const Mesh& other) {
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
     if (mesh.fractions[p].size() < other.fractions[p].size()) return false;
@@ -287,13 +303,13 @@ bool IsAtLeastAsFine(const Mesh& mesh, const Mesh& other) {
   return true;
 }
 
-// The program that led to the solution, as if this problem had been it: its rows and unknowns mean the same. None without
-// multipliers, and where their numbers tell that it had other rows.
-Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution) {
+// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the same. None
+// without multipliers, and where their numbers tell that it had other rows.
+Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution, const Mesh& mesh) {
   Predecessor previous;
   if (!solution.multipliers) return previous;
   const SolutionMultipliers& multipliers = *solution.multipliers;
-  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, MeshOf(solution.trajectory));
+  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
   if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
   previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
   previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
@@ -311,19 +327,21 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget) {
-  const bool has_shorter_intervals = HasShorterIntervals(mesh, MeshOf(coarser.trajectory));
-  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec, has_shorter_intervals),
-                   PredecessorOf(spec, problem, coarser), std::move(mesh), budget);
+  const Mesh other = MeshOf(coarser.trajectory);
+  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec, HasShorterIntervals(mesh, other)),
+                   PredecessorOf(spec, problem, coarser, other), std::move(mesh), budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
-  if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = std::move(other);
-  Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start);
+  if (IsSame(mesh, other)) other = mesh;
+  if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
+  Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;
   NlpOptions options = OptionsForNeighbour(spec);
+  options.first_shift = 1e-2;
   options.max_iterations = max_iterations;
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);

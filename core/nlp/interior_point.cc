@@ -35,7 +35,7 @@ class Solver {
         options_(options),
         control_(control),
         barrier_(problem),
-        newton_(barrier_, options.step_residual),
+        newton_(barrier_, options),
         begin_(Clock::now()) {}
 
   InteriorPointResult Run() {

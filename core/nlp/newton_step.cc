@@ -7,7 +7,7 @@ namespace rollgait {
 namespace {
 
 // Constants of Ipopt.
-constexpr double kFirstShift = 1e-4, kLeastShift = 1e-20, kLargestShift = 1e20;
+constexpr double kLeastShift = 1e-20, kLargestShift = 1e20;
 constexpr double kShiftDecrease = 1.0 / 3, kShiftIncrease = 8, kFirstShiftIncrease = 100;
 constexpr double kDualShift = 1e-8, kDualShiftExponent = 0.25;
 // Where no shift has failed before, it is tried again only after as many iterations as it has failed in a row, up to this. Differs
@@ -22,9 +22,10 @@ constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(BarrierProblem& barrier, double step_residual)
+NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
     : barrier_(barrier),
-      kkt_(barrier.problem(), barrier.fixed(), step_residual),
+      kkt_(barrier.problem(), barrier.fixed(), options.step_residual),
+      first_shift_(options.first_shift),
       sigma_(VectorX::Zero(barrier.unknowns())),
       right_(sigma_),
       primal_diagonal_(VectorX::Zero(barrier.variables())),
@@ -81,7 +82,7 @@ bool NewtonSystem::Factorise(double mu) {
     ++zero_failures_;
     skipped_ = 0;
   }
-  double shift = last_shift_ == 0 ? kFirstShift : std::max(kLeastShift, kShiftDecrease * last_shift_);
+  double shift = last_shift_ == 0 ? first_shift_ : std::max(kLeastShift, kShiftDecrease * last_shift_);
   while (!TryShift(shift, mu)) {
     shift *= last_shift_ == 0 ? kFirstShiftIncrease : kShiftIncrease;
     if (shift > kLargestShift) return false;

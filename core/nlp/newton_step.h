@@ -3,6 +3,7 @@
 
 #include "core/nlp/barrier_problem.h"
 #include "core/nlp/kkt_system.h"
+#include "core/nlp/nlp_options.h"
 
 namespace rollgait {
 
@@ -22,8 +23,8 @@ struct NewtonStep {
 // Wächter and Biegler, section 3.1).
 class NewtonSystem {
  public:
-  // step_residual: NlpOptions::step_residual.
-  NewtonSystem(BarrierProblem& barrier, double step_residual);
+  // Of the options: step_residual and first_shift.
+  NewtonSystem(BarrierProblem& barrier, const NlpOptions& options);
 
   KktSystem& kkt() { return kkt_; }
   // δ_w of the last factorisation.
@@ -55,6 +56,7 @@ class NewtonSystem {
 
   BarrierProblem& barrier_;
   KktSystem kkt_;
+  const double first_shift_;
   double shift_ = 0, last_shift_ = 0;
   int zero_failures_ = 0, skipped_ = 0;  // of the unshifted matrix: failures in a row; iterations since the last trial
   bool degenerate_ = false;    // the present matrix is singular without a dual shift

@@ -26,6 +26,8 @@ struct NlpOptions {
   bool recentre = false;
   // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; from afar they cost iterations.
   double step_residual = 1e-10;
+  // δ_w of the first Hessian that must be shifted. A smaller one that does not do costs a factorisation more, a larger one a good step.
+  double first_shift = 1e-4;
   int mesh = 0;                  // passed on with every iteration
 };
 

@@ -14,7 +14,7 @@ namespace {
 // A point of HS071 near two of its bounds, away from its constraints, with its linearisation.
 class NewtonStepTest : public ::testing::Test {
  protected:
-  NewtonStepTest() : barrier_(problem_), newton_(barrier_, NlpOptions().step_residual) {
+  NewtonStepTest() : barrier_(problem_), newton_(barrier_, {}) {
     EXPECT_TRUE(barrier_.MakeInterior(Eigen::Vector4d(1.02, 4.97, 3.5, 1.6), 1e-3, &point_));
     at_.y = Eigen::Vector2d(-0.6, 0.2);
     at_.lower = VectorX::Zero(5);
@@ -102,6 +102,21 @@ TEST_F(NewtonStepTest, RecentredAimsAtCentralProducts) {
     }
   }
   EXPECT_GT(corrected, 1);
+}
+
+// The second multiplier makes the Hessian one of −20 in every direction, more than the first or the bounds make up for.
+TEST_F(NewtonStepTest, TheFirstShiftIsThatOfTheOptions) {
+  at_.y = Eigen::Vector2d(0, -10);
+  at_.lower *= 1e-9;
+  at_.upper *= 1e-9;
+  const auto regularization = [&](const NlpOptions& options) {
+    NewtonSystem newton(barrier_, options);
+    EXPECT_TRUE(problem_.Derivatives(point_.w.data(), 1, at_.y.data(), newton.kkt().jacobian(), newton.kkt().hessian()));
+    EXPECT_TRUE(newton.Compute(point_, at_, lagrangian_, kMu, &step_));
+    return newton.regularization();
+  };
+  EXPECT_NEAR(regularization({}), 1e-4 * 1e6, 1e-9) << "that of Ipopt, times a hundred until it does";
+  EXPECT_EQ(regularization({.first_shift = 50}), 50);
 }
 
 }  // namespace
