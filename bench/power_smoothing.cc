@@ -10,6 +10,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_sequence.h"
+#include "core/gait/meshes.h"
 #include "core/gait/optimizing_gait_solver.h"
 #include "core/gait/presets.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/gait/mesh_sequence.h"
+#include "core/gait/meshes.h"
 
 namespace rollgait {
 namespace {

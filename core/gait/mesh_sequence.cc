@@ -9,6 +9,7 @@
 
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
+#include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
 #include "core/transcription/collocation_nlp.h"
 
@@ -139,12 +140,6 @@ void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solutio
   solution->meshes.insert(solution->meshes.begin(), earlier.begin(), earlier.end());
 }
 
-Mesh RequestedMesh(const GaitSpec& spec) {
-  std::vector<int> intervals;
-  for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);
-  return Mesh::Uniform(intervals);
-}
-
 namespace {
 
 // The program whose solution the next one starts from, and that solution's multipliers.
@@ -192,17 +187,6 @@ NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) 
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
   options.initial_barrier = options.warm_push = close ? kBarrierClose : kBarrierNearSolution;
   return options;
-}
-
-constexpr double kRounding = 1e-9;  // of lengths of intervals that were read from times
-
-// Whether some phase of a mesh has an interval that is shorter than all of that phase on the other.
-bool HasShorterIntervals(const Mesh& mesh, const Mesh& other) {
-  const auto shortest = [](const std::vector<double>& phase) { return *std::min_element(phase.begin(), phase.end()); };
-  for (size_t p = 0; p < mesh.fractions.size(); ++p) {
-    if (shortest(mesh.fractions[p]) < (1 - kRounding) * shortest(other.fractions[p])) return true;
-  }
-  return false;
 }
 
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
@@ -277,32 +261,6 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   return solution;
 }
 
-Mesh MeshOf(const Trajectory& trajectory) {
-  Mesh mesh;
-  for (const TrajectoryPhase& phase : trajectory.phases) {
-    std::vector<double>& fractions = mesh.fractions.emplace_back();
-    const double length = phase.node_times.back() - phase.node_times.front();
-    for (size_t k = 1; k < phase.node_times.size(); ++k) {
-      fractions.push_back((phase.node_times[k] - phase.node_times[k - 1]) / length);
-    }
-  }
-  return mesh;
-}
-
-bool IsSame(const Mesh& mesh, const Mesh& other) {
-  const auto same_phase = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return std::abs(x - y) <= kRounding * x; });
-  };
-  return std::equal(mesh.fractions.begin(), mesh.fractions.end(), other.fractions.begin(), other.fractions.end(), same_phase);
-}
-
-bool IsAtLeastAsFine(const Mesh& mesh, const Mesh& other) {
-  for (size_t p = 0; p < mesh.fractions.size(); ++p) {
-    if (mesh.fractions[p].size() < other.fractions[p].size()) return false;
-  }
-  return true;
-}
-
 // The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the same. None
 // without multipliers, and where their numbers tell that it had other rows.
 Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution, const Mesh& mesh) {
@@ -336,7 +294,7 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
                                 SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
-  if (IsSame(mesh, other)) other = mesh;
+  if (IsSameMesh(mesh, other)) other = mesh;
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
   Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;

@@ -33,9 +33,6 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget);
 
-// The mesh that the request asks for.
-Mesh RequestedMesh(const GaitSpec& spec);
-
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_GAIT_MESH_SEQUENCE_H_

@@ -8,6 +8,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
+#include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"

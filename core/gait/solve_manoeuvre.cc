@@ -12,6 +12,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
+#include "core/gait/meshes.h"
 #include "core/gait/rolling_path.h"
 
 namespace rollgait {

@@ -10,6 +10,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
+#include "core/gait/meshes.h"
 
 namespace rollgait {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/gait/mesh_sequence.h"
+#include "core/gait/meshes.h"
 #include "core/gait/optimizing_gait_solver.h"
 
 namespace rollgait {
