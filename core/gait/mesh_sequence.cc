@@ -168,6 +168,19 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   return options;
 }
 
+constexpr double kBarrierClose = 1e-4;
+
+// From the warm start, the solution of another request. With a price of power, as the presets but one have it, close to the bounds and
+// with a barrier that falls at once: pushed further off, human29's neighbours take twice the iterations (docs/optimizer.md).
+NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
+  NlpOptions options = OptionsForNeighbour(spec);
+  options.first_shift = 1e-2;
+  if (!LeastSmoothing(spec).has_value()) return options;
+  options.initial_barrier = options.warm_push = kBarrierClose;
+  options.barrier_tolerance = 10000;
+  return options;
+}
+
 bool HasRates(const GaitSpec& spec) {
   return std::any_of(spec.costs.begin(), spec.costs.end(), [](const GaitSpec::CostTerm& cost) {
     return std::holds_alternative<GaitRequest::SquaredTorqueRate>(cost.term) ||
@@ -181,7 +194,7 @@ bool HasRates(const GaitSpec& spec) {
 // price of rates the solution of a mesh with shorter intervals is that of a neighbour. Where no interval is shorter than any before,
 // the solution is closest of all, whatever the cost (docs/optimizer.md).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
-  constexpr double kBarrierNearSolution = 1e-3, kBarrierClose = 1e-4;
+  constexpr double kBarrierNearSolution = 1e-3;
   const bool close = !has_shorter_intervals || LeastSmoothing(spec).has_value();
   if (!close && HasRates(spec)) return OptionsForNeighbour(spec);
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
@@ -298,8 +311,7 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
   Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;
-  NlpOptions options = OptionsForNeighbour(spec);
-  options.first_shift = 1e-2;
+  NlpOptions options = OptionsForWarmStart(spec);
   options.max_iterations = max_iterations;
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);
