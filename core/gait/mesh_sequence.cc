@@ -170,8 +170,9 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
 
 constexpr double kBarrierClose = 1e-4;
 
-// From the warm start, the solution of another request. With a price of power, as the presets but one have it, close to the bounds and
-// with a barrier that falls at once: pushed further off, human29's neighbours take twice the iterations (docs/optimizer.md).
+// From the solution of another request, as a rule one with the same costs. With a price of power, as the presets but one have it, close
+// to the bounds and with a barrier that falls at once: pushed further off, human29's neighbours take twice the iterations
+// (docs/optimizer.md).
 NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
   NlpOptions options = OptionsForNeighbour(spec);
   options.first_shift = 1e-2;
@@ -289,6 +290,23 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
   return previous;
 }
 
+// From the spec's warm start.
+GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options, int max_iterations,
+                             SolveBudget* budget) {
+  const Trajectory& trajectory = spec.warm_start->trajectory;
+  Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
+  if (IsSameMesh(mesh, other)) other = mesh;
+  if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
+  Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
+  const bool used_multipliers = previous.nlp != nullptr;
+  options.max_iterations = max_iterations;
+  GaitSolution solution =
+      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);
+  solution.warm_started = true;
+  solution.used_multipliers = used_multipliers;
+  return solution;
+}
+
 }  // namespace
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
@@ -305,19 +323,12 @@ GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem&
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
-  const Trajectory& trajectory = spec.warm_start->trajectory;
-  Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
-  if (IsSameMesh(mesh, other)) other = mesh;
-  if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
-  Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
-  const bool used_multipliers = previous.nlp != nullptr;
-  NlpOptions options = OptionsForWarmStart(spec);
-  options.max_iterations = max_iterations;
-  GaitSolution solution =
-      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);
-  solution.warm_started = true;
-  solution.used_multipliers = used_multipliers;
-  return solution;
+  return SolveFromStored(spec, problem, OptionsForWarmStart(spec), max_iterations, budget);
+}
+
+GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                               SolveBudget* budget) {
+  return SolveFromStored(spec, problem, OptionsForNeighbour(spec), max_iterations, budget);
 }
 
 }  // namespace rollgait

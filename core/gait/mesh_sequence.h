@@ -29,6 +29,10 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
+// The same where the spec's warm start is the solution of the same request with smoother powers.
+GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                               SolveBudget* budget);
+
 // The same from the solution of a coarser mesh.
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget);

@@ -26,7 +26,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     if (next > least) sharper.max_refinements = 0;
     sharper.warm_start = WarmStart{*last.trajectory, last.multipliers};
     GaitSolution solution =
-        SolveFromWarmStart(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
+        SolveFromSmoother(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;
     solution.warm_started = solution.used_multipliers = false;  // not from what the request named
     PutBefore(last.meshes, &solution);
