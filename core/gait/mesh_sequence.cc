@@ -317,7 +317,8 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
                               SolveBudget* budget) {
   const Mesh other = MeshOf(coarser.trajectory);
-  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), OptionsForNextMesh(spec, HasShorterIntervals(mesh, other)),
+  const NlpOptions options = OptionsForNextMesh(spec, HasShorterIntervals(mesh, other));
+  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), options,
                    PredecessorOf(spec, problem, coarser, other), std::move(mesh), budget);
 }
 
