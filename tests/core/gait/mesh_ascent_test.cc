@@ -75,6 +75,19 @@ TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
   EXPECT_NEAR(repeated.objective, solution.objective, 1e-6 * solution.objective);
 }
 
+// With a price of rates the mesh on the way, whose intervals are shorter at the ends of phases, starts like a neighbour: 21 and 27
+// iterations where a start close to the bounds takes 37 and 38.
+TEST(Ascend, AMeshWithShorterIntervalsStartsLikeANeighbour) {
+  int on_the_way = 0;
+  for (const int intervals : {60, 96}) {
+    const GaitSolution solution = Solve(Check(Fine(intervals)));
+    ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+    ASSERT_EQ(solution.meshes.size(), 3u);
+    on_the_way += solution.meshes[1].iterations;
+  }
+  EXPECT_LE(on_the_way, 62);
+}
+
 // Powers are sharpened on the coarsest mesh, where it is cheap and steps succeed; all finer ones are solved with the spec's.
 TEST(Ascend, ClimbsWithTheSmoothingOfTheSpec) {
   GaitRequest request = Fine(60);
