@@ -36,17 +36,17 @@ double ParseWeight(const std::string& cost, const std::string& text) {
 
 v1::CostTerm ParseCost(const std::string& cost) {
   enum class Term { kTorque, kTorqueRate, kForceRate, kWork, kTime, kEffort, kMuscleWork, kPassiveLoad, kAcceleration };
+  // As other flags have it.
+  if (cost.find('=') != std::string::npos) {
+    throw Failure(ExitCode::kUsage, "--cost " + cost + ": the weight stands after a colon, for example work:0.5");
+  }
   const size_t colon = cost.find(':');
   v1::CostTerm term;
   switch (Lookup<Term>(
       "--cost", cost.substr(0, colon),
-      {{"torque", Term::kTorque},
-       {"torque-rate", Term::kTorqueRate}, {"force-rate", Term::kForceRate},
-       {"work", Term::kWork}, {"time", Term::kTime},
-       {"effort", Term::kEffort},
-       {"muscle-work", Term::kMuscleWork},
-       {"passive-load", Term::kPassiveLoad},
-       {"acceleration", Term::kAcceleration}})) {
+      {{"torque", Term::kTorque}, {"torque-rate", Term::kTorqueRate}, {"force-rate", Term::kForceRate},
+       {"work", Term::kWork}, {"muscle-work", Term::kMuscleWork}, {"time", Term::kTime}, {"effort", Term::kEffort},
+       {"passive-load", Term::kPassiveLoad}, {"acceleration", Term::kAcceleration}})) {
     case Term::kTorque:
       term.mutable_squared_torque();
       break;

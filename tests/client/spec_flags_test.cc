@@ -142,6 +142,15 @@ TEST(SpecFlagsTest, UnknownWordsAreRefusedWithTheKnownOnes) {
   }
 }
 
+TEST(SpecFlagsTest, AWeightAfterAnEqualsSignIsToldWhereToStand) {
+  try {
+    Parse("--cost torque-rate=1e-4");
+    FAIL() << "was accepted";
+  } catch (const Failure& failure) {
+    EXPECT_STREQ(failure.what(), "--cost torque-rate=1e-4: the weight stands after a colon, for example work:0.5");
+  }
+}
+
 class SpecFileTest : public testing::Test {
  protected:
   std::string Write(const std::string& json) const {
