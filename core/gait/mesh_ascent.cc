@@ -6,12 +6,14 @@
 
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/meshes.h"
+#include "core/gait/power_smoothing.h"
+#include "core/gait/rate_costs.h"
 
 namespace rollgait {
 namespace {
 
 constexpr int kMostFromAfar = 36;         // intervals in all
-constexpr int kOuterGroups = 6;           // finer intervals at each end of a phase
+constexpr int kOuterGroups = 6;           // of half the size, at each end of a phase
 constexpr double kRoughTolerance = 1e-2;  // of what is only a start
 
 int Intervals(const GaitSpec& spec) {
@@ -53,14 +55,24 @@ GaitSpec OnTheWay(GaitSpec spec) {
   return spec;
 }
 
-// The requested intervals put together by `inner`, but the first and the last kOuterGroups groups of each phase by `outer`; what is
-// left over in the middle of a phase is a group, too.
-Mesh Grouped(const GaitSpec& spec, int inner, int outer) {
+// How many of the requested intervals are put together in the group that has `place` others between itself and the end of its phase.
+// With a price of rates alone the outermost ones are the requested intervals themselves, and the sizes double from there: what happens
+// at touch-down and lift-off is learned while intervals are few. With a price of power that is too much at once (docs/accuracy.md).
+int GroupSize(const GaitSpec& spec, int place, int inner) {
+  if (!HasRates(spec) || LeastSmoothing(spec)) return place < kOuterGroups ? inner / 2 : inner;
+  int size = 1;
+  for (int i = 1; i < place && size < inner; ++i) size *= 2;
+  return std::min(size, inner);
+}
+
+// The requested intervals put together by `inner`, a power of 2, and fewer towards the ends of each phase; what is left over in the
+// middle of a phase is a group, too.
+Mesh Grouped(const GaitSpec& spec, int inner) {
   Mesh mesh;
   for (const GaitSpec::Phase& phase : spec.phases) {
     std::vector<int> first, last;
     for (int left = phase.intervals; left > 0;) {
-      const int size = static_cast<int>(first.size()) < kOuterGroups ? outer : inner;
+      const int size = GroupSize(spec, static_cast<int>(first.size()), inner);
       for (std::vector<int>* side : {&first, &last}) {
         const int group = std::min(size, left);
         if (group > 0) side->push_back(group);
@@ -96,7 +108,7 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
       return last;
     }
     const bool arrives = halvings == 0;
-    Mesh mesh = arrives ? RequestedMesh(spec) : Grouped(spec, 1 << halvings, 1 << (halvings - 1));
+    Mesh mesh = arrives ? RequestedMesh(spec) : Grouped(spec, 1 << halvings);
     const bool leads_on = Intervals(mesh) > Intervals(*last.trajectory) && Intervals(mesh) < Intervals(spec);
     if (!arrives && !leads_on) continue;
     GaitSolution solution =

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
+#include "core/gait/rate_costs.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -182,24 +182,20 @@ NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
   return options;
 }
 
-bool HasRates(const GaitSpec& spec) {
-  return std::any_of(spec.costs.begin(), spec.costs.end(), [](const GaitSpec::CostTerm& cost) {
-    return std::holds_alternative<GaitRequest::SquaredTorqueRate>(cost.term) ||
-           std::holds_alternative<GaitRequest::SquaredForceRate>(cost.term);
-  });
-}
-
 // The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
 // closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). Efforts jump where feet come down, and the shorter the intervals there the more their rates cost: with a
-// price of rates the solution of a mesh with shorter intervals is that of a neighbour. Where no interval is shorter than any before,
-// the solution is closest of all, whatever the cost (docs/optimizer.md).
+// none within 900 with 1e-3). With a price of rates alone the solution of a mesh with shorter intervals is that of a neighbour. Where no
+// interval is shorter than any before, the solution is closest of all, whatever the cost, and the more so the better both are to be
+// solved (docs/optimizer.md).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
-  constexpr double kBarrierNearSolution = 1e-3;
+  constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5, kBarrierPerTolerance = 1e-2;
   const bool close = !has_shorter_intervals || LeastSmoothing(spec).has_value();
   if (!close && HasRates(spec)) return OptionsForNeighbour(spec);
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
-  options.initial_barrier = options.warm_push = close ? kBarrierClose : kBarrierNearSolution;
+  options.initial_barrier = !has_shorter_intervals ? std::max(kBarrierClosest, kBarrierPerTolerance * spec.kkt_tolerance)
+                            : close                ? kBarrierClose
+                                                   : kBarrierNearSolution;
+  options.warm_push = options.initial_barrier;
   return options;
 }
 

@@ -25,7 +25,8 @@ GapConstraint::GapConstraint(const Model& model, const std::vector<ContactSurfac
   path_ = ContactDerivatives<double>(model, contacts[contact]).path();
 }
 void GapConstraint::Bounds(double fraction, double* lower, double* upper) const {
-  *lower = kind_ == Kind::kClearance ? 4 * fraction * (1 - fraction) * clearance_ : 0;
+  const double parabola = 4 * fraction * (1 - fraction);
+  *lower = kind_ == Kind::kClearance ? parabola * parabola * parabola * clearance_ : 0;
   *upper = kind_ == Kind::kClearance ? kInfinity : 0;
 }
 Entries GapConstraint::JacobianPattern() const { return PositionEntries(path_, layout_.q()); }

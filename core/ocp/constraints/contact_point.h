@@ -5,8 +5,10 @@
 
 namespace rollgait {
 
-// Gap of a contact over the ground, φ(q) = n · p, m, one row. The bound is  4 s (1 − s) · clearance ≤ φ  at fraction s of
-// the phase for a swinging surface, or φ = 0 where it touches down.  Source: contact-math 5.
+// Gap of a contact over the ground, φ(q) = n · p, m, one row. The bound is  (4 s (1 − s))³ · clearance ≤ φ  at fraction s of
+// the phase for a swinging surface, or φ = 0 where it touches down.  Source: contact-math 5. While a surface rolls, φ and its first
+// two derivatives are 0, and so are those of the bound at both ends: a bound with a slope there could be met on a mesh only, by a foot
+// that is stopped within the last interval, however short.
 class GapConstraint : public PointConstraint {
  public:
   enum class Kind { kClearance, kTouching };

@@ -167,16 +167,24 @@ TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
   }
 }
 
-TEST_P(PointConstraintsTest, ClearanceIsAParabolaOverThePhase) {
+TEST_P(PointConstraintsTest, ClearanceLeavesTheGroundAndMeetsItWithoutVelocityOrAcceleration) {
   GapConstraint gap(problem_->model, problem_->contacts, 0, problem_->Layout(0), GapConstraint::Kind::kClearance, 0.02);
   double lower, upper;
   gap.Bounds(0.5, &lower, &upper);
   EXPECT_DOUBLE_EQ(lower, 0.02);
   EXPECT_EQ(upper, kInfinity);
   gap.Bounds(0.25, &lower, &upper);
-  EXPECT_DOUBLE_EQ(lower, 0.015);
+  EXPECT_DOUBLE_EQ(lower, 0.02 * 27 / 64);
   gap.Bounds(1, &lower, &upper);
   EXPECT_EQ(lower, 0);
+  // Less than any parabola that starts with a horizontal tangent: no surface that rolls and then swings is in its way.
+  for (const double near : {1e-3, 1e-5}) {
+    for (const double fraction : {near, 1 - near}) {
+      gap.Bounds(fraction, &lower, &upper);
+      EXPECT_GT(lower, 0);
+      EXPECT_LT(lower, 64.1 * 0.02 * near * near * near);
+    }
+  }
 }
 
 TEST_P(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {

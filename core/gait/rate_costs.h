@@ -1,0 +1,14 @@
+#ifndef ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
+#define ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
+
+#include "core/gait/gait_request.h"
+
+namespace rollgait {
+
+// Whether rates of efforts or forces have a price. Efforts change fastest where feet come down and lift off, and how fast, only short
+// intervals tell.
+bool HasRates(const GaitSpec& spec);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
