@@ -185,17 +185,14 @@ NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
 // The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
 // closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
 // none within 900 with 1e-3). With a price of rates alone the solution of a mesh with shorter intervals is that of a neighbour. Where no
-// interval is shorter than any before, the solution is closest of all, whatever the cost, and the more so the better both are to be
-// solved (docs/optimizer.md).
+// interval is shorter than any before, the solution is closest of all, whatever the cost (docs/optimizer.md).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
-  constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5, kBarrierPerTolerance = 1e-2;
-  const bool close = !has_shorter_intervals || LeastSmoothing(spec).has_value();
+  constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5;
+  const bool has_powers = LeastSmoothing(spec).has_value(), close = !has_shorter_intervals || has_powers;
   if (!close && HasRates(spec)) return OptionsForNeighbour(spec);
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
-  options.initial_barrier = !has_shorter_intervals ? std::max(kBarrierClosest, kBarrierPerTolerance * spec.kkt_tolerance)
-                            : close                ? kBarrierClose
-                                                   : kBarrierNearSolution;
-  options.warm_push = options.initial_barrier;
+  const bool closest = !has_shorter_intervals && has_powers;
+  options.initial_barrier = options.warm_push = closest ? kBarrierClosest : close ? kBarrierClose : kBarrierNearSolution;
   return options;
 }
 

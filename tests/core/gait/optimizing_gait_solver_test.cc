@@ -102,7 +102,7 @@ TEST(Normative, NetMomentsAreTheTorques) {
 TEST(Cycle, FullCycleFindsTheSymmetricGait) {
   // A mesh that is fine enough for the optimum to be a motion, which is symmetric; artefacts of coarse ones need not be.
   GaitRequest request = Planar(0);
-  request.discretization.single_support_intervals = 16;
+  request.discretization.single_support_intervals = 20;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   const GaitSolution half = Solve(request);
   request.cycle = Cycle::kFull;
