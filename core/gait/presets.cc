@@ -68,7 +68,7 @@ void FillFromPreset(GaitRequest* request) {
   if (request->preset != Preset::kHuman) return;
   if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
-  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.003;
+  if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.02;
 }
 
 std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene) {
