@@ -1,6 +1,7 @@
-// How time and memory of a solve grow with the number of intervals: one process for each mesh, cold, draft accuracy, level ground.
-//   scaling [--model human29] [--preset human] [--intervals 15,30,60,120,240]
-// --intervals are those of single support; double support has half as many. Without a preset: squared torque with a little rate.
+// How time and memory of a solve grow with the number of intervals: one process for each mesh, cold, draft accuracy.
+//   scaling [--model human29] [--preset human] [--slope 0] [--intervals 15,30,60,120,240]
+// --intervals are those of single support; double support has half as many. --slope in degrees. Without a preset: squared torque with a
+// little rate.
 // Prints the iterations on that mesh and those with the coarser ones before it, the objective, CPU time in all, of the nonlinear
 // program alone per iteration, and the peak of resident memory of the whole process; then the exponents p of least-squares fits of
 // c N^p.
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -100,6 +102,7 @@ int Main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string flag = argv[i], value = argv[i + 1];
     if (flag == "--model") request.body.model = value;
+    if (flag == "--slope") request.slope = std::stod(value) * std::numbers::pi / 180;
     if (flag == "--intervals") counts = value;
     if (flag == "--preset") {
       request.preset = value == "human" ? Preset::kHuman : value == "transport" ? Preset::kTransport : Preset::kTorque;

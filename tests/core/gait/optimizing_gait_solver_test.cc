@@ -98,6 +98,28 @@ TEST(Normative, NetMomentsAreTheTorques) {
   EXPECT_EQ(curves, 3);
 }
 
+// What is solved is a gait and not a mesh: three schemes on a fine mesh, and one on a mesh twice as fine, agree on what it costs. With a
+// bound of the swinging foot that no motion can keep, the cost grew by a tenth and more with every halving.
+TEST(OptimumOfAMesh, IsThatOfEveryFinerMeshAndEveryScheme) {
+  GaitRequest request = Planar(0);
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  const auto objective = [&request](Scheme scheme, int intervals) {
+    request.discretization.scheme = scheme;
+    request.discretization.single_support_intervals = intervals;
+    request.discretization.double_support_intervals = intervals / 2;
+    const GaitSolution solution = Solve(request);
+    EXPECT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+    return solution.objective;
+  };
+  const double fine = objective(Scheme::kRadau2, 128);
+  EXPECT_NEAR(objective(Scheme::kRadau2, 64) / fine, 1, 5e-3);
+  EXPECT_NEAR(objective(Scheme::kRadau3, 48) / fine, 1, 5e-3);
+  EXPECT_NEAR(objective(Scheme::kHermiteSimpson, 48) / fine, 1, 5e-3);
+  // Prices of rates need finer meshes, where the foot comes down.
+  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  EXPECT_NEAR(objective(Scheme::kRadau2, 64) / objective(Scheme::kRadau2, 128), 1, 1e-2);
+}
+
 // Two steps without imposed symmetry are the one step and its mirror image.
 TEST(Cycle, FullCycleFindsTheSymmetricGait) {
   // A mesh that is fine enough for the optimum to be a motion, which is symmetric; artefacts of coarse ones need not be.
