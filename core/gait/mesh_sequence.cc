@@ -176,7 +176,11 @@ constexpr double kBarrierClose = 1e-4;
 NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
   NlpOptions options = OptionsForNeighbour(spec);
   options.first_shift = 1e-2;
-  if (!LeastSmoothing(spec).has_value()) return options;
+  if (!LeastSmoothing(spec).has_value()) {
+    options.warm_push = 5e-3;
+    options.barrier_exponent = 2;
+    return options;
+  }
   options.initial_barrier = options.warm_push = kBarrierClose;
   options.barrier_tolerance = 10000;
   return options;
