@@ -227,6 +227,7 @@ Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& prob
     if (previous.nlp) solved.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
   }
   start.x = solved.nlp->MakeStart(guess);
+  previous = {};  // its memory is of use to the solve
   solved.result = budget->Run(*solved.nlp, start, options);
   return solved;
 }
