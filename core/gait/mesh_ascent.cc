@@ -15,6 +15,7 @@ namespace {
 constexpr int kMostFromAfar = 36;         // intervals in all
 constexpr int kOuterGroups = 6;           // of half the size, at each end of a phase
 constexpr double kRoughTolerance = 1e-2;  // of what is only a start
+constexpr int kMostOnTheWay = 200;        // iterations of what is only a start; those that succeed take 4 to 130
 
 int Intervals(const GaitSpec& spec) {
   int sum = 0;
@@ -99,6 +100,7 @@ std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
 GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start, SolveBudget* budget) {
   GaitSpec rough = OnTheWay(spec);
   rough.kkt_tolerance = std::max(spec.kkt_tolerance, kRoughTolerance);
+  rough.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
   GaitSolution last = std::move(start);
   for (int halvings = std::max(Halvings(spec) - 1, 0); halvings >= 0; --halvings) {
     if (!Converged(last.termination)) return last;
@@ -115,6 +117,11 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
         SolveFromCoarser(arrives ? spec : rough, problem, {*last.trajectory, last.multipliers}, std::move(mesh), budget);
     solution.note = last.note;
     PutBefore(last.meshes, &solution);
+    if (!arrives && !Converged(solution.termination) && budget->Left()) {
+      // It leads nowhere: the next one starts from the one before it.
+      last.meshes = std::move(solution.meshes);
+      continue;
+    }
     last = std::move(solution);
   }
   return last;
