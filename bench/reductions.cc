@@ -112,7 +112,7 @@ int Main(int argc, char** argv) {
     for (size_t j = 0; j < kJoints.size(); ++j) {
       std::printf(" %5.1f°", whole && angles ? LargestDifference((*whole)[j], (*angles)[j]) : std::nan(""));
     }
-    std::printf(" | %s\n", optimal ? solution.within_requested_accuracy ? "optimal" : "optimal, not accurate" : solution.message.c_str());
+    std::printf(" | %s\n", optimal ? solution.within_requested_accuracy() ? "optimal" : "optimal, not accurate" : solution.message.c_str());
     std::fflush(stdout);
   }
   return all ? 0 : 1;

@@ -32,7 +32,7 @@ struct Outcome {
 Outcome Solve(const GaitSpec& spec, std::string* why) {
   const std::clock_t begin = std::clock();
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
-  Outcome outcome{solution.termination == Termination::kOptimal, solution.within_requested_accuracy, 0,
+  Outcome outcome{solution.termination == Termination::kOptimal, solution.within_requested_accuracy(), 0,
                   static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
   for (const MeshStatistics& mesh : solution.meshes) outcome.iterations += mesh.iterations;
   if (!outcome.optimal || !outcome.accurate) *why = solution.message;

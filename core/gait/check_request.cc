@@ -33,26 +33,21 @@ CheckedGround CheckGround(const GaitRequest::GroundContact& ground, RequestCheck
 }
 
 struct CheckedAccuracy {
-  double kkt_tolerance, max_gap, max_slip;
+  double kkt_tolerance;
+  CriterionValues bounds;
   int max_refinements;
 };
 
 CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestCheck& check) {
-  CheckedAccuracy level{1e-6, kInfinity, kInfinity, 0};
-  switch (accuracy.level) {
-    case GaitRequest::AccuracyLevel::kDraft:
-      break;
-    case GaitRequest::AccuracyLevel::kStandard:
-      level = {1e-6, 1e-4, 1e-3, 5};
-      break;
-    case GaitRequest::AccuracyLevel::kFine:
-      level = {1e-6, 1e-5, 1e-4, 5};
-      break;
+  using Level = GaitRequest::AccuracyLevel;
+  const bool is_draft = accuracy.level == Level::kDraft;
+  CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
+  for (const auto& [criterion, bound] : accuracy.bounds) {
+    const CriterionTraits& traits = TraitsOf(criterion);
+    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, traits.unit});
   }
-  return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, level.kkt_tolerance, {1e-12, 1e-2}),
-          check.Number("accuracy.max_gap_m", accuracy.max_gap, level.max_gap, {1e-9, 0.1, "m"}),
-          check.Number("accuracy.max_slip_m_s", accuracy.max_slip, level.max_slip, {1e-9, 1, "m/s"}),
-          check.Integer("accuracy.max_refinements", accuracy.max_refinements, level.max_refinements, 0, 6)};
+  return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
+          check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 5, 0, 6)};
 }
 
 // The phases and the motion of a walk.
@@ -139,8 +134,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .touch_down = request.ground_contact.touch_down,
                   .scheme = request.discretization.scheme,
                   .kkt_tolerance = accuracy.kkt_tolerance,
-                  .max_gap = accuracy.max_gap,
-                  .max_slip = accuracy.max_slip,
+                  .bounds = accuracy.bounds,
                   .max_refinements = accuracy.max_refinements,
                   .max_iterations = max_iterations,
                   .max_wall_time = max_wall_time,

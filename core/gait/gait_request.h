@@ -12,6 +12,7 @@
 #include "core/gait/warm_start.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
+#include "core/validation/criteria.h"
 
 namespace rollgait {
 
@@ -94,7 +95,8 @@ struct GaitRequest {
   } discretization;
   struct Accuracy {
     AccuracyLevel level = AccuracyLevel::kStandard;
-    std::optional<double> kkt_tolerance, max_gap, max_slip;
+    std::optional<double> kkt_tolerance;
+    std::map<Criterion, double> bounds;  // in place of the level's
     std::optional<int> max_refinements;
   } accuracy;
   struct SolverLimits {
@@ -133,7 +135,8 @@ struct GaitSpec {
   std::optional<GaitRequest::Range> touch_down_point, lift_off_point;
   GaitRequest::TouchDown touch_down;
   Scheme scheme;
-  double kkt_tolerance, max_gap, max_slip;
+  double kkt_tolerance;
+  CriterionValues bounds;  // all infinite: the trajectory is not judged
   int max_refinements;
   int max_iterations;
   double max_wall_time;

@@ -40,13 +40,15 @@ struct MeshStatistics {
 
 // What a solve gives back, whatever its termination.
 struct GaitSolution {
+  bool within_requested_accuracy() const { return verdict.kind == Verdict::Kind::kWithin; }
+
   Termination termination = Termination::kNumericalDifficulty;
   std::string message;
   std::string note;                          // how it was reached, where not at once; the end of the message of a whole solve
   std::optional<Trajectory> trajectory;      // present if the last iterate is finite
   std::optional<AccuracyReport> accuracy;    // present with the trajectory
   std::optional<NormativeComparison> normative;  // present with a trajectory of a human that walks
-  bool within_requested_accuracy = false;
+  Verdict verdict;                           // of a converged solution; not judged otherwise
   double objective = 0;
   double kkt_error = 0;
   double constraint_violation = 0;

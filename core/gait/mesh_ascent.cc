@@ -51,7 +51,7 @@ int Halvings(const GaitSpec& spec) {
 
 // What only leads to the spec's solution.
 GaitSpec OnTheWay(GaitSpec spec) {
-  spec.max_gap = spec.max_slip = kInfinity;
+  spec.bounds = NoBounds();
   spec.max_refinements = 0;
   return spec;
 }

@@ -68,12 +68,12 @@ Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajec
   const double order = SlipOrder(spec.scheme);
   Mesh finer;
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
-    const double share = spec.max_gap / static_cast<double>(mesh.fractions[p].size());
+    const double share = spec.bounds[Criterion::kGap] / static_cast<double>(mesh.fractions[p].size());
     std::vector<int> parts;
     for (size_t k = 0; k < mesh.fractions[p].size(); ++k) {
       const ContactError error =
           Measure(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
-      parts.push_back(std::max(Parts(error.slip / spec.max_slip, order), Parts(error.gap_drift / share, order + 1)));
+      parts.push_back(std::max(Parts(error.slip / spec.bounds[Criterion::kSlip], order), Parts(error.gap_drift / share, order + 1)));
     }
     const bool missed = *std::max_element(parts.begin(), parts.end()) > 1;
     std::vector<double> fractions;

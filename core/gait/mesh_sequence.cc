@@ -60,13 +60,15 @@ void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
       "refinements or a less demanding request.";
   solution->unmet_constraints.insert(
       solution->unmet_constraints.begin(),
-      {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.max_slip, "m/s"});
+      {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.bounds[Criterion::kSlip], "m/s"});
 }
 
 ValidationOptions JudgeOptions(const GaitSpec& spec) {
   ValidationOptions options;
   options.gravity = spec.gravity;
   options.manoeuvre = spec.manoeuvre;
+  options.friction_coefficient = spec.friction_coefficient;
+  options.min_normal_force = spec.min_normal_force_bw * spec.scene.model.total_mass() * spec.gravity.norm();
   return options;
 }
 
@@ -100,8 +102,7 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
   solution->speed = nlp.displacement(x) / nlp.duration(x);
   solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
-  solution->within_requested_accuracy = Converged(result.termination) && solution->accuracy->max_gap <= spec.max_gap &&
-                                        solution->accuracy->max_slip <= spec.max_slip;
+  solution->verdict = Converged(result.termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
   statistics->objective = solution->objective;
   statistics->max_gap = solution->accuracy->max_gap;
   statistics->max_slip = solution->accuracy->max_slip;
@@ -205,7 +206,10 @@ NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
 }
 
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
-bool IsBounded(const GaitSpec& spec) { return std::isfinite(spec.max_slip) || std::isfinite(spec.max_gap); }
+bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
+
+// Nothing is left for a finer mesh to do.
+bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verdict::Kind::kExceeded; }
 
 // The last refinement did not halve the slip. Where a joint meets its limit the acceleration jumps, and the jump moves on from the
 // intervals that were split to the next coarse one, where slipping pays.
@@ -255,7 +259,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.message += " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || solution.within_requested_accuracy) break;
+    if (!Converged(result.termination) || IsDone(solution)) break;
     if (IsArtefact(spec, solution)) {
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);

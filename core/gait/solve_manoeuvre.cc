@@ -86,7 +86,7 @@ void Append(const std::vector<MeshStatistics>& more, std::vector<MeshStatistics>
 Attempt Try(const GaitSpec& spec, RollingPath path, SolveBudget* budget, std::vector<MeshStatistics>* meshes) {
   GaitSpec rough = spec;
   rough.max_refinements = 0;
-  rough.max_gap = rough.max_slip = kInfinity;
+  rough.bounds = NoBounds();
   Attempt attempt;
   for (int k = 0; k < kMostCharts && budget->Left(); ++k) {
     const std::optional<OrientationChart> chart = ChooseChart(path);

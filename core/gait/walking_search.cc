@@ -58,7 +58,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
   }
   const std::string note = " Cheapest of " + std::to_string(found) + " solutions from " + std::to_string(tried) +
                            " starts (number " + std::to_string(best_start) + ").";
-  if (spec.max_refinements > 0 && !best->within_requested_accuracy) {
+  if (spec.max_refinements > 0 && best->verdict.kind == Verdict::Kind::kExceeded) {
     GaitSpec finer = spec;
     finer.max_refinements = spec.max_refinements - 1;
     GaitSolution solution = SolveOnMeshes(finer, problem, GuessFromTrajectory(*best->trajectory),

@@ -1,11 +1,14 @@
 #ifndef ROLLGAIT_CORE_VALIDATION_REPORT_H_
 #define ROLLGAIT_CORE_VALIDATION_REPORT_H_
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "core/models/scene.h"
 #include "core/trajectory/manoeuvre.h"
 #include "core/trajectory/trajectory.h"
+#include "core/validation/criteria.h"
 
 namespace rollgait {
 
@@ -32,6 +35,11 @@ struct AccuracyReport {
   double jump_impulse_error = 0;
   double min_jump_impulse = 0;
   double impact_loss = 0;
+
+  // The largest measure of every criterion.
+  std::array<Finding, kCriterionCount> findings;
+  // For every interval in order of time, its own largest measures; 0 where a criterion judges the whole motion or an impact.
+  std::vector<CriterionValues> intervals;
 };
 
 struct ValidationOptions {
@@ -39,6 +47,8 @@ struct ValidationOptions {
   double integrator_tolerance = 1e-10;  // relative and absolute
   int samples_per_interval = 10;        // between nodes, for gap, slip, forces
   std::optional<Manoeuvre> manoeuvre;   // what a motion of Cycle::kOnce was asked to do
+  double friction_coefficient = kInfinity;  // of the ground
+  double min_normal_force = 0;              // N, of a contact that is on the ground
 };
 
 // Judges a trajectory of a scene by re-integration and dense sampling.

@@ -67,6 +67,10 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.min_jump_impulse = impulses.min_normal();
   report.impact_loss = jumps.loss;
   report.integrator_tolerance = options.integrator_tolerance;
+  const auto find = [&report](Criterion criterion) -> Finding& { return report.findings[static_cast<int>(criterion)]; };
+  find(Criterion::kGap).value = report.max_gap;
+  find(Criterion::kSlip).value = report.max_slip;
+  find(Criterion::kPenetration).value = std::max(0.0, -report.min_swing_clearance);
   return report;
 }
 

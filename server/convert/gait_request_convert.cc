@@ -247,9 +247,10 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
                             ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};
   const v1::Accuracy& accuracy = spec.accuracy();
-  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance),
-                      ROLLGAIT_OPTIONAL(accuracy, max_gap_m), ROLLGAIT_OPTIONAL(accuracy, max_slip_m_s),
+  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance), {},
                       ROLLGAIT_OPTIONAL(accuracy, max_refinements)};
+  if (accuracy.has_max_gap_m()) request.accuracy.bounds[Criterion::kGap] = accuracy.max_gap_m();
+  if (accuracy.has_max_slip_m_s()) request.accuracy.bounds[Criterion::kSlip] = accuracy.max_slip_m_s();
   request.solver_limits = {ROLLGAIT_OPTIONAL(spec.solver_limits(), max_iterations),
                            ROLLGAIT_OPTIONAL(spec.solver_limits(), max_wall_time_s)};
   request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);

@@ -102,7 +102,7 @@ v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSoluti
   encoded.set_integrator_tolerance(report.integrator_tolerance);
   encoded.set_kkt_error(solution.kkt_error);
   encoded.set_constraint_violation(solution.constraint_violation);
-  encoded.set_within_requested_accuracy(solution.within_requested_accuracy);
+  encoded.set_within_requested_accuracy(solution.within_requested_accuracy());
   return encoded;
 }
 

@@ -46,8 +46,8 @@ TEST(CheckRequest, FillsTheDocumentedDefaults) {
   EXPECT_EQ(spec.swing_clearance, 0.01);
   EXPECT_EQ(spec.scheme, Scheme::kRadau2);
   EXPECT_EQ(spec.kkt_tolerance, 1e-6);
-  EXPECT_EQ(spec.max_gap, 1e-4);
-  EXPECT_EQ(spec.max_slip, 1e-3);
+  EXPECT_EQ(spec.bounds[Criterion::kGap], 1e-4);
+  EXPECT_EQ(spec.bounds[Criterion::kSlip], 1e-3);
   EXPECT_EQ(spec.max_refinements, 5);
   EXPECT_EQ(spec.max_iterations, 1000);
   EXPECT_EQ(spec.max_wall_time, 600);
@@ -152,13 +152,13 @@ TEST(CheckRequest, AccuracyLevelsSetTheBounds) {
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   GaitSpec spec = CheckRequest(request).value();
   EXPECT_EQ(spec.max_refinements, 0);
-  EXPECT_EQ(spec.max_gap, kInfinity);
-  EXPECT_EQ(spec.max_slip, kInfinity);
+  EXPECT_EQ(spec.bounds[Criterion::kGap], kInfinity);
+  EXPECT_EQ(spec.bounds[Criterion::kSlip], kInfinity);
   request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
-  request.accuracy.max_slip = 0.5;
+  request.accuracy.bounds[Criterion::kSlip] = 0.5;
   spec = CheckRequest(request).value();
-  EXPECT_EQ(spec.max_gap, 1e-5);
-  EXPECT_EQ(spec.max_slip, 0.5);
+  EXPECT_EQ(spec.bounds[Criterion::kGap], 1e-5);
+  EXPECT_EQ(spec.bounds[Criterion::kSlip], 0.5);
 }
 
 TEST(CheckRequest, CollectsEveryViolation) {

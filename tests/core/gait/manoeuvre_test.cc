@@ -25,7 +25,7 @@ GaitSolution Solve(const GaitRequest& request, const SolveControl& control = {})
 // What every answer owes, between its nodes too.
 void CheckMotion(const GaitSolution& solution) {
   EXPECT_EQ(solution.termination, Termination::kOptimal) << solution.message;
-  EXPECT_TRUE(solution.within_requested_accuracy);
+  EXPECT_TRUE(solution.within_requested_accuracy());
   EXPECT_TRUE(solution.unmet_constraints.empty());
   ASSERT_TRUE(solution.accuracy && solution.trajectory && solution.scene);
   EXPECT_LE(solution.accuracy->max_gap, 1e-4);
@@ -214,7 +214,7 @@ TEST(Outcome, HasteThatFrictionCannotGiveIsNotSolved) {
   request.solver_limits.max_iterations = 400;
   const GaitSolution solution = Solve(request);
   EXPECT_NE(solution.termination, Termination::kOptimal);
-  EXPECT_FALSE(solution.within_requested_accuracy);
+  EXPECT_FALSE(solution.within_requested_accuracy());
   EXPECT_FALSE(solution.unmet_constraints.empty());
 }
 

@@ -41,8 +41,8 @@ TEST(CoarseStart, HalvesUntilFewEnoughAreLeft) {
   // 50 + 100, 25 + 50, 13 + 25 are too many, in the order of the phases.
   EXPECT_EQ(coarse->phases[0].intervals, 7);
   EXPECT_EQ(coarse->phases[1].intervals, 13);
-  EXPECT_EQ(coarse->max_slip, kInfinity);
-  EXPECT_EQ(coarse->max_gap, kInfinity);
+  EXPECT_EQ(coarse->bounds[Criterion::kSlip], kInfinity);
+  EXPECT_EQ(coarse->bounds[Criterion::kGap], kInfinity);
   EXPECT_EQ(coarse->max_refinements, 0);
   EXPECT_EQ(coarse->kkt_tolerance, Check(request).kkt_tolerance);
 }
@@ -176,7 +176,7 @@ TEST(Ascend, GivesNoCoarseAnswer) {
   request.solver_limits.max_iterations = whole.meshes[0].iterations + 2;
   const GaitSolution cut = Solve(Check(request));
   EXPECT_EQ(cut.termination, Termination::kIterationLimit);
-  EXPECT_FALSE(cut.within_requested_accuracy);
+  EXPECT_FALSE(cut.within_requested_accuracy());
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ class MeshRefinementTest : public ::testing::Test {
     mesh_ = RequestedMesh(*spec_);
   }
   Mesh Refined(double max_slip, bool stalled) {
-    spec_->max_slip = max_slip;
-    spec_->max_gap = 1;
+    spec_->bounds[Criterion::kSlip] = max_slip;
+    spec_->bounds[Criterion::kGap] = 1;
     return RefineMesh(mesh_, *spec_, *trajectory_, stalled);
   }
 

@@ -59,7 +59,7 @@ TEST(StandardAccuracy, HoldsOnAllSlopes) {
   for (int slope : {-10, 0, 10}) {
     const GaitSolution solution = Solve(Planar(slope));
     ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
-    EXPECT_TRUE(solution.within_requested_accuracy);
+    EXPECT_TRUE(solution.within_requested_accuracy());
     EXPECT_LE(solution.accuracy->max_gap, 1e-4);
     EXPECT_LE(solution.accuracy->max_slip, 1e-3);
     EXPECT_GE(solution.accuracy->min_normal_force, 0);
@@ -74,7 +74,7 @@ TEST(StandardAccuracy, HoldsOnAllSlopes) {
 TEST(Normative, NetMomentsAreTheTorques) {
   const GaitSpec spec = CheckRequest(Planar(0)).value();
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, {});
-  ASSERT_TRUE(solution.normative && solution.within_requested_accuracy);
+  ASSERT_TRUE(solution.normative && solution.within_requested_accuracy());
   EXPECT_NEAR(solution.normative->speed, solution.speed, 1e-9);
   EXPECT_NEAR(solution.normative->step_length, solution.step_length, 1e-9);
   const GaitCycle cycle = GaitCycle::Of(spec.scene, *solution.trajectory).value();
@@ -174,7 +174,7 @@ TEST(Outcome, IterationLimitNamesWhatIsNotMet) {
   const GaitSolution solution = Solve(request);
   EXPECT_EQ(solution.termination, Termination::kIterationLimit);
   EXPECT_FALSE(solution.unmet_constraints.empty());
-  EXPECT_FALSE(solution.within_requested_accuracy);
+  EXPECT_FALSE(solution.within_requested_accuracy());
   for (size_t i = 1; i < solution.unmet_constraints.size(); ++i) EXPECT_FALSE(solution.unmet_constraints[i].name.empty());
 }
 

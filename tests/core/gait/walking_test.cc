@@ -115,7 +115,7 @@ TEST(Preset, HumanResemblesPeople) {
   request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
   const GaitSpec spec = CheckRequest(request).value();
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
-  ASSERT_TRUE(solution.within_requested_accuracy) << solution.message;
+  ASSERT_TRUE(solution.within_requested_accuracy()) << solution.message;
   const auto people = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
   ASSERT_TRUE(people);
   EXPECT_GT(people->stance, 0.58);

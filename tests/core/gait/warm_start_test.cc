@@ -96,12 +96,12 @@ TEST(WarmStart, AtStandardAccuracyTheMeshOfTheNeighbourIsTaken) {
   GaitRequest request = Draft(0);
   request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
   const GaitSolution level = Solve(CheckRequest(request).value());
-  ASSERT_TRUE(level.within_requested_accuracy);
+  ASSERT_TRUE(level.within_requested_accuracy());
   ASSERT_GT(level.meshes.size(), 1u);  // otherwise its mesh would be the one that was asked for
   request.slope = 0.5 * kDegree;
   const GaitSolution warm = SolveFrom(request, level);
   ASSERT_EQ(warm.termination, Termination::kOptimal);
-  EXPECT_TRUE(warm.within_requested_accuracy);
+  EXPECT_TRUE(warm.within_requested_accuracy());
   EXPECT_EQ(warm.meshes[0].intervals, level.meshes.back().intervals);
 }
 

@@ -102,8 +102,8 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.discretization.double_support_intervals, 11);
   EXPECT_EQ(request.accuracy.level, GaitRequest::AccuracyLevel::kFine);
   EXPECT_EQ(request.accuracy.kkt_tolerance, 1e-7);
-  EXPECT_EQ(request.accuracy.max_gap, 2e-4);
-  EXPECT_EQ(request.accuracy.max_slip, 3e-3);
+  EXPECT_EQ(request.accuracy.bounds.at(Criterion::kGap), 2e-4);
+  EXPECT_EQ(request.accuracy.bounds.at(Criterion::kSlip), 3e-3);
   EXPECT_EQ(request.accuracy.max_refinements, 2);
   EXPECT_EQ(request.solver_limits.max_iterations, 321);
   EXPECT_EQ(request.solver_limits.max_wall_time, 44);

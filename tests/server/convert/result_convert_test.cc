@@ -115,7 +115,7 @@ GaitSolution Solution() {
   solution.accuracy->jump_impulse_error = 42;
   solution.accuracy->min_jump_impulse = 43;
   solution.accuracy->impact_loss = 44;
-  solution.within_requested_accuracy = true;
+  solution.verdict.kind = Verdict::Kind::kWithin;
   solution.kkt_error = 13;
   solution.constraint_violation = 14;
   solution.objective = 15;
