@@ -89,9 +89,10 @@ struct OptimalControlProblem {
   bool ForcesVanishAtEnd(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;
-  // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first
-  // acts in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
-  // that joins them: the rows would depend on each other, and the forces along it would be free.
+  // The contacts of the problem with the directions in which they are held in a phase: of active contacts on one link the first
+  // is held in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
+  // that joins them: the rows would depend on each other. Forces act in all directions; how contacts of one link share the
+  // force along x is the matter of ForceSharesConstraint.
   std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
