@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/body_surface.h"
 #include "core/ocp/cost_description.h"
 
 namespace rollgait {
@@ -56,6 +57,13 @@ struct OptimalControlProblem {
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
+  // Bodies with a thickness, the pairs of them that can meet, and those of these pairs (indices) that are kept apart. A mirrored
+  // motion starts where the mirror image of its last point is, so a pair belongs here together with its mirror pair.
+  std::vector<BodySurface> bodies;
+  std::vector<BodyPair> pairs;
+  std::vector<int> separated;
+  // m, least distance of separated bodies at collocation points: what they may approach each other between the points.
+  double pair_clearance = 1e-3;
   std::optional<Interval> touch_down_point, lift_off_point;
   // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
   // new phase. Else they arrive at rest.
@@ -88,7 +96,7 @@ struct OptimalControlProblem {
   PointLayout Layout(int phase) const;
 
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
-  // (first point of a Lobatto scheme).
+  // (first point of a Lobatto scheme). Rows of separated pairs are the last.
   std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node) const;
   // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed contact
   // points.

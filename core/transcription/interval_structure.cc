@@ -200,10 +200,9 @@ void IntervalBlock::Bounds(double start, double length, bool last, double* lower
     int row = point.first_row;
     for (PointConstraint* constraint : point.constraints) {
       constraint->Bounds(fraction, lower + row, upper + row);
-      // A gap at the end of its phase is the business of the next phase: touch-down fixes it.
-      const bool end_of_phase = last && i == points_count_ - 1;
+      const bool free = last && i == points_count_ - 1 && constraint->FreeAtEndOfPhase();
       for (int r = 0; r < constraint->rows(); ++r, ++row) {
-        if (end_of_phase && constraint->Unit(r) == "m") lower[row] = -kInfinity;
+        if (free) lower[row] = -kInfinity;
         lower[row] /= constraint->Size(r);
         upper[row] /= constraint->Size(r);
       }
