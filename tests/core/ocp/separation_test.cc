@@ -109,19 +109,23 @@ TEST_F(SeparationTest, DerivativesOfEveryPairApartAndOverlapping) {
       (Value(row, q) > 0 ? apart : overlapping)++;
     }
   }
-  // Legs turned towards each other until they overlap, the right one bent so that its heel is beside the other's shank.
+  // Legs turned towards each other: the first three draws of each pair that overlap by 2 mm to 40 mm.
   for (const char* name : {"left_shank / right_shank", "left_shank / right_heel", "left_thigh / right_shank"}) {
     SeparationConstraint row = Row(FindPair(name));
-    VectorX q = random.VectorOf(layout_.n, -0.05, 0.05);
-    for (const char* hip : {"hip_adduction_l", "hip_adduction_r"}) q(scene_.model.Find(hip)) = 0.2;
-    q(scene_.model.Find("hip_r")) = 0.6;
-    q(scene_.model.Find("knee_r")) = 1;
-    EXPECT_LT(Value(row, q), -0.002) << name;
-    CheckDerivatives(row, q);
-    ++overlapping;
+    for (int draw = 0, found = 0; draw < 2000 && found < 3; ++draw) {
+      VectorX q = random.VectorOf(layout_.n, -0.3, 0.3);
+      for (const char* joint : {"hip_adduction_l", "hip_adduction_r", "hip_r", "knee_r"}) {
+        q(scene_.model.Find(joint)) = random.Uniform(0, 0.6);
+      }
+      const double distance = Value(row, q);
+      if (distance > -0.002 || distance < -0.04) continue;
+      CheckDerivatives(row, q);
+      ++found;
+      ++overlapping;
+    }
   }
   EXPECT_GT(apart, 40);
-  EXPECT_GE(overlapping, 3);
+  EXPECT_GE(overlapping, 9);
 }
 
 // d by the poses of the two frames (ComputeSurfacePairDerivatives), and the poses by the joints.
