@@ -101,9 +101,9 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
                                                           swing_clearance));
   }
   for (size_t s = 0; !at_node && s < separated.size(); ++s) {
-    const BodyPair& pair = pairs[separated[s]];
+    const BodyPair& pair = pairs[separated[s].pair];
     constraints.push_back(std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout,
-                                                                 pair_clearance));
+                                                                 separated[s].clearance));
   }
   return constraints;
 }

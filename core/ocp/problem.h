@@ -32,6 +32,12 @@ struct Ends {
 // What the sum of the cost integrals is divided by.
 enum class CostDenominator { kDistance, kTime, kNothing };
 
+// Two bodies that are kept apart.
+struct SeparatedPair {
+  int pair = 0;             // index in OptimalControlProblem::pairs
+  double clearance = 1e-3;  // m, least distance at collocation points: what they may approach each other between the points
+};
+
 // The multi-phase problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit. Periodic, or
 // between given ends (its first case study).
 // World axes: x along the ground, z its normal; all contacts are with the plane z = 0.
@@ -57,13 +63,11 @@ struct OptimalControlProblem {
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
-  // Bodies with a thickness, the pairs of them that can meet, and those of these pairs (indices) that are kept apart. A mirrored
-  // motion starts where the mirror image of its last point is, so a pair belongs here together with its mirror pair.
+  // Bodies with a thickness, the pairs of them that can meet, and those that are kept apart. A mirrored motion starts at the
+  // mirror image of its last point, so a pair belongs there together with its mirror pair.
   std::vector<BodySurface> bodies;
   std::vector<BodyPair> pairs;
-  std::vector<int> separated;
-  // m, least distance of separated bodies at collocation points: what they may approach each other between the points.
-  double pair_clearance = 1e-3;
+  std::vector<SeparatedPair> separated;
   std::optional<Interval> touch_down_point, lift_off_point;
   // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
   // new phase. Else they arrive at rest.
