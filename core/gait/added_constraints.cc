@@ -80,6 +80,9 @@ bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const Accur
       any |= Insert(joint, &(added->between[static_cast<size_t>(finding.phase)].*joints));
     }
   };
+  if (spec.bounds[Criterion::kOverlap] < kInfinity) {
+    for (int pair : report.overlapping_pairs) any |= Insert(pair, &added->separated);
+  }
   add_finding(Criterion::kJointRange, &BoundedBetween::range);
   add_finding(Criterion::kJointVelocity, &BoundedBetween::velocity);
   add_finding(Criterion::kJointEffort, &BoundedBetween::effort);

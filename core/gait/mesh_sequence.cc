@@ -270,6 +270,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       previous = {};
       continue;
     }
+    if (getenv("RG_DEBUG")) { int t=0; for (int c : statistics.intervals) t += c; std::fprintf(stderr, "level N=%d it=%d obj=%g: %s\n", t, statistics.iterations, solution.objective, Describe(solution.verdict.excesses).c_str()); for (auto& b : added.between) std::fprintf(stderr, "  added %zu %zu %zu sep %zu\n", b.range.size(), b.velocity.size(), b.effort.size(), added.separated.size()); }
     const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(solution.meshes));
     const bool is_finer = finer.fractions != mesh.fractions;
     const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);

@@ -119,12 +119,18 @@ Result<Scene> HumanScene(const BodySelection& selection) {
     contacts.push_back(ReduceContact(contact, reduction.value()));
     if (selection.sagittal) contacts.back().directions = {0, 2};
   }
+  std::vector<BodySurface> bodies;
+  for (const BodySurface& body : human.bodies) bodies.push_back(ReduceBody(body, reduction.value()));
+  std::vector<BodyPair> pairs;
+  if (!selection.sagittal) pairs = ReducePairs(human.pairs, bodies);
   return Scene{
       .name = selection.model,
       .description = "",
       .selection = selection,
       .model = reduction.value().model,
       .contacts = std::move(contacts),
+      .bodies = std::move(bodies),
+      .pairs = std::move(pairs),
       .leg_length = table.LegLength(),
       .sources = HumanSources(),
       .symmetric = reduction.value().symmetric,

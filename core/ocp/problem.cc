@@ -8,6 +8,7 @@
 #include "core/ocp/constraints/force_shares.h"
 #include "core/ocp/constraints/friction.h"
 #include "core/ocp/constraints/rolling.h"
+#include "core/ocp/constraints/separation.h"
 
 namespace rollgait {
 namespace {
@@ -119,7 +120,8 @@ PointLayout OptimalControlProblem::Layout(int phase) const {
   return layout;
 }
 
-std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(int phase, bool at_node) const {
+std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(
+    int phase, bool at_node, const std::vector<int>& separated) const {
   std::vector<std::unique_ptr<PointConstraint>> constraints;
   const PointLayout layout = Layout(phase);
   const auto active = ActiveContacts(phase);
@@ -135,11 +137,16 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
   }
   auto shares = MakeForceShares(contacts, active, layout, force_size());
   if (shares) constraints.push_back(std::move(shares));
-  // At a node that belongs to the interval before as well, the gap is bounded there.
+  // At a node that belongs to the interval before as well, gaps and distances are bounded there.
   for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
     if (Contains(phases[phase].active, c)) continue;
     constraints.push_back(std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance,
                                                           swing_clearance));
+  }
+  for (size_t s = 0; !at_node && s < separated.size(); ++s) {
+    const BodyPair& pair = pairs[separated[s]];
+    constraints.push_back(std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout,
+                                                                 pair_clearance));
   }
   return constraints;
 }

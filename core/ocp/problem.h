@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/body_surface.h"
 #include "core/ocp/added_constraints.h"
 #include "core/ocp/cost_description.h"
 
@@ -57,6 +58,11 @@ struct OptimalControlProblem {
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
+  // Bodies with a thickness, the pairs of them that can meet, and the least distance at collocation points of those that are kept
+  // apart (AddedConstraints), m: what they may approach each other between the points.
+  std::vector<BodySurface> bodies;
+  std::vector<BodyPair> pairs;
+  double pair_clearance = 1e-3;
   std::optional<Interval> touch_down_point, lift_off_point;
   // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
   // new phase. Else they arrive at rest.
@@ -98,8 +104,10 @@ struct OptimalControlProblem {
   PointLayout Layout(int phase) const;
 
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
-  // (first point of a Lobatto scheme).
-  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node) const;
+  // (first point of a Lobatto scheme). The last rows keep the pairs
+  // `separated` apart.
+  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node,
+                                                                 const std::vector<int>& separated = {}) const;
   // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed contact
   // points.
   std::vector<std::unique_ptr<PointConstraint>> EntryConstraints(int phase) const;
