@@ -58,6 +58,13 @@ class PhaseExcesses {
 
 }  // namespace
 
+bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added) {
+  if (spec.bounds[Criterion::kOverlap] == kInfinity) return false;
+  bool any = false;
+  for (int pair : report.overlapping_pairs) any |= Insert(pair, &added->separated);
+  return any;
+}
+
 bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added) {
   added->between.resize(trajectory.phases.size());
   bool any = false;
@@ -80,9 +87,6 @@ bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const Accur
       any |= Insert(joint, &(added->between[static_cast<size_t>(finding.phase)].*joints));
     }
   };
-  if (spec.bounds[Criterion::kOverlap] < kInfinity) {
-    for (int pair : report.overlapping_pairs) any |= Insert(pair, &added->separated);
-  }
   add_finding(Criterion::kJointRange, &BoundedBetween::range);
   add_finding(Criterion::kJointVelocity, &BoundedBetween::velocity);
   add_finding(Criterion::kJointEffort, &BoundedBetween::effort);

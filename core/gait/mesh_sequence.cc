@@ -262,15 +262,27 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.message += " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || IsDone(solution) || spec.max_refinements == 0) break;
-    if (IsArtefact(spec, solution)) {
+    if (!Converged(result.termination) || IsDone(solution)) break;
+    const bool is_artefact = IsArtefact(spec, solution);
+    if (!is_artefact && additions < kMostAdditions && AddOverlapping(spec, *solution.accuracy, &added)) {
+      // Bodies that overlapped move a long way, on the same mesh first. From a guess, which has the legs on their sides, the way is
+      // shorter than from a motion that has them crossed.
+      ++additions;
+      if (guess.near_solution) {
+        guess = GuessFromTrajectory(*solution.trajectory);
+        options = OptionsForNeighbour(spec);
+        previous = std::move(current);
+      }
+      continue;
+    }
+    if (spec.max_refinements == 0) break;
+    if (is_artefact) {
       if (refinements++ == spec.max_refinements) break;
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
       previous = {};
       continue;
     }
-    if (getenv("RG_DEBUG")) { int t=0; for (int c : statistics.intervals) t += c; std::fprintf(stderr, "level N=%d it=%d obj=%g: %s\n", t, statistics.iterations, solution.objective, Describe(solution.verdict.excesses).c_str()); for (auto& b : added.between) std::fprintf(stderr, "  added %zu %zu %zu sep %zu\n", b.range.size(), b.velocity.size(), b.effort.size(), added.separated.size()); }
     const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(solution.meshes));
     const bool is_finer = finer.fractions != mesh.fractions;
     const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
