@@ -129,11 +129,11 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .selection = selection,
       .model = reduction.value().model,
       .contacts = std::move(contacts),
-      .bodies = std::move(bodies),
-      .pairs = std::move(pairs),
       .leg_length = table.LegLength(),
       .sources = HumanSources(),
       .symmetric = reduction.value().symmetric,
+      .bodies = std::move(bodies),
+      .pairs = std::move(pairs),
   };
 }
 

@@ -18,11 +18,11 @@ struct Scene {
   BodySelection selection;
   Model model;
   std::vector<ContactSurface> contacts;
-  std::vector<BodySurface> bodies = {};  // the parts with a thickness
-  std::vector<BodyPair> pairs = {};      // those that can meet
   double leg_length;                 // m, hip to sole with straight leg
   std::vector<std::string> sources;  // where the numbers come from
   bool symmetric = true;             // its left/right mirror image is itself; if not, it has no half cycle
+  std::vector<BodySurface> bodies = {};  // the parts with a thickness
+  std::vector<BodyPair> pairs = {};      // those that can meet
 
   // Index of a contact by name, -1 if there is none.
   int FindContact(const std::string& contact_name) const;

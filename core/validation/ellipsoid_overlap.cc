@@ -35,7 +35,7 @@ double Climb(const PosedEllipsoid& a, const PosedEllipsoid& b, Vector3 nu) {
       constexpr double kSin[] = {0, 0, 1, -1, kDiagonal, -kDiagonal, -kDiagonal, kDiagonal};
       const Vector3 next = (nu + step * (kCos[i] * t_1 + kSin[i] * t_2)).normalized();
       const double value = PlaneDistance(a, b, next);
-      if (value <= best) continue;
+      if (!(value > best)) continue;  // nor where it is no number
       best = value;
       nu = next;
       climbed = true;
