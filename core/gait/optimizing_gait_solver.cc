@@ -98,7 +98,8 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
   GaitSolution solution = Search(spec, &budget);
   solution.message += solution.note;
-  if (solution.trajectory) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
+  if (solution.trajectory) solution.events = MeasureGaitEvents(spec.scene, *solution.trajectory, spec.gravity);
+  if (solution.events) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, *solution.events);
   return solution;
 }
 
