@@ -28,6 +28,12 @@ struct Ends {
   EndBounds start, end;
 };
 
+// Joints whose range, velocity or effort is bounded at every instant of a phase; those of all joints are at nodes or points.
+struct BoundedBetween {
+  std::vector<int> range, velocity, effort;
+  friend bool operator==(const BoundedBetween&, const BoundedBetween&) = default;
+};
+
 // What the sum of the cost integrals is divided by.
 enum class CostDenominator { kDistance, kTime, kNothing };
 
@@ -53,6 +59,7 @@ struct OptimalControlProblem {
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;
 
+  std::vector<BoundedBetween> between;  // one a phase; fewer: none there
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
@@ -78,6 +85,14 @@ struct OptimalControlProblem {
   std::vector<int> PreviousActive(int phase) const;
   // Whether velocities jump at the start of a phase: touch-down is plastic, and something touches down there.
   bool Jumps(int phase) const;
+  // Contacts that are taken up at the start of a phase, or given up at its end.
+  std::vector<int> TakenUp(int phase) const;
+  std::vector<int> GivenUp(int phase) const;
+  // Whether the forces of contacts that are taken up at the start of a phase, or given up at its end, vanish there: where all efforts
+  // are continuous, since their rates cost something, velocities do not jump, and no least normal force is asked for. Source:
+  // docs/contact_changes.md.
+  bool ForcesVanishAtStart(int phase) const;
+  bool ForcesVanishAtEnd(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;
   // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first

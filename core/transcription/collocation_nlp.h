@@ -87,6 +87,7 @@ class CollocationNlp : public NlpProblem {
   std::vector<double> PointTimes(int phase, int point) const;  // fractions of the phase
   int FirstRow(int interval) const;
   void TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const;
+  void TransferPath(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   void TransferNodes(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   void TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
@@ -96,6 +97,7 @@ class CollocationNlp : public NlpProblem {
   void TightenNode(int k, const EndBounds& bounds);
   void SetJumpBounds(int phase);
   void SetControlBounds();
+  void SetForceBounds(int interval);
   void SetRowBounds();
   void BuildPatterns();
   void AddDenominatorPattern();
