@@ -27,7 +27,7 @@ json Column(const v1::Matrix& matrix, int column, double factor) {
 }
 
 // Each unbroken stretch from its own first value on, mm.
-json Progress(const v1::Matrix& pressure) {
+json Advance(const v1::Matrix& pressure) {
   json values = json::array();
   double first = std::nan("");
   for (int i = 0; i < pressure.rows(); ++i) {
@@ -66,7 +66,7 @@ json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model) {
                             {"stance", foot.stance_fraction()},
                             {"normal", Column(foot.force_n(), 2, percent)},
                             {"tangential", Column(foot.force_n(), 0, percent)},
-                            {"pressure", Progress(foot.center_of_pressure_m())}});
+                            {"pressure", Advance(foot.center_of_pressure_m())}});
   }
   data["double_support"] = events.double_support_fraction();
   return data;
