@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/ocp/added_constraints.h"
 #include "core/ocp/cost_description.h"
 
 namespace rollgait {
@@ -26,12 +27,6 @@ struct EndBounds {
 };
 struct Ends {
   EndBounds start, end;
-};
-
-// Joints whose range, velocity or effort is bounded at every instant of a phase; those of all joints are at nodes or points.
-struct BoundedBetween {
-  std::vector<int> range, velocity, effort;
-  friend bool operator==(const BoundedBetween&, const BoundedBetween&) = default;
 };
 
 // What the sum of the cost integrals is divided by.
@@ -59,7 +54,6 @@ struct OptimalControlProblem {
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;
 
-  std::vector<BoundedBetween> between;  // one a phase; fewer: none there
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
@@ -111,7 +105,7 @@ struct OptimalControlProblem {
   // The instant of a jump, z = (q, 0, v⁺ − v⁻, Λ): no efforts, and impulses in place of forces.
   PointLayout JumpLayout(int phase) const;
   // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the friction
-  // cone. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
+  // cone, contacts that are taken up coming from above. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
   std::vector<std::unique_ptr<PointConstraint>> JumpConstraints(int phase) const;
 };
 

@@ -35,7 +35,7 @@ struct MotionGuess {
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
-  CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh);
+  CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh, AddedConstraints added = {});
   ~CollocationNlp() override;
 
   int variables() const override { return layout_.size(); }
@@ -63,6 +63,7 @@ class CollocationNlp : public NlpProblem {
 
   const DecisionLayout& layout() const { return layout_; }
   const Mesh& mesh() const { return mesh_; }
+  const AddedConstraints& added() const { return added_; }
   // f of the NLP = objective_scale() · (weighted sum of integrals / denominator).
   double objective_scale() const { return objective_scale_; }
 
@@ -114,6 +115,7 @@ class CollocationNlp : public NlpProblem {
   Scheme scheme_kind_;
   EliminatedScheme scheme_;
   Mesh mesh_;
+  AddedConstraints added_;
   DecisionLayout layout_;
   PointWorkspace workspace_;
   std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase

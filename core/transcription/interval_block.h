@@ -21,7 +21,7 @@ namespace rollgait {
 // rigid-body dynamics and with costs of the acceleration.
 class IntervalBlock {
  public:
-  IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
+  IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase, const EliminatedScheme& scheme,
                 PointWorkspace* workspace);
 
   int local_size() const { return local_size_; }  // without h
@@ -40,7 +40,7 @@ class IntervalBlock {
 
   // Bounds of the (scaled) rows of an interval that starts at a fraction of the phase and is as long as another.
   void Bounds(double start, double length, const IntervalPlace& place, double* lower, double* upper) const;
-  // What row `row` is: name, unit, natural size and point.
+  // What row `row` is: name, unit, natural size and point; of rows between points the last point.
   struct RowInfo {
     std::string name, unit;
     double size;
@@ -85,7 +85,7 @@ class IntervalBlock {
   double* WriteJacobian(int i, double* values) const;
   void EvaluateHessian(int i, double h, const double* lambda, const double* weights);
   void BuildPoints();
-  void BuildPath();
+  void BuildPath(const AddedConstraints& added);
   void BuildJacobianPattern();
   void BuildHessianPattern();
   std::vector<int> Behind(int i, int column) const;

@@ -53,12 +53,12 @@ bool IntervalPathRows::Row::depends_on_step() const {
   return std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.power != 0; });
 }
 
-IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
-                                   const Locals& locals, const VectorX& scale)
+IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
+                                   const EliminatedScheme& scheme, const Locals& locals, const VectorX& scale)
     : from_points_(BernsteinFromValues(scheme.tableau().c)), scale_(scale) {
   AddForces(problem, phase, locals);
-  if (phase >= static_cast<int>(problem.between.size())) return;
-  const BoundedBetween& between = problem.between[phase];
+  if (phase >= static_cast<int>(added.between.size())) return;
+  const BoundedBetween& between = added.between[phase];
   const std::vector<int>& actuated = problem.model.actuated();
   for (int joint : between.effort) {
     const auto place = std::find(actuated.begin(), actuated.end(), joint);

@@ -15,8 +15,8 @@ struct IntervalPlace {
 };
 
 // Rows that bound the polynomials of one interval of a phase at every instant, by their Bernstein coefficients: a polynomial lies in the
-// convex hull of its coefficients. Bounded are the normal forces and the friction of all active contacts, and of the joints that the
-// problem names (OptimalControlProblem::between) range, velocity and effort. Coefficients that are unknowns themselves have bounds in
+// convex hull of its coefficients. Bounded are the normal forces and the friction of all active contacts, and of the joints that
+// AddedConstraints names range, velocity and effort. Coefficients that are unknowns themselves have bounds in
 // place of rows, but for friction.
 //   A row is  lower <= Σ coefficient · h^power · y_local · scale_local <= upper,  with the interval's length h in s.
 // At the ends of a phase the forces of contacts that are taken up or given up at rest vanish where the problem says so
@@ -28,8 +28,8 @@ class IntervalPathRows {
     std::vector<int> sources;   // first local variable of each source
     std::vector<int> controls;  // first local variable of each point's efforts and forces
   };
-  IntervalPathRows(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme, const Locals& locals,
-                   const VectorX& scale);
+  IntervalPathRows(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
+                   const EliminatedScheme& scheme, const Locals& locals, const VectorX& scale);
 
   int size() const { return static_cast<int>(rows_.size()); }
   // What tells a row from the others of its phase, whatever rows the phase has.

@@ -14,8 +14,8 @@ constexpr Kind kKinds[] = {EliminatedScheme::kPosition, EliminatedScheme::kVeloc
 
 }  // namespace
 
-IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
-                             PointWorkspace* workspace)
+IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
+                             const EliminatedScheme& scheme, PointWorkspace* workspace)
     : problem_(problem),
       phase_(phase),
       scheme_(scheme),
@@ -51,7 +51,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
   turned_ = VectorX::Zero(3 * layout_.n);
   step_controls_ = VectorX::Zero(controls_);
   BuildPoints();
-  BuildPath();
+  BuildPath(added);
   BuildJacobianPattern();
   BuildHessianPattern();
 }
@@ -79,11 +79,11 @@ void IntervalBlock::BuildPoints() {
   scaled_lambda_.resize(largest);
 }
 
-void IntervalBlock::BuildPath() {
+void IntervalBlock::BuildPath(const AddedConstraints& added) {
   IntervalPathRows::Locals locals;
   for (int source = 0; source < scheme_.sources(); ++source) locals.sources.push_back(SourceOffset(source));
   for (int i = 0; i < points_count_; ++i) locals.controls.push_back(ControlOffset(i));
-  path_ = std::make_unique<IntervalPathRows>(problem_, phase_, scheme_, locals, scale_);
+  path_ = std::make_unique<IntervalPathRows>(problem_, added, phase_, scheme_, locals, scale_);
   rows_ += path_->size();
 }
 
@@ -239,7 +239,7 @@ IntervalBlock::RowInfo IntervalBlock::Describe(int row) const {
   }
   const int r = row - FirstPathRow();
   ROLLGAIT_CHECK(r >= 0 && r < path_->size());
-  return {path_->Name(r), path_->Unit(r), path_->Size(r), 0};
+  return {path_->Name(r), path_->Unit(r), path_->Size(r), points_count_ - 1};
 }
 
 }  // namespace rollgait
