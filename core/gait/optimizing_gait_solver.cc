@@ -46,8 +46,9 @@ GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
 GaitSolution SearchOnMesh(const GaitSpec& spec, SolveBudget* budget) {
   constexpr double kCoarseTolerance = 1e-3;  // of what is only a start
-  if (LeastSmoothing(spec).value_or(kSmoothingFromAfar) >= kSmoothingFromAfar) return SearchFromAfar(spec, budget);
-  GaitSpec smooth = SmoothedBy(kSmoothingFromAfar, spec);
+  const double cold = ColdSmoothing(spec);
+  if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, budget);
+  GaitSpec smooth = SmoothedBy(cold, spec);
   smooth.max_refinements = 0;
   smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
   GaitSolution solution = SearchFromAfar(smooth, budget);

@@ -16,7 +16,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
   // Where minima follow one another closely 10 to 60 iterations do; beyond that a smaller step costs less than patience.
   constexpr int kMostIterations = 80, kPatience = 300;
   const double least = LeastSmoothing(spec).value();
-  double reached = kSmoothingFromAfar, step = kFirstStep;
+  double reached = ColdSmoothing(spec), step = kFirstStep;
   GaitSolution last = std::move(smooth);
   while (reached > least) {
     // Where even small steps fail the path of minima ends: on to the spec at once, with patience.

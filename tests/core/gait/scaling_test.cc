@@ -1,0 +1,113 @@
+// A body of another mass, and another planet at the same Froude number: the same gait, in another time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+struct Solved {
+  GaitSpec spec;
+  GaitSolution solution;
+};
+
+Solved Walk(Preset preset, double slope, double mass, double gravity, double tolerance) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.body.mass = mass;
+  request.gravity = gravity;
+  request.preset = preset;
+  request.slope = slope;
+  request.starts = 1;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  request.accuracy.kkt_tolerance = tolerance;
+  request.discretization.single_support_intervals = 12;
+  GaitSpec spec = CheckRequest(request).value();
+  GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
+  EXPECT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  return {std::move(spec), std::move(solution)};
+}
+
+int Iterations(const GaitSolution& solution) {
+  int sum = 0;
+  for (const MeshStatistics& mesh : solution.meshes) sum += mesh.iterations;
+  return sum;
+}
+
+// The second walk is the first one with time in units of `time` and forces in units of `force`; relative errors.
+void ExpectSimilar(const Solved& a, const Solved& b, double time, double force, double tolerance) {
+  const auto near = [tolerance](const MatrixX& x, const MatrixX& y) {
+    return (x - y).cwiseAbs().maxCoeff() <= tolerance * std::max(1.0, x.cwiseAbs().maxCoeff());
+  };
+  ASSERT_TRUE(a.solution.trajectory && b.solution.trajectory);
+  const Trajectory &first = *a.solution.trajectory, &second = *b.solution.trajectory;
+  EXPECT_NEAR(second.displacement, first.displacement, tolerance);
+  ASSERT_EQ(first.phases.size(), second.phases.size());
+  for (size_t p = 0; p < first.phases.size(); ++p) {
+    const TrajectoryPhase &x = first.phases[p], &y = second.phases[p];
+    EXPECT_NEAR(y.duration / time, x.duration, tolerance);
+    ASSERT_EQ(x.node_positions.cols(), y.node_positions.cols());
+    EXPECT_TRUE(near(x.node_positions, y.node_positions)) << (x.node_positions - y.node_positions).cwiseAbs().maxCoeff();
+    EXPECT_TRUE(near(x.node_velocities, time * y.node_velocities));
+    EXPECT_TRUE(near(x.point_efforts, y.point_efforts / force));
+    EXPECT_TRUE(near(x.point_forces, y.point_forces / force));
+  }
+}
+
+class ScalingTest : public ::testing::TestWithParam<std::tuple<Preset, double>> {};
+
+// Same stature, half and double the mass: inertias, strengths and passive torques follow it, and with them the iterations.
+TEST_P(ScalingTest, MassChangesForcesOnly) {
+  const auto [preset, slope] = GetParam();
+  const Solved one = Walk(preset, slope, 75, 9.81, 1e-6);
+  for (const double mass : {37.5, 150.0}) {
+    const Solved other = Walk(preset, slope, mass, 9.81, 1e-6);
+    const double factor = mass / 75, power = preset == Preset::kTorque ? factor * factor : 1;
+    EXPECT_NEAR(other.solution.objective / power, one.solution.objective, 1e-6 * one.solution.objective) << mass;
+    EXPECT_EQ(Iterations(other.solution), Iterations(one.solution)) << mass;
+    ExpectSimilar(one, other, 1, factor, 1e-6);
+  }
+}
+
+// The speed that is not given is that of the same Froude number.
+TEST_P(ScalingTest, AnotherPlanetChangesTimeAndForces) {
+  const auto [preset, slope] = GetParam();
+  const Solved earth = Walk(preset, slope, 75, 9.81, 1e-9);
+  for (const double gravity : {1.62, 3.71, 14.0}) {
+    const Solved planet = Walk(preset, slope, 75, gravity, 1e-9);
+    const double factor = gravity / 9.81;
+    EXPECT_NEAR(planet.solution.speed, 1.3 * std::sqrt(factor), 1e-8);
+    const double power = preset == Preset::kTorque ? std::pow(factor, 1.5) : 1;  // torque² · time
+    EXPECT_NEAR(planet.solution.objective / power, earth.solution.objective, 1e-6 * earth.solution.objective) << gravity;
+    ExpectSimilar(earth, planet, 1 / std::sqrt(factor), factor, 1e-6);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, ScalingTest,
+                         ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kTransport, Preset::kHuman),
+                                            ::testing::Values(0.0, 0.1)));
+
+// What a preset does not name stays: the body's own limits, where a request gives costs.
+TEST(Scaling, WithoutAPresetTheBodyStaysAsItIs) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.gravity = 1.62;
+  const GaitSpec body = CheckRequest(request).value();
+  request.preset = Preset::kHuman;
+  const GaitSpec preset = CheckRequest(request).value();
+  const int knee = body.scene.model.Find("knee_l");
+  EXPECT_EQ(body.scene.model.joint(knee).effort_max, 250);
+  EXPECT_EQ(body.scene.model.joint(knee).velocity_max, 20);
+  EXPECT_EQ(body.passive_scale, 1);
+  EXPECT_NEAR(preset.scene.model.joint(knee).effort_max, 250 * 1.62 / 9.81, 1e-12);
+  EXPECT_NEAR(preset.scene.model.joint(knee).velocity_max, 20 * std::sqrt(1.62 / 9.81), 1e-12);
+  EXPECT_NEAR(preset.passive_scale, 1.62 / 9.81, 1e-12);
+  request.limits.joint_velocity["knee_l"] = 13;
+  EXPECT_EQ(CheckRequest(request).value().scene.model.joint(knee).velocity_max, 13);
+}
+
+}  // namespace
+}  // namespace rollgait
