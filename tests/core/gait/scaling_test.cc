@@ -4,7 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/gait/default_speed.h"
 #include "core/gait/optimizing_gait_solver.h"
+#include "core/gait/time_unit.h"
 
 namespace rollgait {
 namespace {
@@ -14,7 +16,7 @@ struct Solved {
   GaitSolution solution;
 };
 
-Solved Walk(Preset preset, double slope, double mass, double gravity, double tolerance) {
+GaitSpec Spec(Preset preset, double slope, double mass, double gravity) {
   GaitRequest request;
   request.body.model = "planar";
   request.body.mass = mass;
@@ -23,9 +25,11 @@ Solved Walk(Preset preset, double slope, double mass, double gravity, double tol
   request.slope = slope;
   request.starts = 1;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
-  request.accuracy.kkt_tolerance = tolerance;
   request.discretization.single_support_intervals = 12;
-  GaitSpec spec = CheckRequest(request).value();
+  return CheckRequest(request).value();
+}
+
+Solved Walk(GaitSpec spec) {
   GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
   EXPECT_EQ(solution.termination, Termination::kOptimal) << solution.message;
   return {std::move(spec), std::move(solution)};
@@ -58,13 +62,15 @@ void ExpectSimilar(const Solved& a, const Solved& b, double time, double force, 
 }
 
 class ScalingTest : public ::testing::TestWithParam<std::tuple<Preset, double>> {};
+class ColdScalingTest : public ScalingTest {};
 
-// Same stature, half and double the mass: inertias, strengths and passive torques follow it, and with them the iterations.
+// Same stature, half and double the mass: inertias, strengths and passive torques follow it, and with them the iterations, since a
+// factor of two is exact in binary.
 TEST_P(ScalingTest, MassChangesForcesOnly) {
   const auto [preset, slope] = GetParam();
-  const Solved one = Walk(preset, slope, 75, 9.81, 1e-6);
+  const Solved one = Walk(Spec(preset, slope, 75, 9.81));
   for (const double mass : {37.5, 150.0}) {
-    const Solved other = Walk(preset, slope, mass, 9.81, 1e-6);
+    const Solved other = Walk(Spec(preset, slope, mass, 9.81));
     const double factor = mass / 75, power = preset == Preset::kTorque ? factor * factor : 1;
     EXPECT_NEAR(other.solution.objective / power, one.solution.objective, 1e-6 * one.solution.objective) << mass;
     EXPECT_EQ(Iterations(other.solution), Iterations(one.solution)) << mass;
@@ -72,23 +78,74 @@ TEST_P(ScalingTest, MassChangesForcesOnly) {
   }
 }
 
-// The speed that is not given is that of the same Froude number.
-TEST_P(ScalingTest, AnotherPlanetChangesTimeAndForces) {
+// The speed that is not given is that of the same Froude number. From the guess: but for rounding the solver sees the same numbers.
+TEST_P(ColdScalingTest, AnotherPlanetAndMassChangeTimeAndForces) {
   const auto [preset, slope] = GetParam();
-  const Solved earth = Walk(preset, slope, 75, 9.81, 1e-9);
-  for (const double gravity : {1.62, 3.71, 14.0}) {
-    const Solved planet = Walk(preset, slope, 75, gravity, 1e-9);
-    const double factor = gravity / 9.81;
-    EXPECT_NEAR(planet.solution.speed, 1.3 * std::sqrt(factor), 1e-8);
-    const double power = preset == Preset::kTorque ? std::pow(factor, 1.5) : 1;  // torque² · time
+  const Solved earth = Walk(Spec(preset, slope, 75, 9.81));
+  for (const auto& [mass, gravity] : {std::pair{75.0, 1.62}, {75.0, 3.71}, {75.0, 14.0}, {62.0, 9.81}, {90.0, 3.71}}) {
+    const Solved planet = Walk(Spec(preset, slope, mass, gravity));
+    const double factor = gravity / 9.81, heavier = mass / 75;
+    EXPECT_NEAR(planet.solution.speed, 1.3 * std::sqrt(factor), 1e-6);
+    const double power = preset == Preset::kTorque ? heavier * heavier * std::pow(factor, 1.5) : 1;  // torque² · time
     EXPECT_NEAR(planet.solution.objective / power, earth.solution.objective, 1e-6 * earth.solution.objective) << gravity;
-    ExpectSimilar(earth, planet, 1 / std::sqrt(factor), factor, 1e-6);
+    ExpectSimilar(earth, planet, 1 / std::sqrt(factor), heavier * factor, 1e-6);
   }
 }
 
+// With any preset, mass and gravity the scaled solution is a solution: started from there the solver stays.
+TEST_P(ScalingTest, ScaledSolutionsAreSolutions) {
+  const auto [preset, slope] = GetParam();
+  const Solved earth = Walk(Spec(preset, slope, 75, 9.81));
+  for (const auto& [mass, gravity] : {std::pair{75.0, 1.62}, {75.0, 14.0}, {62.0, 3.71}, {20.0, 9.81}}) {
+    GaitSpec spec = Spec(preset, slope, mass, gravity);
+    const double time = spec.similarity.time(), force = spec.similarity.mass;
+    Trajectory scaled = InTimeUnit(1 / time, *earth.solution.trajectory);
+    for (TrajectoryPhase& phase : scaled.phases) {
+      phase.point_efforts *= force;
+      phase.point_forces *= force;
+    }
+    const double objective = preset == Preset::kTorque ? std::pow(force, 2) / std::pow(time, 3) : 1;
+    SolutionMultipliers multipliers = *earth.solution.multipliers;
+    multipliers.rows *= objective;
+    multipliers.bounds *= objective;
+    spec.warm_start = WarmStart{std::move(scaled), std::move(multipliers), earth.solution.added};
+    const Solved other = Walk(std::move(spec));
+    EXPECT_TRUE(other.solution.warm_started);
+    EXPECT_NEAR(other.solution.objective / objective, earth.solution.objective, 1e-6 * earth.solution.objective) << gravity;
+    ExpectSimilar(earth, other, time, other.spec.similarity.torque(), 1e-5);
+  }
+}
+
+// `transport` has minima side by side, and rounding alone (gravity times 1 + 1e-13) leads its cold start to another.
+INSTANTIATE_TEST_SUITE_P(Presets, ColdScalingTest,
+                         ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kHuman), ::testing::Values(0.0, 0.1)));
 INSTANTIATE_TEST_SUITE_P(Presets, ScalingTest,
                          ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kTransport, Preset::kHuman),
                                             ::testing::Values(0.0, 0.1)));
+
+// The figures of the report are in SI units, and the judge, who knows of no other, finds the motion within bounds.
+TEST(Scaling, AnotherPlanetIsReportedInSeconds) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.preset = Preset::kHuman;
+  request.gravity = 3.71;
+  request.discretization.single_support_intervals = 24;
+  const GaitSpec spec = CheckRequest(request).value();
+  const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  const Trajectory& trajectory = *solution.trajectory;
+  EXPECT_NEAR(trajectory.displacement / trajectory.duration, solution.speed, 1e-12);
+  EXPECT_NEAR(solution.speed, DefaultSpeed(3.71), 1e-6);
+  double sum = 0;
+  for (const CostValue& cost : solution.costs) {
+    EXPECT_NEAR(cost.contribution, cost.weight * cost.value / trajectory.displacement, 1e-9 * cost.contribution) << cost.name;
+    sum += cost.contribution;
+  }
+  EXPECT_NEAR(sum, solution.objective, 1e-9 * sum);
+  EXPECT_NEAR(solution.meshes.back().smoothing, 5 * std::pow(3.71 / 9.81, 1.5), 1e-9);
+  EXPECT_LT(solution.accuracy->findings[static_cast<int>(Criterion::kPositionDefect)].value, 5e-3);
+  EXPECT_LT(solution.accuracy->findings[static_cast<int>(Criterion::kEnergy)].value, 0.02);
+}
 
 // What a preset does not name stays: the body's own limits, where a request gives costs.
 TEST(Scaling, WithoutAPresetTheBodyStaysAsItIs) {
