@@ -216,7 +216,8 @@ int Main(int argc, char** argv) {
     const Preset preset = *request.preset;
     FillFromPreset(&request);
     request.preset.reset();
-    request.costs = PresetCosts(preset, CheckRequest(request).value().scene);
+    const GaitSpec spec = CheckRequest(request).value();
+    request.costs = PresetCosts(preset, spec.scene, spec.similarity);
     request.costs.insert(request.costs.end(), extra.begin(), extra.end());
   }
   bool all = true;

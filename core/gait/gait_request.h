@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gait/manoeuvre_request.h"
+#include "core/gait/similarity.h"
 #include "core/gait/warm_start.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
@@ -122,6 +123,9 @@ struct GaitSpec {
     double weight;
   };
   Scene scene;  // limits of the request already applied to its joints
+  Similarity similarity;  // of the body and the gravity, which defaults and presets followed
+  double time_unit = 1;   // s for each that the numbers here count (InTimeUnit)
+  double passive_scale;   // factor on measured passive torques: a preset takes them to the gravity of the request
   double slope;
   Vector3 gravity;  // world axes, m/s²
   std::optional<double> speed, step_length, step_duration;  // prescribed ones

@@ -99,12 +99,11 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->multipliers = {result.constraint_multipliers / nlp.objective_scale(),
                            (result.lower_bound_multipliers - result.upper_bound_multipliers) / nlp.objective_scale()};
   solution->added = nlp.added();
-  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
   solution->costs = ReportCosts(problem, nlp, x);
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
   solution->speed = nlp.displacement(x) / nlp.duration(x);
   solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
-  solution->verdict = Converged(result.termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
+  Judge(spec, solution);
   statistics->objective = solution->objective;
   statistics->max_gap = solution->accuracy->max_gap;
   statistics->max_slip = solution->accuracy->max_slip;
@@ -114,6 +113,12 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
 
 bool Converged(Termination termination) {
   return termination == Termination::kOptimal || termination == Termination::kAcceptable;
+}
+
+void Judge(const GaitSpec& spec, GaitSolution* solution) {
+  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
+  solution->verdict =
+      Converged(solution->termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
 }
 
 namespace {

@@ -1,5 +1,6 @@
 // CollocationNlp's exchange with motions: start vector from a guess, trajectory from a solution.
 
+#include "core/trajectory/sampling.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -91,6 +92,7 @@ Trajectory CollocationNlp::Extract(const double* x) {
     trajectory.phases.push_back(ExtractPhase(x, p, start));
     start += trajectory.phases.back().duration;
   }
+  FillPointStates(&trajectory);
   return trajectory;
 }
 
@@ -105,9 +107,7 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
   phase.duration = x[layout_.duration(p)];
   phase.node_positions.resize(n, count + 1);
   phase.node_velocities.resize(n, count + 1);
-  for (MatrixX* m : {&phase.point_positions, &phase.point_velocities, &phase.point_accelerations}) {
-    m->resize(n, count * s);
-  }
+  phase.point_accelerations.resize(n, count * s);
   phase.point_efforts.resize(efforts, count * s);
   phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
   for (int k = 0; k <= count; ++k) {
@@ -121,8 +121,6 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
     const VectorX& z = blocks_[p]->PointState(x + layout_.node(k), Step(x, k), i);
     const double fraction = layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k);
     phase.point_times.push_back(start + phase.duration * fraction);
-    phase.point_positions.col(column) = z.head(n);
-    phase.point_velocities.col(column) = z.segment(n, n);
     phase.point_accelerations.col(column) = z.segment(2 * n, n);
     phase.point_efforts.col(column) = z.segment(3 * n, efforts);
     for (size_t c = 0; c < active.size(); ++c) {
