@@ -34,8 +34,7 @@ constexpr Display kDisplays[] = {
      "How far tangential over normal force is past the coefficient of friction, as a share of the coefficient."},
     {"max_separation_speed_m_s", 1e3, "mm/s", "Speed at which a surface rises when it is said to touch down."},
     {"max_periodicity_error", 1, "rad, m, rad/s or m/s",
-     "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle); of a manoeuvre between its "
-     "ends and those prescribed."},
+     "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle)."},
     {"max_energy_error", 100, "%", "Energy that appears or vanishes, as a share of the work. Rolling contact does no work."},
     {"max_momentum_error_m_s", 1e3, "mm/s",
      "Change of momentum minus the impulse of gravity and ground forces, over the mass."},

@@ -25,7 +25,8 @@ const rightToeOff = (stride) => {
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 // within, exceeded or not judged; only the first two are coloured.
-const accuracyBadge = (solve) => el("span", { class: `badge ${{ within: "good", exceeded: "bad" }[solve.accurate] || ""}`, title: solve.accuracy_verdict }, solve.accurate);
+const VERDICT_CLASS = { within: "good", exceeded: "bad" };
+const accuracyBadge = (solve) => el("span", { class: `badge ${VERDICT_CLASS[solve.accurate] || ""}`, title: solve.accuracy_verdict }, solve.accurate);
 
 function header() {
   page.append(el("h1", {}, DATA.title));
