@@ -226,7 +226,7 @@ int Main(int argc, char** argv) {
         all &= s.termination == Termination::kOptimal;
         const AccuracyReport a = s.accuracy.value_or(AccuracyReport());
         const MeshStatistics& m = s.meshes.back();
-        std::printf("%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.3f %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
+        std::printf("%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.6g %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
                     scheme.c_str(), slope.c_str(), n.c_str(), Name(s.termination), m.iterations,
                     static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
                     m.evaluation_time, s.objective, s.kkt_error, s.step_length, a.max_gap, a.max_slip,

@@ -64,7 +64,7 @@ int Main(int argc, char** argv) {
     Print(Solve(CheckRequest(request).value()));
     request.warm_start = true;
     GaitSpec spec = CheckRequest(request).value();
-    spec.warm_start = WarmStart{*base.solution.trajectory, base.solution.multipliers};
+    spec.warm_start = WarmStart{*base.solution.trajectory, base.solution.multipliers, base.solution.added};
     Print(Solve(spec));
     std::printf("\n");
     std::fflush(stdout);

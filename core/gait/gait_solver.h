@@ -57,6 +57,7 @@ struct GaitSolution {
   std::vector<MeshStatistics> meshes;
   double speed = 0, step_length = 0;  // m/s, m; of a manoeuvre along x
   std::optional<SolutionMultipliers> multipliers;  // present with a trajectory of a gait
+  AddedConstraints added;          // of the last NLP, whose multipliers these are
   bool warm_started = false;       // reached from the warm start of the spec
   bool used_multipliers = false;   // whose multipliers fitted
   std::optional<Scene> scene;         // in whose joints the trajectory is, if not those of the request's scene

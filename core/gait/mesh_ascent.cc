@@ -114,7 +114,7 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
     const bool leads_on = Intervals(mesh) > Intervals(*last.trajectory) && Intervals(mesh) < Intervals(spec);
     if (!arrives && !leads_on) continue;
     GaitSolution solution =
-        SolveFromCoarser(arrives ? spec : rough, problem, {*last.trajectory, last.multipliers}, std::move(mesh), budget);
+        SolveFromCoarser(arrives ? spec : rough, problem, {*last.trajectory, last.multipliers, last.added}, std::move(mesh), budget);
     solution.note = last.note;
     PutBefore(last.meshes, &solution);
     if (!arrives && !Converged(solution.termination) && budget->Left()) {

@@ -9,42 +9,44 @@
 namespace rollgait {
 namespace {
 
-constexpr int kSamples = 8;     // per interval
 constexpr int kMostParts = 4;
 // The next solution differs a little from this one: aim below the bound.
 constexpr double kSafety = 0.35;
-// The judge samples elsewhere than this: leave it a margin.
+// Intervals that are within this share of every bound stay as they are.
 constexpr double kGoodEnough = 0.8;
 
-struct ContactError {
-  double slip = 0;       // m/s, largest over the interval
-  double gap_drift = 0;  // m, by which the gap changes over it
+// Order in h of a measure of one interval, for the scheme of order 3 and for those of order 4 and 5. Source: orders of the polynomials
+// (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one where a joint may meet its limit
+// or a force its bound inside of the interval, since the higher order is lost there. 0: a finer mesh is not what it takes.
+struct MeasureOrder {
+  Criterion criterion;
+  double radau2, higher;
+};
+constexpr MeasureOrder kOrders[] = {
+    {Criterion::kSlip, 2, 3},           {Criterion::kPenetration, 2, 3}, {Criterion::kOverlap, 2, 3},
+    {Criterion::kPositionDefect, 3, 4}, {Criterion::kVelocityDefect, 2, 3}, {Criterion::kPull, 2, 2},
+    {Criterion::kFriction, 2, 2},       {Criterion::kEnergy, 3, 4},
 };
 
-ContactError Measure(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase,
-                     int interval) {
-  ContactError error;
+// Largest change of the gap of an active contact over an interval, m. The gap is the sum of these, so each may have its share of the
+// bound.
+double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase, int interval) {
+  constexpr int kGapSamples = 8;
+  double drift = 0;
   BodyDynamics::State state;
   for (int contact : trajectory.phases[phase].contacts) {
-    const ContactSurface& surface = scene.contacts[contact];
     double least = kInfinity, most = -kInfinity;
-    for (int i = 0; i <= kSamples; ++i) {
-      const MotionSample sample = Sample(trajectory, phase, interval, static_cast<double>(i) / kSamples);
+    for (int i = 0; i <= kGapSamples; ++i) {
+      const MotionSample sample = Sample(trajectory, phase, interval, static_cast<double>(i) / kGapSamples);
       dynamics.ComputeState(sample.position, sample.velocity, &state);
-      const RollingContact rolling = ComputeRollingContact(surface, state);
-      double slip = 0;
-      for (int axis : surface.directions) slip = std::hypot(slip, rolling.slip[axis]);
-      error.slip = std::max(error.slip, slip);
+      const RollingContact rolling = ComputeRollingContact(scene.contacts[contact], state);
       least = std::min(least, rolling.gap);
       most = std::max(most, rolling.gap);
     }
-    error.gap_drift = std::max(error.gap_drift, most - least);
+    drift = std::max(drift, most - least);
   }
-  return error;
+  return drift;
 }
-
-// Order in h of the slip between the points of a step: that of the velocity polynomial.
-double SlipOrder(Scheme scheme) { return scheme == Scheme::kRadau2 ? 2 : 3; }
 
 int Parts(double excess, double order) {
   if (excess <= kGoodEnough) return 1;
@@ -63,17 +65,24 @@ Mesh Halved(const Mesh& mesh) {
   return finer;
 }
 
-Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajectory, bool stalled) {
+Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,
+                bool stalled) {
   const BodyDynamics dynamics(spec.scene.model);
-  const double order = SlipOrder(spec.scheme);
+  const bool is_radau2 = spec.scheme == Scheme::kRadau2;
   Mesh finer;
+  size_t interval = 0;
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
     const double share = spec.bounds[Criterion::kGap] / static_cast<double>(mesh.fractions[p].size());
     std::vector<int> parts;
-    for (size_t k = 0; k < mesh.fractions[p].size(); ++k) {
-      const ContactError error =
-          Measure(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
-      parts.push_back(std::max(Parts(error.slip / spec.bounds[Criterion::kSlip], order), Parts(error.gap_drift / share, order + 1)));
+    for (size_t k = 0; k < mesh.fractions[p].size(); ++k, ++interval) {
+      const double drift = GapDrift(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
+      int count = Parts(drift / share, is_radau2 ? 3 : 4);
+      for (const MeasureOrder& order : kOrders) {
+        // An interval that could not be integrated has no measures.
+        const double measure = interval < report.intervals.size() ? report.intervals[interval][order.criterion] : kInfinity;
+        count = std::max(count, Parts(measure / spec.bounds[order.criterion], is_radau2 ? order.radau2 : order.higher));
+      }
+      parts.push_back(count);
     }
     const bool missed = *std::max_element(parts.begin(), parts.end()) > 1;
     std::vector<double> fractions;

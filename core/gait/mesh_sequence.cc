@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/gait/added_constraints.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
@@ -97,6 +98,7 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->trajectory = nlp.Extract(x);
   solution->multipliers = {result.constraint_multipliers / nlp.objective_scale(),
                            (result.lower_bound_multipliers - result.upper_bound_multipliers) / nlp.objective_scale()};
+  solution->added = nlp.added();
   solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
   solution->costs = ReportCosts(problem, nlp, x);
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
@@ -217,17 +219,17 @@ bool Stalled(const std::vector<MeshStatistics>& meshes) {
   return meshes.size() > 1 && meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
 }
 
-// The program on one mesh, from a guess and the multipliers of its predecessor, if there is one; on the same mesh it is the same
-// program.
-Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh, const MotionGuess& guess,
-                         Predecessor previous, const NlpOptions& options, SolveBudget* budget) {
+// Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the same
+// constraints it is the same NLP.
+Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh, const AddedConstraints& added,
+                         const MotionGuess& guess, Predecessor previous, const NlpOptions& options, SolveBudget* budget) {
   Predecessor solved;
   NlpStart start;
-  if (previous.nlp && previous.nlp->mesh().fractions == mesh.fractions) {
+  if (previous.nlp && previous.nlp->mesh().fractions == mesh.fractions && previous.nlp->added() == added) {
     previous.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
     solved.nlp = std::move(previous.nlp);
   } else {
-    solved.nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
+    solved.nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh, added);
     if (previous.nlp) solved.nlp->TransferMultipliers(*previous.nlp, previous.result, &start);
   }
   start.x = solved.nlp->MakeStart(guess);
@@ -237,16 +239,17 @@ Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& prob
 }
 
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess, NlpOptions options,
-                       Predecessor previous, Mesh mesh, SolveBudget* budget) {
+                       Predecessor previous, Mesh mesh, AddedConstraints added, SolveBudget* budget) {
+  constexpr int kMostAdditions = 4;  // rounds that add constraints on the mesh as it is
   GaitSolution solution;
-
-  for (int level = 0; level <= spec.max_refinements; ++level) {
-    Predecessor current = SolveOneMesh(spec, problem, mesh, guess, std::move(previous), options, budget);
+  int refinements = 0, additions = 0;
+  while (true) {
+    Predecessor current = SolveOneMesh(spec, problem, mesh, added, guess, std::move(previous), options, budget);
     CollocationNlp& nlp = *current.nlp;
     const NlpResult& result = current.result;
     MeshStatistics statistics = Describe(spec, nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
-    const bool keep_previous = level > 0 && !Converged(result.termination) && !IsArtefact(spec, solution);
+    const bool keep_previous = !solution.meshes.empty() && !Converged(result.termination) && !IsArtefact(spec, solution);
     if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
@@ -259,20 +262,29 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.message += " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || IsDone(solution)) break;
+    if (!Converged(result.termination) || IsDone(solution) || spec.max_refinements == 0) break;
     if (IsArtefact(spec, solution)) {
+      if (refinements++ == spec.max_refinements) break;
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);
       previous = {};
       continue;
     }
+    const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(solution.meshes));
+    const bool is_finer = finer.fractions != mesh.fractions;
+    const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
+    if (is_finer ? refinements++ == spec.max_refinements : !adds || additions++ == kMostAdditions) break;
+    mesh = finer;
     guess = GuessFromTrajectory(*solution.trajectory);
-    mesh = RefineMesh(mesh, spec, *solution.trajectory, Stalled(solution.meshes));
     options = OptionsFor(spec, guess);
     previous = std::move(current);
   }
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
-  if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) RefuseArtefact(spec, &solution);
+  if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) {
+    RefuseArtefact(spec, &solution);
+  } else if (solution.verdict.kind == Verdict::Kind::kExceeded && spec.max_refinements > 0) {
+    solution.message += " Bounds that are not met: " + Describe(solution.verdict.excesses) + ".";
+  }
   solution.wall_time = budget->elapsed();
   return solution;
 }
@@ -283,7 +295,7 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
   Predecessor previous;
   if (!solution.multipliers) return previous;
   const SolutionMultipliers& multipliers = *solution.multipliers;
-  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh);
+  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh, solution.added);
   if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
   previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
   previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
@@ -303,7 +315,8 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
   const bool used_multipliers = previous.nlp != nullptr;
   options.max_iterations = max_iterations;
   GaitSolution solution =
-      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh), budget);
+      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh),
+                IsBounded(spec) ? spec.warm_start->added : AddedConstraints{}, budget);
   solution.warm_started = true;
   solution.used_multipliers = used_multipliers;
   return solution;
@@ -313,7 +326,7 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget) {
-  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), budget);
+  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), {}, budget);
 }
 
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
@@ -321,7 +334,7 @@ GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem&
   const Mesh other = MeshOf(coarser.trajectory);
   const NlpOptions options = OptionsForNextMesh(spec, HasShorterIntervals(mesh, other));
   return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), options,
-                   PredecessorOf(spec, problem, coarser, other), std::move(mesh), budget);
+                   PredecessorOf(spec, problem, coarser, other), std::move(mesh), coarser.added, budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,

@@ -24,7 +24,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     const double next = path_ends ? least : std::max(least, reached / step);
     GaitSpec sharper = SmoothedBy(next, spec);
     if (next > least) sharper.max_refinements = 0;
-    sharper.warm_start = WarmStart{*last.trajectory, last.multipliers};
+    sharper.warm_start = WarmStart{*last.trajectory, last.multipliers, last.added};
     GaitSolution solution =
         SolveFromSmoother(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;

@@ -62,7 +62,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
     GaitSpec finer = spec;
     finer.max_refinements = spec.max_refinements - 1;
     GaitSolution solution = SolveOnMeshes(finer, problem, GuessFromTrajectory(*best->trajectory),
-                                          RefineMesh(mesh, spec, *best->trajectory, false), budget);
+                                          RefineMesh(mesh, spec, *best->trajectory, *best->accuracy, false), budget);
     AppendMeshes(solution, &meshes);
     if (Converged(solution.termination)) {
       best = std::move(solution);

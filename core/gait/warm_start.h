@@ -5,6 +5,7 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
+#include "core/ocp/added_constraints.h"
 #include "core/trajectory/trajectory.h"
 
 namespace rollgait {
@@ -22,6 +23,7 @@ struct SolutionMultipliers {
 struct WarmStart {
   Trajectory trajectory;
   std::optional<SolutionMultipliers> multipliers;
+  AddedConstraints added;  // of the NLP whose solution it is
 };
 
 // What keeps a trajectory from being a start of the spec: another cycle or scheme, other phases, numbers of joints or intervals.

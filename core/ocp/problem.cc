@@ -33,6 +33,48 @@ bool OptimalControlProblem::Jumps(int phase) const {
   return std::any_of(active.begin(), active.end(), [&](int contact) { return !Contains(previous, contact); });
 }
 
+std::vector<int> OptimalControlProblem::TakenUp(int phase) const {
+  const std::vector<int> previous = PreviousActive(phase);
+  std::vector<int> contacts_taken;
+  for (int contact : phases[phase].active) {
+    if (!Contains(previous, contact)) contacts_taken.push_back(contact);
+  }
+  return contacts_taken;
+}
+
+std::vector<int> OptimalControlProblem::GivenUp(int phase) const {
+  const int count = static_cast<int>(phases.size());
+  const bool wraps = phase + 1 == count;
+  if (wraps && ends) return {};
+  const std::vector<int>& next = phases[wraps ? 0 : phase + 1].active;
+  std::vector<int> given;
+  for (int contact : phases[phase].active) {
+    const int seen = wraps && mirrored ? contacts[contact].mirror_contact : contact;
+    if (!Contains(next, seen)) given.push_back(contact);
+  }
+  return given;
+}
+
+namespace {
+
+bool EffortsAreContinuous(const std::vector<CostDescription>& costs) {
+  return std::any_of(costs.begin(), costs.end(), [](const CostDescription& cost) {
+    const auto* rate = std::get_if<EffortRateCost>(&cost.term);
+    return rate != nullptr && cost.weight > 0 && rate->weights.minCoeff() > 0;
+  });
+}
+
+}  // namespace
+
+bool OptimalControlProblem::ForcesVanishAtStart(int phase) const {
+  return min_normal_force == 0 && !Jumps(phase) && !(phase == 0 && ends) && EffortsAreContinuous(costs);
+}
+
+bool OptimalControlProblem::ForcesVanishAtEnd(int phase) const {
+  const bool last = phase + 1 == static_cast<int>(phases.size());
+  return min_normal_force == 0 && !(last && ends) && !Jumps(last ? 0 : phase + 1) && EffortsAreContinuous(costs);
+}
+
 int OptimalControlProblem::StandingFeet(int phase) const {
   int own = 0;
   bool left = false, right = false;
@@ -89,9 +131,6 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
     } else {
       constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact.contact, layout));
     }
-    if (contact.directions.size() < 2) continue;  // pushes only; the bound on its force is its limit
-    constraints.push_back(std::make_unique<FrictionConstraint>(contacts[contact.contact].name, contact, layout,
-                                                               friction_coefficient, force_size()));
   }
   // At a node that belongs to the interval before as well, the gap is bounded there.
   for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
@@ -144,10 +183,9 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::JumpConstra
   const auto active = ActiveContacts(phase);
   constraints.push_back(
       std::make_unique<DynamicsConstraint>(model, contacts, active, layout, impulse_size(), lever * impulse_size()));
-  for (const ActiveContact& contact : active) {
-    if (contact.directions.size() < 2) continue;
-    constraints.push_back(std::make_unique<FrictionConstraint>(contacts[contact.contact].name, contact, layout,
-                                                               friction_coefficient, impulse_size()));
+  std::vector<ForceRow> friction = FrictionRows(contacts, active, friction_coefficient);
+  if (!friction.empty()) {
+    constraints.push_back(std::make_unique<FrictionConstraint>(std::move(friction), layout, impulse_size()));
   }
   return constraints;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/ocp/added_constraints.h"
 #include "core/ocp/cost_description.h"
 
 namespace rollgait {
@@ -78,6 +79,14 @@ struct OptimalControlProblem {
   std::vector<int> PreviousActive(int phase) const;
   // Whether velocities jump at the start of a phase: touch-down is plastic, and something touches down there.
   bool Jumps(int phase) const;
+  // Contacts that are taken up at the start of a phase, or given up at its end.
+  std::vector<int> TakenUp(int phase) const;
+  std::vector<int> GivenUp(int phase) const;
+  // Whether the forces of contacts that are taken up at the start of a phase, or given up at its end, vanish there: where all efforts
+  // are continuous, since their rates cost something, velocities do not jump, and no least normal force is asked for. Source:
+  // docs/contact_changes.md.
+  bool ForcesVanishAtStart(int phase) const;
+  bool ForcesVanishAtEnd(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;
   // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first

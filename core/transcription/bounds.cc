@@ -2,6 +2,8 @@
 
 #include "core/transcription/collocation_nlp.h"
 
+#include <algorithm>
+
 namespace rollgait {
 
 void CollocationNlp::SetStateBounds() {
@@ -64,11 +66,28 @@ void CollocationNlp::SetControlBounds() {
         lower_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_min / problem_.effort_size();
         upper_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_max / problem_.effort_size();
       }
-      for (const ActiveContact& active : problem_.ActiveContacts(layout_.phase(k))) {
-        const int normal = active.offset + static_cast<int>(active.directions.size()) - 1;
-        lower_(layout_.forces(k, i) + normal) = problem_.min_normal_force / problem_.force_size();
-      }
     }
+    SetForceBounds(k);
+  }
+}
+
+// Of the forces that are Bernstein coefficients themselves: those at the ends of the interval. The others have rows (IntervalPathRows).
+void CollocationNlp::SetForceBounds(int k) {
+  const int p = layout_.phase(k), last = scheme_.points() - 1;
+  const bool zero_at_start = k == layout_.first_interval(p) && problem_.ForcesVanishAtStart(p);
+  const bool zero_at_end = layout_.ends_phase(k) && problem_.ForcesVanishAtEnd(p);
+  const std::vector<int> taken = problem_.TakenUp(p), given = problem_.GivenUp(p);
+  const auto contains = [](const std::vector<int>& contacts, int c) {
+    return std::find(contacts.begin(), contacts.end(), c) != contacts.end();
+  };
+  for (const ActiveContact& active : problem_.ActiveContacts(p)) {
+    const int normal = active.offset + static_cast<int>(active.directions.size()) - 1;
+    const auto bound = [&](int point, bool zero) {
+      lower_(layout_.forces(k, point) + normal) = problem_.min_normal_force / problem_.force_size();
+      if (zero) upper_(layout_.forces(k, point) + normal) = 0;
+    };
+    bound(last, zero_at_end && contains(given, active.contact));
+    if (scheme_.tableau().starts_at_node()) bound(0, zero_at_start && contains(taken, active.contact));
   }
 }
 
@@ -81,8 +100,8 @@ void CollocationNlp::SetRowBounds() {
   int row = 0;
   for (int k = 0; k < layout_.intervals(); ++k) {
     const IntervalBlock& block = *blocks_[layout_.phase(k)];
-    block.Bounds(layout_.start(k), layout_.length(k), layout_.ends_phase(k), row_lower_.data() + row,
-                 row_upper_.data() + row);
+    const IntervalPlace place{k == layout_.first_interval(layout_.phase(k)), layout_.ends_phase(k)};
+    block.Bounds(layout_.start(k), layout_.length(k), place, row_lower_.data() + row, row_upper_.data() + row);
     row += block.rows();
   }
   entries_.Bounds(row_lower_.data() + first_entry_row_, row_upper_.data() + first_entry_row_);

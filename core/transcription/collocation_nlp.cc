@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace rollgait {
 namespace {
@@ -23,18 +24,19 @@ Tableau TableauOf(Scheme scheme) {
 
 CollocationNlp::~CollocationNlp() = default;
 
-CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh)
+CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh, AddedConstraints added)
     : problem_(problem),
       scheme_kind_(scheme),
       scheme_(TableauOf(scheme)),
       mesh_(mesh),
+      added_(std::move(added)),
       layout_(problem, mesh, scheme_.points()),
       workspace_(problem, scheme_.tableau().starts_at_node()),
       entries_(problem, layout_, &workspace_),
       jumps_(problem, layout_, &workspace_) {
   int largest = 0;
   for (size_t p = 0; p < problem.phases.size(); ++p) {
-    blocks_.push_back(std::make_unique<IntervalBlock>(problem, static_cast<int>(p), scheme_, &workspace_));
+    blocks_.push_back(std::make_unique<IntervalBlock>(problem, added_, static_cast<int>(p), scheme_, &workspace_));
     largest = std::max(largest, blocks_.back()->local_size());
   }
   for (const CostDescription& cost : problem.costs) {

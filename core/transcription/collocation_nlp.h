@@ -35,7 +35,7 @@ struct MotionGuess {
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
-  CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh);
+  CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh, AddedConstraints added = {});
   ~CollocationNlp() override;
 
   int variables() const override { return layout_.size(); }
@@ -63,6 +63,7 @@ class CollocationNlp : public NlpProblem {
 
   const DecisionLayout& layout() const { return layout_; }
   const Mesh& mesh() const { return mesh_; }
+  const AddedConstraints& added() const { return added_; }
   // f of the NLP = objective_scale() · (weighted sum of integrals / denominator).
   double objective_scale() const { return objective_scale_; }
 
@@ -87,6 +88,7 @@ class CollocationNlp : public NlpProblem {
   std::vector<double> PointTimes(int phase, int point) const;  // fractions of the phase
   int FirstRow(int interval) const;
   void TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const;
+  void TransferPath(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   void TransferNodes(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   void TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
@@ -96,6 +98,7 @@ class CollocationNlp : public NlpProblem {
   void TightenNode(int k, const EndBounds& bounds);
   void SetJumpBounds(int phase);
   void SetControlBounds();
+  void SetForceBounds(int interval);
   void SetRowBounds();
   void BuildPatterns();
   void AddDenominatorPattern();
@@ -112,6 +115,7 @@ class CollocationNlp : public NlpProblem {
   Scheme scheme_kind_;
   EliminatedScheme scheme_;
   Mesh mesh_;
+  AddedConstraints added_;
   DecisionLayout layout_;
   PointWorkspace workspace_;
   std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase

@@ -122,6 +122,7 @@ void IntervalBlock::Values(const double* y, double h, double* g) {
     }
     for (int r = 0; r < point.rows; ++r) g[point.first_row + r] *= point.row_factor(r);
   }
+  path_->Values(y, h, g + FirstPathRow());
 }
 
 void IntervalBlock::EvaluateJacobian(Point* point) {
@@ -169,7 +170,9 @@ void IntervalBlock::Derivatives(const double* y, double h, const double* lambda,
     if (jacobian != nullptr) jacobian = WriteJacobian(i, jacobian);
     if (hessian != nullptr) EvaluateHessian(i, h, lambda, weights);
   }
+  if (jacobian != nullptr) path_->Jacobian(y, h, jacobian);
   if (hessian == nullptr) return;
+  path_->AddHessian(y, h, lambda + FirstPathRow(), local_);
   const Eigen::Index stride = local_.rows();
   for (size_t e = 0; e < hessian_pattern_.size(); ++e) {
     const auto& [i, j] = hessian_pattern_[e];

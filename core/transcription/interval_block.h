@@ -8,6 +8,7 @@
 
 #include "core/math/collocation.h"
 #include "core/ocp/problem.h"
+#include "core/transcription/interval_path_rows.h"
 #include "core/transcription/point_workspace.h"
 
 namespace rollgait {
@@ -20,11 +21,14 @@ namespace rollgait {
 // rigid-body dynamics and with costs of the acceleration.
 class IntervalBlock {
  public:
-  IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
+  IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase, const EliminatedScheme& scheme,
                 PointWorkspace* workspace);
 
   int local_size() const { return local_size_; }  // without h
   int rows() const { return rows_; }
+  // The rows of the points come first, then those between them.
+  const IntervalPathRows& path() const { return *path_; }
+  int FirstPathRow() const { return rows_ - path_->size(); }
   // Rows of point i: how many, and the first of them.
   int PointRows(int i) const { return points_[i].rows; }
   int FirstRow(int i) const { return points_[i].first_row; }
@@ -34,9 +38,8 @@ class IntervalBlock {
   // Local variables (h excluded) on which the cost depends.
   const std::vector<int>& cost_variables() const { return cost_variables_; }
 
-  // Bounds of the (scaled) rows of an interval that starts at a fraction of the phase and is as long as another; `last` if the
-  // phase ends with it.
-  void Bounds(double start, double length, bool last, double* lower, double* upper) const;
+  // Bounds of the (scaled) rows of an interval that starts at a fraction of the phase and is as long as another.
+  void Bounds(double start, double length, const IntervalPlace& place, double* lower, double* upper) const;
   // What row `row` is: name, unit, natural size and point.
   struct RowInfo {
     std::string name, unit;
@@ -82,6 +85,7 @@ class IntervalBlock {
   double* WriteJacobian(int i, double* values) const;
   void EvaluateHessian(int i, double h, const double* lambda, const double* weights);
   void BuildPoints();
+  void BuildPath(const AddedConstraints& added);
   void BuildJacobianPattern();
   void BuildHessianPattern();
   std::vector<int> Behind(int i, int column) const;
@@ -94,6 +98,7 @@ class IntervalBlock {
   void AccumulateStep(int i);
 
   const OptimalControlProblem& problem_;
+  int phase_;
   const EliminatedScheme& scheme_;
   PointWorkspace* workspace_;
   PointLayout layout_;
@@ -103,6 +108,7 @@ class IntervalBlock {
   std::vector<int> active_contacts_;
   std::vector<Point> points_;
   VectorX scale_;
+  std::unique_ptr<IntervalPathRows> path_;
   Entries jacobian_pattern_, hessian_pattern_;
   std::vector<int> cost_variables_;
 

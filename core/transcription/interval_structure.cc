@@ -14,9 +14,10 @@ constexpr Kind kKinds[] = {EliminatedScheme::kPosition, EliminatedScheme::kVeloc
 
 }  // namespace
 
-IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, const EliminatedScheme& scheme,
-                             PointWorkspace* workspace)
+IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
+                             const EliminatedScheme& scheme, PointWorkspace* workspace)
     : problem_(problem),
+      phase_(phase),
       scheme_(scheme),
       workspace_(workspace),
       layout_(problem.Layout(phase)),
@@ -50,6 +51,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, int phase, co
   turned_ = VectorX::Zero(3 * layout_.n);
   step_controls_ = VectorX::Zero(controls_);
   BuildPoints();
+  BuildPath(added);
   BuildJacobianPattern();
   BuildHessianPattern();
 }
@@ -75,6 +77,14 @@ void IntervalBlock::BuildPoints() {
     points_.push_back(std::move(point));
   }
   scaled_lambda_.resize(largest);
+}
+
+void IntervalBlock::BuildPath(const AddedConstraints& added) {
+  IntervalPathRows::Locals locals;
+  for (int source = 0; source < scheme_.sources(); ++source) locals.sources.push_back(SourceOffset(source));
+  for (int i = 0; i < points_count_; ++i) locals.controls.push_back(ControlOffset(i));
+  path_ = std::make_unique<IntervalPathRows>(problem_, added, phase_, scheme_, locals, scale_);
+  rows_ += path_->size();
 }
 
 int IntervalBlock::SourceOffset(int source) const {
@@ -117,6 +127,9 @@ void IntervalBlock::BuildJacobianPattern() {
       jacobian_pattern_.emplace_back(point.first_row + row, ControlOffset(i) + column - 3 * n);
     }
     for (int row : point.dense_rows) jacobian_pattern_.emplace_back(point.first_row + row, local_size_);
+  }
+  for (const auto& [row, column] : path_->JacobianPattern(local_size_)) {
+    jacobian_pattern_.emplace_back(FirstPathRow() + row, column);
   }
 }
 
@@ -182,6 +195,7 @@ void IntervalBlock::BuildHessianPattern() {
       }
     }
   }
+  for (const auto& [a, b] : path_->HessianPairs(local_size_)) add(a, b);
   add(local_size_, local_size_);
   for (int column = 0; column < order; ++column) {
     for (int row = column; row < order; ++row) {
@@ -193,7 +207,7 @@ void IntervalBlock::BuildHessianPattern() {
   for (const auto& [i, j] : hessian_pattern_) hessian_scale_.push_back(scale(i) * scale(j));
 }
 
-void IntervalBlock::Bounds(double start, double length, bool last, double* lower, double* upper) const {
+void IntervalBlock::Bounds(double start, double length, const IntervalPlace& place, double* lower, double* upper) const {
   for (int i = 0; i < points_count_; ++i) {
     const Point& point = points_[i];
     const double fraction = start + scheme_.tableau().c(i) * length;
@@ -201,7 +215,7 @@ void IntervalBlock::Bounds(double start, double length, bool last, double* lower
     for (PointConstraint* constraint : point.constraints) {
       constraint->Bounds(fraction, lower + row, upper + row);
       // A gap at the end of its phase is the business of the next phase: touch-down fixes it.
-      const bool end_of_phase = last && i == points_count_ - 1;
+      const bool end_of_phase = place.last && i == points_count_ - 1;
       for (int r = 0; r < constraint->rows(); ++r, ++row) {
         if (end_of_phase && constraint->Unit(r) == "m") lower[row] = -kInfinity;
         lower[row] /= constraint->Size(r);
@@ -209,6 +223,7 @@ void IntervalBlock::Bounds(double start, double length, bool last, double* lower
       }
     }
   }
+  path_->Bounds(place, lower + FirstPathRow(), upper + FirstPathRow());
 }
 
 IntervalBlock::RowInfo IntervalBlock::Describe(int row) const {
@@ -222,7 +237,9 @@ IntervalBlock::RowInfo IntervalBlock::Describe(int row) const {
       first += constraint->rows();
     }
   }
-  ROLLGAIT_CHECK(false);
+  const int r = row - FirstPathRow();
+  ROLLGAIT_CHECK(r >= 0 && r < path_->size());
+  return {path_->Name(r), path_->Unit(r), path_->Size(r), 0};
 }
 
 }  // namespace rollgait

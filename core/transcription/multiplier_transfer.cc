@@ -2,6 +2,9 @@
 // time that does not depend on the mesh; that function is interpolated linearly in time, for each point of the scheme apart.
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "core/transcription/collocation_nlp.h"
 
@@ -45,6 +48,7 @@ void CollocationNlp::TransferMultipliers(const CollocationNlp& from, const NlpRe
   start->upper_bound_multipliers = VectorX::Zero(variables());
   for (int p = 0; p < layout_.phases(); ++p) {
     for (int i = 0; i < scheme_.points(); ++i) TransferPoint(from, of, p, i, start);
+    TransferPath(from, of, p, start);
   }
   TransferNodes(from, of, start);
   for (int p = 0; p < layout_.phases(); ++p) TransferJump(from, of, p, start);
@@ -60,7 +64,9 @@ void CollocationNlp::TransferMultipliers(const CollocationNlp& from, const NlpRe
 // Rows and controls of point i of the intervals of phase p.
 void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const {
   const std::vector<double> times = PointTimes(p, i), other_times = from.PointTimes(p, i);
-  const int rows = blocks_[p]->PointRows(i), offset = blocks_[p]->FirstRow(i);
+  // Rows of pairs of bodies, which another program may lack, come last.
+  const int rows = std::min(blocks_[p]->PointRows(i), from.blocks_[p]->PointRows(i));
+  const int offset = blocks_[p]->FirstRow(i), other_offset = from.blocks_[p]->FirstRow(i);
   const int controls = layout_.controls(p);
   for (size_t k = 0; k < times.size(); ++k) {
     const Bracket at = Find(other_times, times[k]);
@@ -70,7 +76,7 @@ void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& 
       const int other = from.layout_.first_interval(p) + index;
       const double factor = share * layout_.length(interval) / from.layout_.length(other);
       start->constraint_multipliers.segment(FirstRow(interval) + offset, rows) +=
-          factor * of.constraint_multipliers.segment(from.FirstRow(other) + offset, rows);
+          factor * of.constraint_multipliers.segment(from.FirstRow(other) + other_offset, rows);
       start->lower_bound_multipliers.segment(layout_.efforts(interval, i), controls) +=
           factor * of.lower_bound_multipliers.segment(from.layout_.efforts(other, i), controls);
       start->upper_bound_multipliers.segment(layout_.efforts(interval, i), controls) +=
@@ -78,6 +84,35 @@ void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& 
     };
     add(at.first, 1 - at.share);
     add(at.second, at.share);
+  }
+}
+
+// Rows between the points, by the time of the middle of their interval; those that the other one lacks keep 0.
+void CollocationNlp::TransferPath(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const {
+  const IntervalPathRows &rows = blocks_[p]->path(), &other_rows = from.blocks_[p]->path();
+  std::map<std::string, int> places;
+  for (int r = 0; r < other_rows.size(); ++r) places[other_rows.Key(r)] = from.blocks_[p]->FirstPathRow() + r;
+  const auto middles = [p](const DecisionLayout& layout) {
+    std::vector<double> times;
+    for (int k = layout.first_interval(p); k < layout.first_interval(p + 1); ++k) {
+      times.push_back(layout.start(k) + layout.length(k) / 2);
+    }
+    return times;
+  };
+  const std::vector<double> times = middles(layout_), other_times = middles(from.layout_);
+  for (size_t k = 0; k < times.size(); ++k) {
+    const Bracket at = Find(other_times, times[k]);
+    const int interval = layout_.first_interval(p) + static_cast<int>(k);
+    const int first = FirstRow(interval) + blocks_[p]->FirstPathRow();
+    for (const auto& [index, share] : {std::pair(at.first, 1 - at.share), std::pair(at.second, at.share)}) {
+      const int other = from.layout_.first_interval(p) + index, other_first = from.FirstRow(other);
+      const double factor = share * layout_.length(interval) / from.layout_.length(other);
+      for (int r = 0; r < rows.size(); ++r) {
+        const auto place = places.find(rows.Key(r));
+        if (place == places.end()) continue;
+        start->constraint_multipliers(first + r) += factor * of.constraint_multipliers(other_first + place->second);
+      }
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "core/validation/criteria.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace rollgait {
 
@@ -43,6 +44,18 @@ CriterionValues BoundsOf(double CriterionTraits::*level) {
 
 CriterionValues StandardBounds() { return BoundsOf(&CriterionTraits::standard); }
 CriterionValues FineBounds() { return BoundsOf(&CriterionTraits::fine); }
+
+std::string Describe(const std::vector<Excess>& excesses) {
+  std::ostringstream text;
+  for (const Excess& excess : excesses) {
+    const CriterionTraits& traits = TraitsOf(excess.criterion);
+    if (&excess != &excesses.front()) text << "; ";
+    text << traits.meaning;
+    if (!excess.finding.where.empty()) text << " (" << excess.finding.where << " at " << excess.finding.time << " s)";
+    text << ", " << excess.finding.value << " where " << excess.bound << " " << traits.unit << " was asked for";
+  }
+  return text.str();
+}
 
 Verdict JudgeFindings(const std::array<Finding, kCriterionCount>& findings, const CriterionValues& bounds) {
   Verdict verdict;

@@ -82,6 +82,9 @@ struct Verdict {
   std::vector<Excess> excesses;
 };
 
+// "slip of a contact that rolls (left_heel at 0.31 s), 0.002 where 0.001 m/s was asked for; …".
+std::string Describe(const std::vector<Excess>& excesses);
+
 // A measure that is not a number exceeds every bound.
 Verdict JudgeFindings(const std::array<Finding, kCriterionCount>& findings, const CriterionValues& bounds);
 

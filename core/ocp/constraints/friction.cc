@@ -4,39 +4,53 @@
 
 namespace rollgait {
 
-FrictionConstraint::FrictionConstraint(std::string contact_name, const ActiveContact& active, const PointLayout& layout,
-                                       double coefficient, double force_size)
-    : contact_name_(std::move(contact_name)),
-      active_(active),
-      layout_(layout),
-      coefficient_(active.directions.size() > 2 ? coefficient / std::sqrt(2.0) : coefficient),
-      force_size_(force_size) {}
+std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
+                                   double coefficient) {
+  const auto normal = [](const ActiveContact& contact) {
+    return contact.offset + static_cast<int>(contact.directions.size()) - 1;
+  };
+  std::vector<ForceRow> rows;
+  for (const ActiveContact& contact : active) {
+    const ContactSurface& surface = contacts[contact.contact];
+    const double mu = surface.directions.size() > 2 ? coefficient / std::sqrt(2.0) : coefficient;
+    for (size_t d = 0; d + 1 < contact.directions.size(); ++d) {
+      for (const bool positive : {true, false}) {
+        ForceRow row{"friction " + surface.name, {}, {}, positive};
+        for (const ActiveContact& other : active) {
+          const bool shares = contact.directions[d] == 0 && contacts[other.contact].joint == surface.joint;
+          if (other.contact != contact.contact && !shares) continue;
+          row.terms.emplace_back(normal(other), mu);
+          row.contacts.push_back(other.contact);
+        }
+        row.terms.emplace_back(contact.offset + static_cast<int>(d), positive ? 1 : -1);
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  return rows;
+}
 
-std::string FrictionConstraint::Name(int) const { return "friction " + contact_name_; }
 void FrictionConstraint::Bounds(double, double* lower, double* upper) const {
   std::fill_n(lower, rows(), 0.0);
   std::fill_n(upper, rows(), kInfinity);
 }
 Entries FrictionConstraint::JacobianPattern() const {
   Entries entries;
-  const int normal = static_cast<int>(active_.directions.size()) - 1;
   for (int r = 0; r < rows(); ++r) {
-    entries.emplace_back(r, Column(r / 2));
-    entries.emplace_back(r, Column(normal));
+    for (const auto& [offset, coefficient] : rows_[r].terms) entries.emplace_back(r, layout_.force() + offset);
   }
   return entries;
 }
 void FrictionConstraint::Value(const PointContext& at, double* g) {
-  const int normal = static_cast<int>(active_.directions.size()) - 1;
-  for (int r = 0; r < rows(); ++r) {
-    g[r] = coefficient_ * at.z[Column(normal)] + (r % 2 == 0 ? 1 : -1) * at.z[Column(r / 2)];
+  for (const ForceRow& row : rows_) {
+    double sum = 0;
+    for (const auto& [offset, coefficient] : row.terms) sum += coefficient * at.z[layout_.force() + offset];
+    *g++ = sum;
   }
 }
 void FrictionConstraint::Jacobian(const PointContext&, Eigen::Ref<MatrixX> jacobian) {
-  const int normal = static_cast<int>(active_.directions.size()) - 1;
   for (int r = 0; r < rows(); ++r) {
-    jacobian(r, Column(normal)) = coefficient_;
-    jacobian(r, Column(r / 2)) = r % 2 == 0 ? 1 : -1;
+    for (const auto& [offset, coefficient] : rows_[r].terms) jacobian(r, layout_.force() + offset) = coefficient;
   }
 }
 

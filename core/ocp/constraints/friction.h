@@ -5,14 +5,29 @@
 
 namespace rollgait {
 
-// Friction pyramid of one active contact, N: for each tangent direction t,  μ f_n + f_t ≥ 0  and  μ f_n − f_t ≥ 0. In the
-// plane it is the cone; in space it is the inner pyramid, with μ/√2, so that the cone holds as well.
+// A row  Σ coefficient · force >= 0  over the forces (or impulses) of one phase.
+struct ForceRow {
+  std::string name;
+  std::vector<std::pair<int, double>> terms;  // (offset as in ActiveContact, coefficient)
+  std::vector<int> contacts;                  // whose normal forces limit it
+  bool positive = true;                       // of the two rows of a tangent direction, the one with + f_t
+};
+
+// Friction pyramids of the active contacts of a phase: for each tangent direction t of a contact  μ f_n + f_t >= 0  and
+// μ f_n − f_t >= 0, in this order. In the plane the pyramid is the cone; in space it is the inner pyramid, with μ/√2, so that the cone
+// holds as well. Contacts of one rigid link share their force along x (OptimalControlProblem::PhaseContacts), which is limited by the
+// sum of their normal forces: it can be divided among them in proportion to those, so that each lies in its own pyramid.
+// `contacts` are all of the problem; `active` those of the phase.
+std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
+                                   double coefficient);
+
+// These rows at one instant, N or N s.
 class FrictionConstraint : public PointConstraint {
  public:
-  FrictionConstraint(std::string contact_name, const ActiveContact& active, const PointLayout& layout,
-                     double coefficient, double force_size);
-  int rows() const override { return 2 * (static_cast<int>(active_.directions.size()) - 1); }
-  std::string Name(int row) const override;
+  FrictionConstraint(std::vector<ForceRow> rows, const PointLayout& layout, double force_size)
+      : rows_(std::move(rows)), layout_(layout), force_size_(force_size) {}
+  int rows() const override { return static_cast<int>(rows_.size()); }
+  std::string Name(int row) const override { return rows_[row].name; }
   std::string Unit(int) const override { return "N"; }
   double Size(int) const override { return force_size_; }
   void Bounds(double fraction, double* lower, double* upper) const override;
@@ -23,11 +38,9 @@ class FrictionConstraint : public PointConstraint {
   void AddHessian(const PointContext&, const double*, Eigen::Ref<MatrixX>) override {}
 
  private:
-  int Column(int direction) const { return layout_.force() + active_.offset + direction; }
-  std::string contact_name_;
-  ActiveContact active_;
+  std::vector<ForceRow> rows_;
   PointLayout layout_;
-  double coefficient_, force_size_;
+  double force_size_;
 };
 
 }  // namespace rollgait

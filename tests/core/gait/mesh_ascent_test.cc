@@ -79,7 +79,7 @@ TEST(Ascend, EndsInAMinimumOnTheRequestedMesh) {
   const GaitSolution solution = Solve(spec);
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
   GaitSpec again = spec;
-  again.warm_start = WarmStart{*solution.trajectory, solution.multipliers};
+  again.warm_start = WarmStart{*solution.trajectory, solution.multipliers, solution.added};
   const GaitSolution repeated = Solve(again);
   ASSERT_EQ(repeated.termination, Termination::kOptimal) << repeated.message;
   EXPECT_EQ(repeated.meshes.size(), 1u);

@@ -50,7 +50,7 @@ TEST(Sharpen, EndsInAMinimumOfTheRequest) {
   EXPECT_LE(solution.kkt_error, 1e-6);
   // Started from there the request itself moves no more: its own objective, to the tolerance.
   GaitSpec spec = CheckRequest(Draft(5)).value();
-  spec.warm_start = WarmStart{*solution.trajectory, solution.multipliers};
+  spec.warm_start = WarmStart{*solution.trajectory, solution.multipliers, solution.added};
   const GaitSolution again = OptimizingGaitSolver().Solve(spec, SolveControl());
   ASSERT_EQ(again.termination, Termination::kOptimal) << again.message;
   EXPECT_EQ(again.meshes.size(), 1u);

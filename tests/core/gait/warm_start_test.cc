@@ -28,7 +28,7 @@ GaitSolution Solve(const GaitSpec& spec) { return OptimizingGaitSolver().Solve(s
 GaitSolution SolveFrom(GaitRequest request, const GaitSolution& solution, bool with_multipliers = true) {
   request.warm_start = true;
   GaitSpec spec = CheckRequest(request).value();
-  spec.warm_start = WarmStart{*solution.trajectory, with_multipliers ? solution.multipliers : std::nullopt};
+  spec.warm_start = WarmStart{*solution.trajectory, with_multipliers ? solution.multipliers : std::nullopt, solution.added};
   return Solve(spec);
 }
 

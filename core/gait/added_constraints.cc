@@ -1,0 +1,89 @@
+#include "core/gait/added_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/trajectory/sampling.h"
+
+namespace rollgait {
+namespace {
+
+constexpr int kSamples = 16;  // an interval; what they miss of the largest excess, the finding names
+// Of the bound: a joint so close to it would violate it on the next mesh.
+constexpr double kNear = 0.5;
+
+bool Insert(int value, std::vector<int>* values) {
+  const auto place = std::lower_bound(values->begin(), values->end(), value);
+  if (place != values->end() && *place == value) return false;
+  values->insert(place, value);
+  return true;
+}
+
+double ExcessOf(double value, double min, double max) { return std::max({0.0, min - value, value - max}); }
+
+// Joints of one phase past their limits, in the measures of the criteria.
+class PhaseExcesses {
+ public:
+  PhaseExcesses(const GaitSpec& spec, BoundedBetween* between) : spec_(spec), between_(between) {}
+
+  void Add(const MotionSample& sample) {
+    const Model& model = spec_.scene.model;
+    for (int j = 0; j < model.size(); ++j) {
+      const Joint& joint = model.joint(j);
+      Judge(Criterion::kJointRange, ExcessOf(sample.position[j], joint.position_min, joint.position_max), j);
+      Judge(Criterion::kJointVelocity, ExcessOf(sample.velocity[j], -joint.velocity_max, joint.velocity_max) / joint.velocity_max,
+            j);
+    }
+    for (size_t a = 0; a < model.actuated().size(); ++a) {
+      const Joint& joint = model.joint(model.actuated()[a]);
+      const double strength = std::max(-joint.effort_min, joint.effort_max);
+      Judge(Criterion::kJointEffort,
+            ExcessOf(sample.efforts[static_cast<int>(a)], joint.effort_min, joint.effort_max) / strength, model.actuated()[a]);
+    }
+  }
+  bool any() const { return any_; }
+
+ private:
+  void Judge(Criterion criterion, double excess, int joint) {
+    if (!(excess > kNear * spec_.bounds[criterion])) return;
+    std::vector<int>* joints = criterion == Criterion::kJointRange      ? &between_->range
+                               : criterion == Criterion::kJointVelocity ? &between_->velocity
+                                                                        : &between_->effort;
+    any_ |= Insert(joint, joints);
+  }
+  const GaitSpec& spec_;
+  BoundedBetween* between_;
+  bool any_ = false;
+};
+
+}  // namespace
+
+bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added) {
+  added->between.resize(trajectory.phases.size());
+  bool any = false;
+  for (size_t p = 0; p < trajectory.phases.size(); ++p) {
+    PhaseExcesses excesses(spec, &added->between[p]);
+    MotionSample sample;
+    for (size_t k = 0; k + 1 < trajectory.phases[p].node_times.size(); ++k) {
+      const IntervalPolynomials interval(trajectory, static_cast<int>(p), static_cast<int>(k));
+      for (int i = 0; i <= kSamples; ++i) {
+        interval.Evaluate(static_cast<double>(i) / kSamples, &sample);
+        excesses.Add(sample);
+      }
+    }
+    any |= excesses.any();
+  }
+  const auto add_finding = [&](Criterion criterion, std::vector<int> BoundedBetween::*joints) {
+    const Finding& finding = report.findings[static_cast<int>(criterion)];
+    const int joint = spec.scene.model.Find(finding.where);
+    if (finding.value > spec.bounds[criterion] && joint >= 0) {
+      any |= Insert(joint, &(added->between[static_cast<size_t>(finding.phase)].*joints));
+    }
+  };
+  add_finding(Criterion::kJointRange, &BoundedBetween::range);
+  add_finding(Criterion::kJointVelocity, &BoundedBetween::velocity);
+  add_finding(Criterion::kJointEffort, &BoundedBetween::effort);
+  return any;
+}
+
+}  // namespace rollgait

@@ -1,0 +1,19 @@
+#ifndef ROLLGAIT_CORE_GAIT_ADDED_CONSTRAINTS_H_
+#define ROLLGAIT_CORE_GAIT_ADDED_CONSTRAINTS_H_
+
+#include <vector>
+
+#include "core/gait/gait_request.h"
+#include "core/ocp/problem.h"
+#include "core/validation/report.h"
+
+namespace rollgait {
+
+// Adds to `added` what a judged motion violates and a problem with more constraints would keep: range, velocity and effort of joints
+// between the points of a phase. Returns whether anything is new. The problem is solved without these constraints first,
+// since most of them never matter and each costs time.
+bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_ADDED_CONSTRAINTS_H_
