@@ -6,7 +6,7 @@ namespace rollgait::audit {
 
 double BodyWeight(const GaitSpec& spec) { return spec.scene.model.total_mass() * spec.gravity.norm(); }
 
-CriterionValues Measure(const GaitSpec& spec, const Trajectory& trajectory) {
+CriterionValues MeasureTrajectory(const GaitSpec& spec, const Trajectory& trajectory) {
   Measures measures;
   MeasurePath(spec, trajectory, &measures);
   MeasureMotion(spec, trajectory, &measures);

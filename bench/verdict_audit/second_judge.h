@@ -13,7 +13,7 @@ inline constexpr int kInstants = 40;
 
 // The largest measure of each criterion at these instants: a measure of the first judge, who looks at every instant, may be larger,
 // but not smaller. Contract: a gait of `spec`.
-CriterionValues Measure(const GaitSpec& spec, const Trajectory& trajectory);
+CriterionValues MeasureTrajectory(const GaitSpec& spec, const Trajectory& trajectory);
 
 }  // namespace rollgait::audit
 
