@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/ocp/constraints/approach.h"
 #include "core/ocp/constraints/contact_point.h"
 #include "core/ocp/constraints/dynamics.h"
 #include "core/ocp/constraints/friction.h"
@@ -183,6 +184,9 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::JumpConstra
   const auto active = ActiveContacts(phase);
   constraints.push_back(
       std::make_unique<DynamicsConstraint>(model, contacts, active, layout, impulse_size(), lever * impulse_size()));
+  for (int contact : TakenUp(phase)) {
+    constraints.push_back(std::make_unique<ApproachConstraint>(model, contacts, contact, layout));
+  }
   std::vector<ForceRow> friction = FrictionRows(contacts, active, friction_coefficient);
   if (!friction.empty()) {
     constraints.push_back(std::make_unique<FrictionConstraint>(std::move(friction), layout, impulse_size()));

@@ -105,7 +105,7 @@ struct OptimalControlProblem {
   // The instant of a jump, z = (q, 0, v⁺ − v⁻, Λ): no efforts, and impulses in place of forces.
   PointLayout JumpLayout(int phase) const;
   // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the friction
-  // cone. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
+  // cone, contacts that are taken up coming from above. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
   std::vector<std::unique_ptr<PointConstraint>> JumpConstraints(int phase) const;
 };
 

@@ -42,6 +42,13 @@ MatrixX BlockOf(const MatrixX& points, int interval, int s) {
   return points.middleCols(interval * s, s);
 }
 
+std::span<const double> RowOf(const MatrixX& coefficients, int row, std::span<double> room) {
+  const int s = static_cast<int>(coefficients.cols());
+  ROLLGAIT_CHECK(static_cast<int>(room.size()) >= s);
+  for (int j = 0; j < s; ++j) room[j] = coefficients(row, j);
+  return room.first(s);
+}
+
 }  // namespace
 
 IntervalPolynomials::IntervalPolynomials(const Trajectory& trajectory, int phase, int interval) {
@@ -77,6 +84,31 @@ void IntervalPolynomials::Evaluate(double theta, MotionSample* sample) const {
 }
 
 void IntervalPolynomials::EvaluateEfforts(double theta, VectorX* efforts) const { Horner(efforts_, theta, efforts); }
+
+std::span<const double> IntervalPolynomials::PositionPolynomial(int row, std::span<double> room) const {
+  const int s = static_cast<int>(acceleration_.cols());
+  ROLLGAIT_CHECK(static_cast<int>(room.size()) >= s + 2);
+  room[0] = position_[row];
+  room[1] = length_ * velocity_[row];
+  for (int j = 0; j < s; ++j) room[j + 2] = length_ * length_ / ((j + 1) * (j + 2)) * acceleration_(row, j);
+  return room.first(s + 2);
+}
+
+std::span<const double> IntervalPolynomials::VelocityPolynomial(int row, std::span<double> room) const {
+  const int s = static_cast<int>(acceleration_.cols());
+  ROLLGAIT_CHECK(static_cast<int>(room.size()) >= s + 1);
+  room[0] = velocity_[row];
+  for (int j = 0; j < s; ++j) room[j + 1] = length_ / (j + 1) * acceleration_(row, j);
+  return room.first(s + 1);
+}
+
+std::span<const double> IntervalPolynomials::EffortPolynomial(int row, std::span<double> room) const {
+  return RowOf(efforts_, row, room);
+}
+
+std::span<const double> IntervalPolynomials::ForcePolynomial(int row, std::span<double> room) const {
+  return RowOf(forces_, row, room);
+}
 
 MotionSample Sample(const Trajectory& trajectory, int phase, int interval, double theta) {
   MotionSample sample;

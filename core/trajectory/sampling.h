@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_CORE_TRAJECTORY_SAMPLING_H_
 #define ROLLGAIT_CORE_TRAJECTORY_SAMPLING_H_
 
+#include <span>
+
 #include "core/trajectory/trajectory.h"
 
 namespace rollgait {
@@ -26,6 +28,13 @@ class IntervalPolynomials {
   // At fraction θ ∈ [0, 1] of the interval. No allocation if the vectors already have their size.
   void Evaluate(double theta, MotionSample* sample) const;
   void EvaluateEfforts(double theta, VectorX* efforts) const;
+
+  // One of the polynomials: the coefficients of 1, θ, θ², …, written to the front of `room`. Row: joint, joint, index of the
+  // actuated joint, component of the forces. Contract: room for s + 2, s + 1, s and s numbers.
+  std::span<const double> PositionPolynomial(int row, std::span<double> room) const;
+  std::span<const double> VelocityPolynomial(int row, std::span<double> room) const;
+  std::span<const double> EffortPolynomial(int row, std::span<double> room) const;
+  std::span<const double> ForcePolynomial(int row, std::span<double> room) const;
 
  private:
   double start_, length_;

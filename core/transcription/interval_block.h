@@ -40,7 +40,7 @@ class IntervalBlock {
 
   // Bounds of the (scaled) rows of an interval that starts at a fraction of the phase and is as long as another.
   void Bounds(double start, double length, const IntervalPlace& place, double* lower, double* upper) const;
-  // What row `row` is: name, unit, natural size and point.
+  // What row `row` is: name, unit, natural size and point; of rows between points the last point.
   struct RowInfo {
     std::string name, unit;
     double size;

@@ -239,7 +239,7 @@ IntervalBlock::RowInfo IntervalBlock::Describe(int row) const {
   }
   const int r = row - FirstPathRow();
   ROLLGAIT_CHECK(r >= 0 && r < path_->size());
-  return {path_->Name(r), path_->Unit(r), path_->Size(r), 0};
+  return {path_->Name(r), path_->Unit(r), path_->Size(r), points_count_ - 1};
 }
 
 }  // namespace rollgait

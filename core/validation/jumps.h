@@ -1,10 +1,12 @@
 #ifndef ROLLGAIT_CORE_VALIDATION_JUMPS_H_
 #define ROLLGAIT_CORE_VALIDATION_JUMPS_H_
 
+#include <vector>
+
 #include "core/models/scene.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/trajectory/trajectory.h"
-#include "core/validation/residuals.h"
+#include "core/validation/force_judge.h"
 
 namespace rollgait {
 
@@ -23,9 +25,20 @@ struct JumpErrors {
   double loss = 0;     // J, kinetic energy lost in all jumps
 };
 
-// Judges every jump and adds its impulses to `impulses`, whose weight is in N s.
+// Judges every jump and adds its impulses to `impulses`, whose weight is in N s. The log gets velocity errors as defects of
+// velocity, impulse errors over the mass as errors of momentum, and pull and friction of the impulses (impulses may not pull at all).
+JumpErrors MeasureJumps(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, double friction,
+                        ForceExtremes* impulses, FindingLog* log);
+// Without a log and a bound for friction.
 JumpErrors MeasureJumps(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
                         ForceExtremes* impulses);
+
+// Contacts (indices into the scene's) that a phase has and the phase before it has not: before the first phase comes the last one,
+// mirrored in a half cycle; in a motion that is not periodic nothing touches down there.
+std::vector<int> TouchDowns(const Scene& scene, const Trajectory& trajectory, int phase);
+
+// Judges every touch-down: the speed at which the contact point's surface rises just before it, max(0, n·v⁻), m/s. Returns the largest.
+double MeasureApproach(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, FindingLog* log);
 
 }  // namespace rollgait
 

@@ -45,7 +45,6 @@ struct AccuracyReport {
 struct ValidationOptions {
   Vector3 gravity{0, 0, -9.81};         // m/s², world axes (fixed to the slope)
   double integrator_tolerance = 1e-10;  // relative and absolute
-  int samples_per_interval = 10;        // between nodes, for gap, slip, forces
   std::optional<Manoeuvre> manoeuvre;   // what a motion of Cycle::kOnce was asked to do
   double friction_coefficient = kInfinity;  // of the ground
   double min_normal_force = 0;              // N, of a contact that is on the ground

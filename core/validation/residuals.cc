@@ -4,15 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/check.h"
-#include "core/contact/rolling_kinematics.h"
 #include "core/trajectory/sampling.h"
 #include "core/validation/jumps.h"
 
 namespace rollgait {
 namespace {
-
-constexpr double kFrictionFloor = 1e-3;  // of the weight
 
 // Gauss–Legendre quadrature on [0, 1] with 4 points, exact to degree 7; power has degree 2s − 1 <= 5.
 constexpr int kGaussPoints = 4;
@@ -21,69 +17,15 @@ constexpr double kGaussNodes[kGaussPoints] = {0.06943184420297371238802675555359
 constexpr double kGaussWeights[kGaussPoints] = {0.173927422568726928686531974610999, 0.326072577431273071313468025389001,
                                                 0.326072577431273071313468025389001, 0.173927422568726928686531974610999};
 
+// What is balanced, at a node: J, N s.
+struct NodeBalance {
+  double energy = 0;
+  Vector3 momentum = Vector3::Zero();
+};
+
 int Intervals(const TrajectoryPhase& phase) { return static_cast<int>(phase.node_times.size()) - 1; }
 
-double Slip(const ContactSurface& surface, const RollingContact& contact) {
-  double sum = 0;
-  for (int axis : surface.directions) sum += contact.slip[axis] * contact.slip[axis];
-  return std::sqrt(sum);
-}
-
 }  // namespace
-
-void RaiseTo(double value, double* worst) {
-  if (!(value <= *worst)) *worst = std::isnan(value) ? kInfinity : value;
-}
-
-void ForceExtremes::Add(const Vector3& force) {
-  any_ = true;
-  if (force.hasNaN()) {
-    min_normal_ = -kInfinity;
-    max_friction_ratio_ = kInfinity;
-    return;
-  }
-  min_normal_ = std::min(min_normal_, force.z());
-  RaiseTo(force.head<2>().norm() / std::max(force.z(), kFrictionFloor * weight_), &max_friction_ratio_);
-}
-
-ContactResiduals MeasureContacts(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
-                                 int samples_per_interval, ForceExtremes* forces) {
-  ROLLGAIT_CHECK(samples_per_interval >= 1);
-  std::vector<double> fractions = trajectory.point_fractions;
-  for (int k = 0; k <= samples_per_interval; ++k) fractions.push_back(static_cast<double>(k) / samples_per_interval);
-
-  ContactResiduals residuals;
-  double depth = -kInfinity;  // −gap of inactive contacts
-  MotionSample sample;
-  BodyDynamics::State state;
-  for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
-    const std::vector<int>& active = trajectory.phases[p].contacts;
-    for (int k = 0; k < Intervals(trajectory.phases[p]); ++k) {
-      const IntervalPolynomials interval(trajectory, p, k);
-      for (double theta : fractions) {
-        interval.Evaluate(theta, &sample);
-        dynamics.ComputeState(sample.position, sample.velocity, &state);
-        for (int c = 0; c < static_cast<int>(scene.contacts.size()); ++c) {
-          const RollingContact contact = ComputeRollingContact(scene.contacts[c], state);
-          if (std::find(active.begin(), active.end(), c) == active.end()) {
-            RaiseTo(-contact.gap, &depth);
-          } else {
-            RaiseTo(std::abs(contact.gap), &residuals.max_gap);
-            RaiseTo(Slip(scene.contacts[c], contact), &residuals.max_slip);
-          }
-        }
-      }
-      // Forces between the points are those of the re-integrated motion; the polynomial through the points says nothing
-      // before the first of them.
-      for (double theta : trajectory.point_fractions) {
-        interval.Evaluate(theta, &sample);
-        for (size_t c = 0; c < active.size(); ++c) forces->Add(sample.forces.segment<3>(3 * static_cast<int>(c)));
-      }
-    }
-  }
-  residuals.min_swing_clearance = depth == -kInfinity ? 0 : -depth;
-  return residuals;
-}
 
 EndState PeriodicEnd(const Model& model, const Trajectory& trajectory) {
   const VectorX q = trajectory.phases.front().node_positions.col(0);
@@ -102,15 +44,20 @@ EndState PeriodicEnd(const Model& model, const Trajectory& trajectory) {
   return end;
 }
 
-double PeriodicityError(const Model& model, const Trajectory& trajectory) {
+double PeriodicityError(const Model& model, const Trajectory& trajectory, FindingLog* log) {
   if (trajectory.cycle == Cycle::kOnce) return 0;
   const EndState end = PeriodicEnd(model, trajectory);
   const TrajectoryPhase& last = trajectory.phases.back();
+  const Instant at{static_cast<int>(trajectory.phases.size()) - 1, last.node_times.back()};
   double worst = 0;
+  const auto compare = [&](int joint, double difference) {
+    RaiseTo(std::abs(difference), &worst);
+    log->Raise(Criterion::kPeriodicity, std::abs(difference), model.joint(joint).name, at);
+  };
   for (int j = 0; j < model.size(); ++j) {
-    RaiseTo(std::abs(last.node_positions(j, Intervals(last)) - end.position[j]), &worst);
+    compare(j, last.node_positions(j, Intervals(last)) - end.position[j]);
     if (Jumps(trajectory.phases.front())) continue;
-    RaiseTo(std::abs(last.node_velocities(j, Intervals(last)) - end.velocity[j]), &worst);
+    compare(j, last.node_velocities(j, Intervals(last)) - end.velocity[j]);
   }
   return worst;
 }
@@ -137,10 +84,16 @@ double EndError(const Scene& scene, const BodyDynamics& dynamics, const Trajecto
 }
 
 BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, const Trajectory& trajectory,
-                              const Vector3& gravity) {
+                              const Vector3& gravity, FindingLog* log) {
   double work = 0, positive = 0, negative = 0, largest_kinetic = 0;
   Vector3 impulse = Vector3::Zero();
+  struct IntervalBalance {
+    Instant start;
+    double energy, momentum;  // errors, J and N s
+  };
+  std::vector<IntervalBalance> intervals;
   MotionSample sample;
+  NodeBalance first, before, after;
   BodyDynamics::State state;
   for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
     const TrajectoryPhase& phase = trajectory.phases[p];
@@ -148,40 +101,57 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
       for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c) impulse += phase.impulses.segment<3>(3 * c);
       work -= phase.impact_loss;
     }
-    for (int k = 0; k < Intervals(phase); ++k) {
-      const IntervalPolynomials interval(trajectory, p, k);
-      for (int i = 0; i < kGaussPoints; ++i) {
-        const double weight = kGaussWeights[i] * interval.length();
-        interval.Evaluate(kGaussNodes[i], &sample);
-        for (size_t a = 0; a < model.actuated().size(); ++a) {
-          const double power = sample.efforts[static_cast<int>(a)] * sample.velocity[model.actuated()[a]];
-          work += weight * power;
-          (power > 0 ? positive : negative) += weight * std::abs(power);
-        }
-        impulse += weight * dynamics.total_mass() * gravity;
-        for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c) {
-          impulse += weight * sample.forces.segment<3>(3 * c);
-        }
-      }
-    }
     for (int k = 0; k <= Intervals(phase); ++k) {
       dynamics.ComputeState(phase.node_positions.col(k), phase.node_velocities.col(k), &state);
-      RaiseTo(dynamics.KineticEnergy(state), &largest_kinetic);
+      const double kinetic = dynamics.KineticEnergy(state);
+      RaiseTo(kinetic, &largest_kinetic);
+      after = {kinetic + dynamics.PotentialEnergy(state, gravity), dynamics.LinearMomentum(state)};
+      if (p == 0 && k == 0) first = after;
+      if (k > 0) {
+        const IntervalPolynomials interval(trajectory, p, k - 1);
+        double done = 0;
+        Vector3 pushed = Vector3::Zero();
+        for (int i = 0; i < kGaussPoints; ++i) {
+          const double weight = kGaussWeights[i] * interval.length();
+          interval.Evaluate(kGaussNodes[i], &sample);
+          for (size_t a = 0; a < model.actuated().size(); ++a) {
+            const double power = sample.efforts[static_cast<int>(a)] * sample.velocity[model.actuated()[a]];
+            done += weight * power;
+            (power > 0 ? positive : negative) += weight * std::abs(power);
+          }
+          pushed += weight * dynamics.total_mass() * gravity;
+          for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c) pushed += weight * sample.forces.segment<3>(3 * c);
+        }
+        work += done;
+        impulse += pushed;
+        intervals.push_back({{p, interval.start(), static_cast<int>(intervals.size())},
+                             std::abs(after.energy - before.energy - done),
+                             (pushed - after.momentum + before.momentum).norm()});
+      }
+      before = after;
     }
   }
 
-  // `state` is the last node's.
-  const TrajectoryPhase& first = trajectory.phases.front();
-  BodyDynamics::State start;
-  dynamics.ComputeState(first.node_positions.col(0), first.node_velocities.col(0), &start);
-  const double change = dynamics.KineticEnergy(state) + dynamics.PotentialEnergy(state, gravity) -
-                        dynamics.KineticEnergy(start) - dynamics.PotentialEnergy(start, gravity);
   BalanceErrors errors;
-  RaiseTo(std::abs(change - work), &errors.energy);
+  RaiseTo(std::abs(after.energy - first.energy - work), &errors.energy);
   const double done = std::max(positive, negative);
   const double scale = done > 0 ? done : largest_kinetic;
-  if (errors.energy > 0) errors.energy_relative = scale > 0 ? errors.energy / scale : kInfinity;
-  RaiseTo((impulse - dynamics.LinearMomentum(state) + dynamics.LinearMomentum(start)).norm(), &errors.momentum);
+  const auto relative = [scale](double energy) { return energy == 0 ? 0.0 : scale > 0 ? energy / scale : kInfinity; };
+  errors.energy_relative = relative(errors.energy);
+  RaiseTo((impulse - after.momentum + first.momentum).norm(), &errors.momentum);
+
+  // The measures are the whole motion's: errors of intervals may cancel. The intervals say where most of it arises.
+  FindingLog own(static_cast<int>(intervals.size()));
+  for (const IntervalBalance& interval : intervals) {
+    own.Raise(Criterion::kEnergy, relative(interval.energy), "", interval.start);
+    own.Raise(Criterion::kMomentum, interval.momentum / dynamics.total_mass(), "", interval.start);
+  }
+  for (const Criterion criterion : {Criterion::kEnergy, Criterion::kMomentum}) {
+    const double whole =
+        criterion == Criterion::kEnergy ? errors.energy_relative : errors.momentum / dynamics.total_mass();
+    log->Raise(criterion, whole, "", {own[criterion].phase, own[criterion].time});
+    for (size_t i = 0; i < intervals.size(); ++i) log->RaiseInterval(criterion, own.intervals()[i][criterion], static_cast<int>(i));
+  }
   return errors;
 }
 

@@ -1,15 +1,25 @@
 #include "core/validation/resimulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/contact/constrained_dynamics.h"
-#include "core/trajectory/sampling.h"
 #include "core/math/integrator.h"
+#include "core/trajectory/sampling.h"
 #include "core/validation/jumps.h"
+#include "core/validation/pieces.h"
+#include "core/validation/residuals.h"
 
 namespace rollgait {
 namespace {
+
+// Interpolation of the forces within one accepted step.
+constexpr int kForceDegree = 6, kForceGrid = 48, kForceHalvings = 8;
+constexpr double kForceResolved = 1e-3;  // of the least normal force of the contact, or of the least that friction is judged with
+constexpr double kContactPointResolved = 1e-5;  // m, of the contact points, which say only where forces act
+// An interval takes one to ten steps; one that takes so many is not integrated.
+constexpr int kMostSteps = 2000;
 
 std::vector<ContactSurface> ActiveSurfaces(const Scene& scene, const TrajectoryPhase& phase) {
   std::vector<ContactSurface> surfaces;
@@ -20,92 +30,182 @@ std::vector<ContactSurface> ActiveSurfaces(const Scene& scene, const TrajectoryP
 // The forward dynamics of one phase as an ordinary differential equation in x = [q; v].
 class PhaseMotion {
  public:
-  PhaseMotion(const Scene& scene, const BodyDynamics& dynamics, const TrajectoryPhase& phase, const Vector3& gravity)
+  PhaseMotion(const Scene& scene, const BodyDynamics& dynamics, const TrajectoryPhase& phase, int index,
+              const Vector3& gravity, const ForceBounds& bounds, ForceExtremes* forces)
       : model_(scene.model),
-        contacts_(static_cast<int>(phase.contacts.size())),
+        phase_(index),
         gravity_(gravity),
         dynamics_(dynamics, ActiveSurfaces(scene, phase)),
-        tau_(VectorX::Zero(scene.model.size())) {}
+        judge_(scene, phase.contacts, bounds, forces),
+        least_normal_(forces->floor()),
+        tau_(VectorX::Zero(scene.model.size())),
+        step_start_(Rows()),
+        step_end_(Rows()) {}
 
-  // Carries x over the interval.
-  IntegrationStatus Run(const IntervalPolynomials& interval, double tolerance, Dop853* integrator, VectorX* x,
-                        ForceExtremes* forces) {
-    Dop853::Options options;
-    options.tolerance = tolerance;
-    options.first_step = integrator->proposed_step();
+  // Carries x over the interval and judges its forces.
+  IntegrationStatus Run(const IntervalPolynomials& interval, int number, double tolerance, Dop853* integrator, Pieces* pieces,
+                        VectorX* x, FindingLog* log) {
+    const double end = interval.length();
     const int n = model_.size();
-    const auto right_side = [&](double t, const VectorX& state, VectorX* derivative) {
-      interval.EvaluateEfforts(t / interval.length(), &efforts_);
+    const Dop853::RightSide right_side = [&](double t, const VectorX& state, VectorX* derivative) {
+      interval.EvaluateEfforts(t / end, &efforts_);
       for (size_t a = 0; a < model_.actuated().size(); ++a) tau_[model_.actuated()[a]] = efforts_[static_cast<int>(a)];
       q_ = state.head(n);
       v_ = state.tail(n);
       derivative->head(n) = v_;
       derivative->tail(n) = dynamics_.Evaluate(q_, v_, tau_, gravity_).acceleration;
     };
-    const auto observe = [&](double, const VectorX&) {
-      for (int c = 0; c < contacts_; ++c) forces->Add(dynamics_.Force(c));
-    };
-    return integrator->Integrate(right_side, 0, interval.length(), options, x, observe);
+    const double proposed = integrator->proposed_step();
+    double t = 0;
+    integrator->Start(right_side, t, *x, proposed > 0 ? std::min(proposed, end) : end);
+    ReadForces(step_start_.data());
+    int attempts = 0;
+    while (t < end) {
+      const IntegrationStatus status = integrator->Advance(right_side, end, tolerance, kMostSteps, &t, x, &attempts);
+      if (status != IntegrationStatus::kReachedEnd) return status;
+      if (judge_.contacts() == 0) continue;
+      ReadForces(step_end_.data());
+      JudgeStep(right_side, {phase_, 0, number}, interval.start(), integrator, pieces, log);
+      step_start_.swap(step_end_);
+    }
+    return IntegrationStatus::kReachedEnd;
   }
 
  private:
+  int Rows() const { return ForceJudge::kRows * judge_.contacts(); }
+
+  // Forces and contact points of the last evaluation.
+  void ReadForces(double* rows) const {
+    for (int c = 0; c < judge_.contacts(); ++c) {
+      Eigen::Map<Eigen::Matrix<double, ForceJudge::kRows, 1>>(rows + ForceJudge::kRows * c)
+          << dynamics_.Force(c), dynamics_.contact(c).p_WP.head<2>();
+    }
+  }
+
+  // `offset`: time of the interval's start.
+  void JudgeStep(const Dop853::RightSide& right_side, const Instant& at, double offset, Dop853* integrator, Pieces* pieces,
+                 FindingLog* log) {
+    integrator->PrepareInterpolation(right_side);
+    const double from = integrator->step_start(), to = integrator->step_end();
+    unused_.resize(2 * model_.size());
+    const auto sample = [&](double t, MatrixX* values, int column) {
+      integrator->Interpolate(t, &state_);
+      right_side(t, state_, &unused_);
+      ReadForces(values->col(column).data());
+    };
+    const auto resolved = [&] { return Resolved(*pieces); };
+    const auto visit = [&](double piece_from, double piece_to) {
+      judge_.JudgeNormal(pieces->basis(), pieces->coefficients(), pieces->samples(), 0, offset + piece_from,
+                         piece_to - piece_from, at, log);
+      judge_.JudgeFriction(pieces->basis(), pieces->coefficients(), pieces->samples(), 0, offset + piece_from,
+                           piece_to - piece_from, at, log);
+    };
+    // At its ends the forces of the step are known.
+    MatrixX* const values = pieces->mutable_values(Rows());
+    const int last = pieces->basis().size() - 1;
+    values->col(0) = step_start_;
+    values->col(last) = step_end_;
+    for (int i = 1; i < last; ++i) sample(from + pieces->basis().node(i) * (to - from), values, i);
+    pieces->Continue(from, to, kForceHalvings, sample, resolved, visit);
+  }
+
+  bool Resolved(const Pieces& pieces) const {
+    for (int row = 0; row < Rows(); ++row) {
+      const int component = row % ForceJudge::kRows;
+      const double normal = std::abs(pieces.values().row(row - component + 2).minCoeff());
+      const double enough = component < 3 ? kForceResolved * std::max(normal, least_normal_) : kContactPointResolved;
+      if (!(ChebyshevBasis::Tail(pieces.coefficients(), row) <= enough)) return false;
+    }
+    return true;
+  }
+
   const Model& model_;
-  int contacts_;
+  int phase_;
   Vector3 gravity_;
   ConstrainedDynamics dynamics_;
-  VectorX tau_, efforts_, q_, v_;
+  ForceJudge judge_;
+  double least_normal_;
+  VectorX tau_, efforts_, q_, v_, state_, unused_;
+  VectorX step_start_, step_end_;  // rows of ForceJudge
 };
 
-double Largest(const VectorX& difference) {
+double LargestOf(const VectorX& difference) {
   double largest = 0;
   for (double value : difference) RaiseTo(std::abs(value), &largest);
   return largest;
 }
 
-void Compare(const VectorX& end, const Eigen::Ref<const VectorX>& expected, double time, Defect* defect) {
-  for (int j = 0; j < expected.size(); ++j) {
-    const double before = defect->value;
-    RaiseTo(std::abs(end[j] - expected[j]), &defect->value);
-    if (defect->value == before) continue;
-    defect->joint = j;
-    defect->time = time;
+// Differences of states, at the end of an interval or of a phase.
+class DefectLog {
+ public:
+  DefectLog(const Model& model, Resimulation* result, FindingLog* log) : model_(model), result_(result), log_(log) {}
+
+  // An infinite difference where the interval could not be integrated.
+  void Compare(const VectorX& x, const VectorX& q, const VectorX& v, bool with_velocities, const Instant& at) {
+    const int n = model_.size();
+    for (int j = 0; j < n; ++j) {
+      Add(Criterion::kPositionDefect, j, std::abs(x[j] - q[j]), at, &result_->position);
+      if (with_velocities) Add(Criterion::kVelocityDefect, j, std::abs(x[n + j] - v[j]), at, &result_->velocity);
+    }
   }
-}
+  void AddBroken(const Instant& at) {
+    Add(Criterion::kPositionDefect, 0, kInfinity, at, &result_->position);
+    Add(Criterion::kVelocityDefect, 0, kInfinity, at, &result_->velocity);
+  }
+
+ private:
+  void Add(Criterion criterion, int joint, double difference, const Instant& at, Defect* defect) {
+    log_->Raise(criterion, difference, model_.joint(joint).name, at);
+    const double before = defect->value;
+    RaiseTo(difference, &defect->value);
+    if (defect->value == before) return;
+    defect->joint = joint;
+    defect->time = at.time;
+  }
+
+  const Model& model_;
+  Resimulation* result_;
+  FindingLog* log_;
+};
 
 }  // namespace
 
 Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
-                        const Vector3& gravity, double tolerance, ForceExtremes* forces) {
+                        const Vector3& gravity, double tolerance, const ForceBounds& bounds, ForceExtremes* forces,
+                        FindingLog* log) {
+  static const ChebyshevBasis basis(kForceDegree, kForceGrid);
   const int n = scene.model.size();
   Resimulation result;
+  DefectLog defects(scene.model, &result, log);
   Dop853 integrator;
+  Pieces pieces(basis);
   VectorX x(2 * n);
-  for (size_t p = 0; p < trajectory.phases.size(); ++p) {
+  int number = 0;
+  for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
     const TrajectoryPhase& phase = trajectory.phases[p];
-    PhaseMotion motion(scene, dynamics, phase, gravity);
+    PhaseMotion motion(scene, dynamics, phase, p, gravity, bounds, forces);
     const int intervals = static_cast<int>(phase.node_times.size()) - 1;
-    for (int k = 0; k < intervals; ++k) {
-      const IntervalPolynomials interval(trajectory, static_cast<int>(p), k);
+    for (int k = 0; k < intervals; ++k, ++number) {
+      const IntervalPolynomials interval(trajectory, p, k);
       x << phase.node_positions.col(k), phase.node_velocities.col(k);
-      const double time = phase.node_times[k + 1];
-      if (motion.Run(interval, tolerance, &integrator, &x, forces) != IntegrationStatus::kReachedEnd) {
-        result.position = result.velocity = {kInfinity, 0, time};
-        return result;
+      const Instant end{p, phase.node_times[k + 1], number}, border{p, phase.node_times[k + 1]};
+      if (motion.Run(interval, number, tolerance, &integrator, &pieces, &x, log) != IntegrationStatus::kReachedEnd) {
+        defects.AddBroken(end);
+        integrator = Dop853();  // its steps were those of a motion that does not exist
+        result.interval_positions.push_back(kInfinity);
+        result.interval_velocities.push_back(kInfinity);
+        continue;
       }
-      const auto compare = [&](const Eigen::Ref<const VectorX>& q, const Eigen::Ref<const VectorX>& v) {
-        Compare(x.head(n), q, time, &result.position);
-        Compare(x.tail(n), v, time, &result.velocity);
-      };
-      compare(phase.node_positions.col(k + 1), phase.node_velocities.col(k + 1));
-      result.interval_positions.push_back(Largest(x.head(n) - phase.node_positions.col(k + 1)));
-      result.interval_velocities.push_back(Largest(x.tail(n) - phase.node_velocities.col(k + 1)));
+      defects.Compare(x, phase.node_positions.col(k + 1), phase.node_velocities.col(k + 1), true, end);
+      result.interval_positions.push_back(LargestOf(x.head(n) - phase.node_positions.col(k + 1)));
+      result.interval_velocities.push_back(LargestOf(x.tail(n) - phase.node_velocities.col(k + 1)));
       if (k + 1 < intervals) continue;
-      if (p + 1 < trajectory.phases.size()) {
+      if (p + 1 < static_cast<int>(trajectory.phases.size())) {
         const TrajectoryPhase& next = trajectory.phases[p + 1];
-        compare(next.node_positions.col(0), Jumps(next) ? VectorX(x.tail(n)) : VectorX(next.node_velocities.col(0)));
+        defects.Compare(x, next.node_positions.col(0), next.node_velocities.col(0), !Jumps(next), border);
       } else if (trajectory.cycle != Cycle::kOnce) {
-        const EndState end = PeriodicEnd(scene.model, trajectory);
-        compare(end.position, Jumps(trajectory.phases.front()) ? VectorX(x.tail(n)) : end.velocity);
+        const EndState start = PeriodicEnd(scene.model, trajectory);
+        defects.Compare(x, start.position, start.velocity, !Jumps(trajectory.phases.front()), border);
       }
     }
   }

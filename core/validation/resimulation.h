@@ -6,7 +6,8 @@
 #include "core/models/scene.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/trajectory/trajectory.h"
-#include "core/validation/residuals.h"
+#include "core/validation/findings.h"
+#include "core/validation/force_judge.h"
 
 namespace rollgait {
 
@@ -19,17 +20,23 @@ struct Defect {
 
 struct Resimulation {
   Defect position, velocity;  // largest of all
-  // Largest difference of each interval, in order of time, against its own next node alone. Shorter than the trajectory
-  // if an interval could not be integrated: nothing after it is judged.
+  // Largest difference of each interval, in order of time, against its own next node alone; infinite if it could not be
+  // integrated.
   std::vector<double> interval_positions, interval_velocities;
 };
 
-// Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held rolling
-// at acceleration level, and compares the end with the next node; at the end of a phase also with the first node of the
-// next phase, and at the end of a periodic trajectory also with PeriodicEnd; with positions alone where velocities jump (jumps.h). Adds the contact forces at every accepted
-// step to `forces`. `tolerance` > 0 is relative and absolute.
+// Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held rolling at
+// acceleration level, and compares the end with the next node; at the end of a phase also with the first node of the next phase,
+// and at the end of a periodic trajectory also with PeriodicEnd; with positions alone where velocities jump (jumps.h).
+// `tolerance` > 0 is relative and absolute. The log gets the differences of all joints.
+//
+// The contact forces of the re-integrated motion are judged at every instant: in each accepted step forward dynamics is evaluated
+// on the integrator's continuous extension, forces are interpolated there (Pieces, halved until they are known to a thousandth of the
+// contact's least normal force, or of a thousandth of the weight) and their extremes are sought on at least 48 instants and between
+// them. They go to `forces` and to the log.
 Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
-                        const Vector3& gravity, double tolerance, ForceExtremes* forces);
+                        const Vector3& gravity, double tolerance, const ForceBounds& bounds, ForceExtremes* forces,
+                        FindingLog* log);
 
 }  // namespace rollgait
 

@@ -125,7 +125,22 @@ TEST_P(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
       }
     }
   }
-  EXPECT_GE(checked, 12);
+  EXPECT_GE(checked, 11);
+}
+
+TEST_P(PointConstraintsTest, DerivativesOfTheRowsOfAJump) {
+  problem_->plastic_touch_down = true;
+  int approaches = 0;
+  for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
+    if (!problem_->Jumps(phase)) continue;
+    for (const auto& constraint : problem_->JumpConstraints(phase)) {
+      if (constraint->Name(0).starts_with("approach")) {
+        CheckDerivatives(*constraint, problem_->JumpLayout(phase).size());
+        ++approaches;
+      }
+    }
+  }
+  EXPECT_EQ(approaches, TwoSurfaces() ? 2 : 1);
 }
 
 TEST_P(PointConstraintsTest, DerivativesOfTheEntryRows) {
@@ -188,22 +203,39 @@ TEST_P(PointConstraintsTest, ClearanceLeavesTheGroundAndMeetsItWithoutVelocityOr
 }
 
 TEST_P(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
+  std::vector<ContactSurface> contacts(2);
+  contacts[0].name = "heel";
+  contacts[1].name = "forefoot";
   PointLayout layout;
   layout.forces = 3;
-  VectorX z(3);
-  z << 30, 0, 100;
-  double g[4];
-  FrictionConstraint space("foot", {0, 0, {0, 1, 2}}, layout, 0.5, 1);
+  VectorX z(5);
+  z << 30, 0, 100, 0, 0;
+  double g[6];
+  FrictionConstraint space(FrictionRows(contacts, {{0, 0, {0, 1, 2}}}, 0.5), layout, 1);
+  ASSERT_EQ(space.rows(), 4);
   space.Value({z.data()}, g);
   EXPECT_NEAR(g[0], 50 / std::sqrt(2.0) + 30, 1e-12);
   EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
   EXPECT_NEAR(g[2], 50 / std::sqrt(2.0), 1e-12);
-  layout.forces = 2;
-  z << 30, 100, 0;
-  FrictionConstraint plane("foot", {0, 0, {0, 2}}, layout, 0.5, 1);
+  // Heel and forefoot of one rigid foot share the force along x; across it each has its own.
+  layout.forces = 5;
+  z << 30, 4, 10, 5, 90;
+  FrictionConstraint shared(FrictionRows(contacts, {{0, 0, {0, 1, 2}}, {1, 3, {1, 2}}}, 0.5), layout, 1);
+  ASSERT_EQ(shared.rows(), 6);
+  shared.Value({z.data()}, g);
+  EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
+  EXPECT_NEAR(g[3], 5 / std::sqrt(2.0) - 4, 1e-12);
+  EXPECT_NEAR(g[5], 45 / std::sqrt(2.0) - 5, 1e-12);
+  for (ContactSurface& contact : contacts) contact.directions = {0, 2};
+  contacts[1].joint = 1;  // another link: nothing is shared
+  layout.forces = 4;
+  z << 30, 100, 5, 40, 0;
+  FrictionConstraint plane(FrictionRows(contacts, {{0, 0, {0, 2}}, {1, 2, {0, 2}}}, 0.5), layout, 1);
+  ASSERT_EQ(plane.rows(), 4);
   plane.Value({z.data()}, g);
   EXPECT_NEAR(g[0], 80, 1e-12);
   EXPECT_NEAR(g[1], 20, 1e-12);
+  EXPECT_NEAR(g[3], 15, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, PointConstraintsTest,

@@ -33,7 +33,11 @@ class CollocationNlpTest : public ::testing::TestWithParam<Case> {
       const bool two = p == problem_->phases.size() - 1;
       mesh.fractions.push_back(two ? std::vector<double>{0.3, 0.7} : std::vector<double>{1});
     }
-    nlp_ = std::make_unique<CollocationNlp>(*problem_, scheme, mesh);
+    // Every kind of constraint that may be added is there.
+    AddedConstraints added;
+    const int knee = problem_->model.Find("knee_r");
+    added.between.assign(problem_->phases.size(), {{knee}, {knee, problem_->model.Find("hip_l")}, {knee}});
+    nlp_ = std::make_unique<CollocationNlp>(*problem_, scheme, mesh, added);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
     std::mt19937 random(5);
     std::uniform_real_distribution<double> noise(-0.05, 0.05);
@@ -181,7 +185,7 @@ TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
   EXPECT_EQ(kinds["continuous"], shared_instants ? 6 * nlp_->layout().intervals() + 2 * within : 0);
   // Nine of the dynamics and two of each of two cones for every foot that comes down, in a half cycle one.
   const int feet = problem_->mirrored ? 1 : 2;
-  EXPECT_EQ(kinds["impact,"], Plastic() ? 13 * feet : 0);
+  EXPECT_EQ(kinds["impact,"], Plastic() ? 14 * feet : 0);
   EXPECT_EQ(kinds["position"], Plastic() ? 9 * (feet - 1) : 0);
 }
 
