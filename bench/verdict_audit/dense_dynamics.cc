@@ -17,6 +17,14 @@ constexpr double kDifference = 1e-5;
 // that are 1 mm apart 1e-5.
 constexpr double kRankTolerance = 1e-10;
 
+// Forces or impulses of least norm for accelerations or velocities of the contacts.
+VectorX SolveMobility(const MatrixX& mobility, const VectorX& right_side) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixX> solver;
+  solver.setThreshold(kRankTolerance);
+  solver.compute(mobility);
+  return solver.solve(right_side);
+}
+
 }  // namespace
 
 DenseDynamics::DenseDynamics(const Scene& scene, std::vector<int> contacts, const Vector3& gravity)
@@ -33,40 +41,57 @@ VectorX DenseDynamics::RowVelocities(const VectorX& q, const VectorX& v) const {
   return Eigen::Map<const VectorX>(rows.data(), static_cast<Eigen::Index>(rows.size()));
 }
 
+MatrixX DenseDynamics::Mass(const VectorX& q) {
+  MatrixX mass = MatrixX::Zero(q.size(), q.size());
+  tree_.MassMatrix(q.data(), mass);
+  return mass;
+}
+
+MatrixX DenseDynamics::ContactJacobian(const VectorX& q, const VectorX& v, std::vector<Vector3>* points) const {
+  const std::vector<LinkPose> poses = Poses(scene_.model, q, v);
+  MatrixX jacobian(0, q.size());
+  for (const int c : contacts_) {
+    const ContactSurface& contact = scene_.contacts[static_cast<size_t>(c)];
+    points->push_back(FindLowestPoint(contact, poses).point);
+    const MatrixX point = PointJacobian(scene_.model, poses, contact.joint, points->back());
+    for (const int direction : contact.directions) {
+      jacobian.conservativeResize(jacobian.rows() + 1, Eigen::NoChange);
+      jacobian.bottomRows(1) = point.row(direction);
+    }
+  }
+  return jacobian;
+}
+
+DenseDynamics::Impact DenseDynamics::Stop(const VectorX& q, const VectorX& v) {
+  Impact impact;
+  const Eigen::LLT<MatrixX> factor(Mass(q));
+  const MatrixX jacobian = ContactJacobian(q, v, &impact.points);
+  const VectorX impulses = SolveMobility(jacobian * factor.solve(jacobian.transpose()), -jacobian * v);
+  impact.velocity = v + factor.solve(jacobian.transpose() * impulses);
+  return impact;
+}
+
 DenseDynamics::Answer DenseDynamics::Evaluate(const VectorX& q, const VectorX& v, const VectorX& efforts) {
   const Model& model = scene_.model;
   const int n = model.size();
   const VectorX at_rest = VectorX::Zero(n);
-  MatrixX mass = MatrixX::Zero(n, n);
-  tree_.MassMatrix(q.data(), mass);
+  const Eigen::LLT<MatrixX> factor(Mass(q));
   VectorX force(n);
   tree_.Update(q.data(), v.data(), at_rest.data(), gravity_);
   tree_.InverseDynamics(force.data());
   force = -force;
   for (size_t a = 0; a < model.actuated().size(); ++a) force[model.actuated()[a]] += efforts[static_cast<Eigen::Index>(a)];
-  const Eigen::LLT<MatrixX> factor(mass);
   Answer answer;
   answer.acceleration = factor.solve(force);
   if (contacts_.empty()) return answer;
 
-  const std::vector<LinkPose> poses = Poses(model, q, v);
   const double step = kDifference / std::max(1.0, v.cwiseAbs().maxCoeff());
   const VectorX drift = (RowVelocities(q + step * v, v) - RowVelocities(q - step * v, v)) / (2 * step);
-  MatrixX jacobian(drift.size(), n);
-  int row = 0;
-  for (const int c : contacts_) {
-    const ContactSurface& contact = scene_.contacts[static_cast<size_t>(c)];
-    answer.points.push_back(FindLowestPoint(contact, poses).point);
-    const MatrixX point = PointJacobian(model, poses, contact.joint, answer.points.back());
-    for (const int direction : contact.directions) jacobian.row(row++) = point.row(direction);
-  }
-  const MatrixX mobility = jacobian * factor.solve(jacobian.transpose());
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> solver;
-  solver.setThreshold(kRankTolerance);
-  solver.compute(mobility);
-  const VectorX rows = solver.solve(-drift - jacobian * answer.acceleration);
+  const MatrixX jacobian = ContactJacobian(q, v, &answer.points);
+  const VectorX rows =
+      SolveMobility(jacobian * factor.solve(jacobian.transpose()), -drift - jacobian * answer.acceleration);
   answer.acceleration += factor.solve(jacobian.transpose() * rows);
-  row = 0;
+  int row = 0;
   for (const int c : contacts_) {
     Vector3 contact_force = Vector3::Zero();
     for (const int direction : scene_.contacts[static_cast<size_t>(c)].directions) contact_force[direction] = rows[row++];

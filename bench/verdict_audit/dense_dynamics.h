@@ -23,6 +23,13 @@ class DenseDynamics {
   };
   Answer Evaluate(const VectorX& q, const VectorX& v, const VectorX& efforts);
 
+  // The velocities after an impact that stops every contact: M (v⁺ − v) = Jᵀ Λ, J v⁺ = 0.
+  struct Impact {
+    VectorX velocity;
+    std::vector<Vector3> points;
+  };
+  Impact Stop(const VectorX& q, const VectorX& v);
+
   struct State {
     VectorX q, v;
   };
@@ -31,6 +38,9 @@ class DenseDynamics {
   State Step(const State& state, const IntervalMotion& interval, double theta, double delta, const Answer& first);
 
  private:
+  MatrixX Mass(const VectorX& q);
+  // The rows of J, and the contact points.
+  MatrixX ContactJacobian(const VectorX& q, const VectorX& v, std::vector<Vector3>* points) const;
   // Velocities of the contact points in the directions in which the contacts hold them.
   VectorX RowVelocities(const VectorX& q, const VectorX& v) const;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/verdict_audit/dense_dynamics.h"
 #include "bench/verdict_audit/friction.h"
 #include "bench/verdict_audit/kinematics.h"
 #include "bench/verdict_audit/measures.h"
@@ -47,17 +48,25 @@ Before BeforePhase(const Scene& scene, const Trajectory& trajectory, size_t p) {
   return before;
 }
 
-void MeasureImpulses(const GaitSpec& spec, const TrajectoryPhase& phase, Measures* measures) {
-  const std::vector<LinkPose> poses = Poses(spec.scene.model, phase.node_positions.col(0), phase.node_velocities.col(0));
-  std::vector<Vector3> points, impulses;
-  for (size_t i = 0; i < phase.contacts.size(); ++i) {
-    points.push_back(FindLowestPoint(spec.scene.contacts[static_cast<size_t>(phase.contacts[i])], poses).point);
-    impulses.push_back(phase.impulses.segment<3>(static_cast<Eigen::Index>(3 * i)));
-  }
+// The impact must be the plastic one of all contacts of the phase, and its impulses must push and lie in the friction cone.
+void MeasureImpact(const GaitSpec& spec, const TrajectoryPhase& phase, const VectorX& v_before, Measures* measures) {
+  const VectorX q = phase.node_positions.col(0), v = phase.node_velocities.col(0);
+  const DenseDynamics::Impact impact = DenseDynamics(spec.scene, phase.contacts, spec.gravity).Stop(q, v_before);
+  measures->Raise(Criterion::kVelocityDefect, (v - impact.velocity).cwiseAbs().maxCoeff());
   // An impulse compares with a force that lasts for a tenth of a second.
-  const double floor = 0.1 * kFrictionFloor * BodyWeight(spec);
-  const double ratio = LeastFrictionRatio(spec.scene, phase.contacts, points, impulses, floor);
+  const double weight = 0.1 * BodyWeight(spec);
+  std::vector<Vector3> impulses;
+  Vector3 sum = Vector3::Zero();
+  for (size_t i = 0; i < phase.contacts.size(); ++i) {
+    impulses.push_back(phase.impulses.segment<3>(static_cast<Eigen::Index>(3 * i)));
+    measures->Raise(Criterion::kPull, -impulses.back().z() / weight);
+    sum += impulses.back();
+  }
+  const double ratio = LeastFrictionRatio(spec.scene, phase.contacts, impact.points, impulses, kFrictionFloor * weight);
   measures->Raise(Criterion::kFriction, ratio / spec.friction_coefficient - 1);
+  const Model& model = spec.scene.model;
+  const Vector3 change = Momentum(model, Poses(model, q, v)) - Momentum(model, Poses(model, q, v_before));
+  measures->Raise(Criterion::kMomentum, (change - sum).norm() / model.total_mass());
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ void MeasureJoins(const GaitSpec& spec, const Trajectory& trajectory, Measures* 
       measures->Raise(Criterion::kApproach, lowest.velocity.z());
     }
     const bool jumps = phase.impulses.size() > 0;
-    if (jumps) MeasureImpulses(spec, phase, measures);
+    if (jumps) MeasureImpact(spec, phase, before.end.v, measures);
     const double q_error = (before.end.q - phase.node_positions.col(0)).cwiseAbs().maxCoeff();
     const double v_error = jumps ? 0 : (before.end.v - phase.node_velocities.col(0)).cwiseAbs().maxCoeff();
     measures->Raise(p == 0 ? Criterion::kPeriodicity : Criterion::kPositionDefect, q_error);

@@ -2,6 +2,8 @@
 #ifndef ROLLGAIT_BENCH_VERDICT_AUDIT_MEASURES_H_
 #define ROLLGAIT_BENCH_VERDICT_AUDIT_MEASURES_H_
 
+#include <vector>
+
 #include "core/gait/gait_request.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
@@ -20,18 +22,21 @@ class Measures {
   CriterionValues values_;
 };
 
-// Gap, slip, penetration, overlap, range, velocity and effort, on the polynomials.
+// Gap, slip, penetration, overlap, range, velocity, effort, pull and friction, on the polynomials.
 void MeasurePath(const GaitSpec& spec, const Trajectory& trajectory, Measures* measures);
 // Defects, pull and friction, on the re-integrated motion.
 void MeasureMotion(const GaitSpec& spec, const Trajectory& trajectory, Measures* measures);
-// Where phases and cycles meet: approach, periodicity, defects between phases, friction of impulses.
+// Where phases and cycles meet: approach, periodicity, defects between phases, and impacts.
 void MeasureJoins(const GaitSpec& spec, const Trajectory& trajectory, Measures* measures);
 // Energy and momentum over the whole motion.
 void MeasureBalances(const GaitSpec& spec, const Trajectory& trajectory, Measures* measures);
 
-// N. A normal force below this share of body weight counts as that much where friction is judged.
+// A normal force below this share of body weight (N) counts as that much where friction is judged.
 inline constexpr double kFrictionFloor = 1e-3;
 double BodyWeight(const GaitSpec& spec);
+// Raises pull and friction by forces (N) that act at points (m) on contacts of the scene.
+void MeasureForces(const GaitSpec& spec, const std::vector<int>& contacts, const std::vector<Vector3>& points,
+                   const std::vector<Vector3>& forces, Measures* measures);
 
 }  // namespace rollgait::audit
 

@@ -43,6 +43,17 @@ void MeasureContacts(const Scene& scene, const TrajectoryPhase& phase, const std
   }
 }
 
+// Pull and friction of the forces that the trajectory states.
+void MeasureStatedForces(const GaitSpec& spec, const TrajectoryPhase& phase, const VectorX& numbers,
+                         const std::vector<LinkPose>& poses, Measures* measures) {
+  std::vector<Vector3> points, forces;
+  for (size_t i = 0; i < phase.contacts.size(); ++i) {
+    points.push_back(FindLowestPoint(spec.scene.contacts[static_cast<size_t>(phase.contacts[i])], poses).point);
+    forces.push_back(numbers.segment<3>(static_cast<Eigen::Index>(3 * i)));
+  }
+  MeasureForces(spec, phase.contacts, points, forces, measures);
+}
+
 // Pairs of bodies of the scene, in trees whose scenes have them.
 template <typename SceneWithBodies>
 class PairMeasures {
@@ -83,6 +94,7 @@ void MeasurePath(const GaitSpec& spec, const Trajectory& trajectory, Measures* m
         const std::vector<LinkPose> poses = Poses(spec.scene.model, q, v);
         MeasureLimits(spec.scene.model, q, v, interval.Efforts(theta), measures);
         MeasureContacts(spec.scene, phase, poses, measures);
+        MeasureStatedForces(spec, phase, interval.Forces(theta), poses, measures);
         pairs.Measure(poses, measures);
       }
     }
