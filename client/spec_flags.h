@@ -31,6 +31,7 @@ struct SpecFlags {
   bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false, rigid_trunk = false;
   std::vector<std::string> locks, segments;  // "knee_l=20" in degrees, "thigh=0.45" in m
   std::vector<std::string> costs;  // "torque", "work:0.5" …
+  std::vector<std::string> bounds;  // "max_pull_bw=1e-4" …
 };
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags);

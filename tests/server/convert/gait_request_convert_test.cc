@@ -111,6 +111,33 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.gravity, 1.62);
 }
 
+// Every criterion of the table has a field of its own, and no field is without a criterion.
+TEST(DecodeRequest, EveryBoundArrives) {
+  v1::SolveSpec spec = Parse("model { name: 'planar' } accuracy { level: LEVEL_DRAFT }");
+  EXPECT_TRUE(DecodeRequest(spec).value().accuracy.bounds.empty());
+  const google::protobuf::Reflection& reflection = *v1::Accuracy::GetReflection();
+  for (const CriterionTraits& traits : Criteria()) {
+    const google::protobuf::FieldDescriptor* field = v1::Accuracy::descriptor()->FindFieldByName(traits.field);
+    ASSERT_NE(field, nullptr) << traits.field;
+    EXPECT_EQ(field->cpp_type(), google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) << traits.field;
+    EXPECT_TRUE(field->has_presence()) << traits.field;
+    reflection.SetDouble(spec.mutable_accuracy(), field, traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion)));
+  }
+  int doubles = 0;
+  for (int i = 0; i < v1::Accuracy::descriptor()->field_count(); ++i) {
+    doubles += v1::Accuracy::descriptor()->field(i)->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE ? 1 : 0;
+  }
+  EXPECT_EQ(doubles, kCriterionCount + 1) << "kkt_tolerance is the only other";
+  const GaitRequest request = DecodeRequest(spec).value();
+  ASSERT_EQ(request.accuracy.bounds.size(), static_cast<size_t>(kCriterionCount));
+  const GaitSpec checked = CheckRequest(request).value();
+  for (const CriterionTraits& traits : Criteria()) {
+    const double bound = traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion));
+    EXPECT_EQ(request.accuracy.bounds.at(traits.criterion), bound) << traits.field;
+    EXPECT_EQ(checked.bounds[traits.criterion], bound) << traits.field;
+  }
+}
+
 TEST(DecodeRequest, EveryCostTermArrives) {
   const GaitRequest request = DecodeRequest(Parse(R"(
       costs { squared_torque { joint_weights { key: 'a' value: 2 } } weight: 3 }
