@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kMass = 2, kInertia = 0.03, kRadius = 0.2;
 
-// A ball in space that hops and lands with sideways velocity, which the mirror image of a half cycle turns about. Joints x, y, z, roll, pitch.
+// A ball in space that hops and lands with sideways velocity, which the mirror image of a half cycle turns about. Joints: x, y, z,
+// roll, pitch.
 class Hop : public ::testing::Test {
  protected:
   Hop() {
@@ -56,7 +57,7 @@ class Hop : public ::testing::Test {
     v[3] = -v[3];
     return v;
   }
-  // Makes the first phase start with the plastic impact of the velocities v, by the conservation of angular momentum about the contact.
+  // Makes the first phase start with the plastic impact of the velocities v: angular momentum about the contact is kept.
   void Land(const VectorX& v) {
     const double about = kInertia + kMass * kRadius * kRadius;
     VectorX after(5);
