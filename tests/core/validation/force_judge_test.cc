@@ -75,6 +75,8 @@ TEST_F(SharedFriction, AnInternalForceIsNoFriction) {
 TEST_F(SharedFriction, BelowTheFloorTheFloorCounts) {
   // 4 N over 1 N (the floor, though the first pulls) and 3 N.
   EXPECT_NEAR(Ratio({0, 1}, {50, 0, -7, 0.2, 0, -46, 0, 3, 0, 0}), 1, 1e-12);
+  EXPECT_NEAR(Ratio({0}, {3, 4, 0.5, 0, 0}), 5, 1e-12);
+  EXPECT_NEAR(Ratio({0}, {3, 4, -0.5, 0, 0}), 5, 1e-12);
 }
 
 TEST_F(SharedFriction, TwoContactsInSpaceAgreeWithASearch) {

@@ -99,6 +99,12 @@ TEST_P(JointLimits, RangeBetweenNodes) {
   ExpectOnly(Judge(), Criterion::kJointRange, v * Length() / 4 - 0.02, Middle());
 }
 
+TEST_P(JointLimits, RangePassedInAStraightLine) {
+  trajectory_.phases[0].node_velocities(3, kInterval) = 2;
+  wheel_.position_max = 0.75 * 2 * Length();
+  ExpectOnly(Judge(), Criterion::kJointRange, 0.25 * 2 * Length(), trajectory_.phases[0].node_times[kInterval + 1]);
+}
+
 TEST_P(JointLimits, EffortBetweenPoints) {
   // Radau-2: linear, and largest where there is no point. Others: a parabola, its top away from every point but the middle one.
   const bool linear = trajectory_.points_per_interval == 2;
