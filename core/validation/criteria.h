@@ -72,7 +72,8 @@ struct Excess {
   Criterion criterion;
   double bound;
   Finding finding;
-  double ratio() const { return bound > 0 ? finding.value / bound : kInfinity; }
+  // Over the bound; infinite if the bound is zero or the measure is not a number.
+  double ratio() const { return bound > 0 && finding.value >= 0 ? finding.value / bound : kInfinity; }
 };
 
 // kNotJudged: no criterion has a bound. kExceeded: `excesses` has every bound that is exceeded, largest ratio first.

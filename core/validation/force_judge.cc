@@ -112,7 +112,8 @@ void ForceJudge::AddNormal(int c, double normal, const Instant& at, FindingLog* 
 
 void ForceJudge::AddRatio(int c, double ratio, const Instant& at, FindingLog* log) const {
   extremes_->AddRatio(ratio);
-  const double excess = ratio <= bounds_.friction ? 0.0 : ratio / bounds_.friction - 1;
+  // An infinite ratio is one that is not known; it exceeds even friction without limit.
+  const double excess = ratio == kInfinity ? kInfinity : ratio <= bounds_.friction ? 0.0 : ratio / bounds_.friction - 1;
   log->Raise(Criterion::kFriction, excess, contacts_[c].name, at);
 }
 

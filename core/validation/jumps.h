@@ -37,7 +37,8 @@ JumpErrors MeasureJumps(const Scene& scene, const BodyDynamics& dynamics, const 
 // mirrored in a half cycle; in a motion that is not periodic nothing touches down there.
 std::vector<int> TouchDowns(const Scene& scene, const Trajectory& trajectory, int phase);
 
-// Judges every touch-down: the speed at which the contact point's surface rises just before it, max(0, n·v⁻), m/s. Returns the largest.
+// Judges every touch-down: the speed at which the surface rises at its contact point just before it, max(0, n·v⁻), m/s. Returns
+// the largest.
 double MeasureApproach(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, FindingLog* log);
 
 }  // namespace rollgait

@@ -62,7 +62,8 @@ TEST(LeastRatioShift, AgreesWithASearch) {
   SeededRandom random(1);
   int bottoms = 0;
   for (int trial = 0; trial < 3000; ++trial) {
-    const Vector2d t_1(random.Uniform(-300, 300), random.Uniform(-100, 100)), t_2(random.Uniform(-300, 300), random.Uniform(-100, 100));
+    const Vector2d t_1(random.Uniform(-300, 300), random.Uniform(-100, 100));
+    const Vector2d t_2(random.Uniform(-300, 300), random.Uniform(-100, 100));
     const double n_1 = random.Uniform(1, 500), n_2 = trial % 5 == 0 ? n_1 : random.Uniform(1, 500);
     const Vector2d d(random.Uniform(-1, 1), random.Uniform(-1, 1));
     const auto ratio = [&](double s) { return std::max((t_1 + s * d).norm() / n_1, (t_2 - s * d).norm() / n_2); };

@@ -106,6 +106,29 @@ TEST_P(SamplingTest, ReusesItsVectors) {
   EXPECT_TRUE(MatrixNear(sample.position, Sample(trajectory_, 0, 1, 0.25).position, 0));
 }
 
+TEST_P(SamplingTest, PolynomialsAreWhatIsEvaluated) {
+  const IntervalPolynomials interval(trajectory_, 0, 1);
+  double room[8];
+  const auto value = [](std::span<const double> c, double x) {
+    double sum = 0, power = 1;
+    for (double coefficient : c) sum += coefficient * power, power *= x;
+    return sum;
+  };
+  for (double theta : {0.0, 0.3, 1.0}) {
+    const MotionSample sample = Sample(trajectory_, 0, 1, theta);
+    for (int j = 0; j < sample.position.size(); ++j) {
+      EXPECT_NEAR(value(interval.PositionPolynomial(j, room), theta), sample.position[j], 1e-13);
+      EXPECT_NEAR(value(interval.VelocityPolynomial(j, room), theta), sample.velocity[j], 1e-13);
+    }
+    for (int a = 0; a < sample.efforts.size(); ++a) {
+      EXPECT_NEAR(value(interval.EffortPolynomial(a, room), theta), sample.efforts[a], 1e-13);
+    }
+    for (int f = 0; f < sample.forces.size(); ++f) {
+      EXPECT_NEAR(value(interval.ForcePolynomial(f, room), theta), sample.forces[f], 1e-13);
+    }
+  }
+}
+
 // Radau IIA with 2 and 3 points, and the three points of Hermite–Simpson.
 TEST_P(SamplingTest, FilledPointStatesAreSamples) {
   FillPointStates(&trajectory_);
