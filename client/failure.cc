@@ -141,12 +141,17 @@ ExitCode ExitCodeOf(const v1::Solve& solve) {
   switch (solve.result().termination()) {
     case v1::TERMINATION_OPTIMAL:
     case v1::TERMINATION_ACCEPTABLE:
-      return ExitCode::kSuccess;
+      return solve.result().accuracy().verdict() == v1::VERDICT_EXCEEDED ? ExitCode::kMissesBound : ExitCode::kSuccess;
     case v1::TERMINATION_CANCELLED:
       return ExitCode::kCancelled;
     default:
       return ExitCode::kNoSolution;
   }
+}
+
+bool HasSolution(const v1::Solve& solve) {
+  const ExitCode code = ExitCodeOf(solve);
+  return code == ExitCode::kSuccess || code == ExitCode::kMissesBound;
 }
 
 std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {

@@ -13,7 +13,7 @@ namespace rollgait::client {
 
 // The process's exit code; a contract with scripts, printed by `rollgait --help`.
 enum class ExitCode {
-  kSuccess = 0,      // Done; a solve that was waited for is optimal or acceptable.
+  kSuccess = 0,      // Done; a solve that was waited for is optimal or acceptable, and within its accuracy bounds if it has any.
   kInternal = 1,     // A defect, here or in the server, or an output that could not be written.
   kUsage = 2,        // The command line, or a request that the server refuses.
   kUnreachable = 3,  // No server, no answer in time, or the server is too busy.
@@ -21,6 +21,7 @@ enum class ExitCode {
   kRunFailed = 5,    // The run ended without an answer: crash, CPU limit, memory limit.
   kCancelled = 6,
   kNotFound = 7,
+  kMissesBound = 8,  // The solve is optimal or acceptable, but its trajectory misses an accuracy bound of the request.
 };
 
 // Ends a command. Thrown anywhere in the client, turned into a message and an exit code in one place (RunClient).
@@ -36,8 +37,10 @@ class Failure : public std::runtime_error {
 // The exit code of a call that ended with this status.
 ExitCode ExitCodeOf(const grpc::Status& status);
 
-// The exit code of a finished solve. kInternal for one that is not finished.
+// The exit code of a finished solve. kInternal for one that is not finished. A solve that was not judged is a success.
 ExitCode ExitCodeOf(const v1::Solve& solve);
+// True if the solve ended optimal or acceptable, whatever its accuracy.
+bool HasSolution(const v1::Solve& solve);
 
 // Whose ranges and time limits a refusal speaks of.
 enum class CallKind { kSolve, kScene };

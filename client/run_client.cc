@@ -9,7 +9,7 @@ namespace rollgait::client {
 namespace {
 
 constexpr char kExitCodes[] = R"(Exit codes:
-  0  done; a solve that was waited for is optimal or acceptable
+  0  done; a solve that was waited for is optimal or acceptable, within its accuracy bounds or not judged (draft)
   1  internal error, here or in the server, or a file that could not be written
   2  wrong command line, or a request that the server refuses (INVALID_ARGUMENT, a token that is missing or not enough)
   3  no server, no answer in time, or a server too busy to answer
@@ -17,6 +17,7 @@ constexpr char kExitCodes[] = R"(Exit codes:
   5  the run failed: crash, CPU limit or memory limit
   6  cancelled
   7  no such solve or model
+  8  the solve is optimal or acceptable, but the trajectory misses an accuracy bound
 
 Environment:
   ROLLGAIT_SERVER  HOST:PORT of the server, as --server

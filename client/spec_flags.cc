@@ -3,24 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <map>
-#include <sstream>
 
+#include "client/bound_flags.h"
 #include "client/failure.h"
+#include "client/flag_values.h"
 #include "client/json.h"
 #include "client/text.h"
 
 namespace rollgait::client {
 namespace {
-
-// The value that the word stands for.
-template <typename Enum>
-Enum Lookup(const std::string& flag, const std::string& word, const std::map<std::string, Enum>& words) {
-  const auto found = words.find(word);
-  if (found != words.end()) return found->second;
-  std::string known;
-  for (const auto& [name, value] : words) known += (known.empty() ? "" : ", ") + name;
-  throw Failure(ExitCode::kUsage, flag + " " + word + ": must be one of " + known);
-}
 
 double ParseWeight(const std::string& cost, const std::string& text) {
   try {
@@ -79,43 +70,6 @@ v1::CostTerm ParseCost(const std::string& cost) {
   return term;
 }
 
-// "NAME=NUMBER".
-std::pair<std::string, double> ParseAssignment(const std::string& flag, const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals != std::string::npos && equals > 0) {
-    try {
-      size_t used = 0;
-      const std::string number = text.substr(equals + 1);
-      const double value = std::stod(number, &used);
-      if (used == number.size()) return {text.substr(0, equals), value};
-    } catch (const std::logic_error&) {
-      // Not a number; said below.
-    }
-  }
-  throw Failure(ExitCode::kUsage, flag + " " + text + ": must be NAME=NUMBER");
-}
-
-// "1,-2.5": numbers separated by commas, as many as one of `counts`.
-std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,
-                                 const std::vector<size_t>& counts) {
-  std::vector<double> numbers;
-  bool good = true;
-  std::istringstream parts(text);
-  for (std::string part; good && std::getline(parts, part, ',');) {
-    try {
-      size_t used = 0;
-      numbers.push_back(std::stod(part, &used));
-      good = used == part.size();
-    } catch (const std::logic_error&) {
-      good = false;
-    }
-  }
-  for (const size_t count : counts) {
-    if (good && numbers.size() == count && text.back() != ',') return numbers;
-  }
-  throw Failure(ExitCode::kUsage, flag + " " + text + ": must be " + form);
-}
-
 // "A" or "A,B": one value or the range between two.
 void ApplyRange(const std::string& flag, const std::string& text, v1::Range& range) {
   const std::vector<double> numbers =
@@ -132,6 +86,7 @@ void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
         Lookup<v1::TouchDown>("--touch-down", *flags.touch_down,
                               {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
   }
+  if (flags.allow_overlap) spec.mutable_limits()->set_allow_body_overlap(true);
   if (flags.touch_down_point) {
     ApplyRange("--touch-down-point", *flags.touch_down_point, *spec.mutable_ground_contact()->mutable_touch_down_point());
   }
@@ -210,6 +165,7 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
         "--accuracy", *flags.accuracy,
         {{"draft", Accuracy::LEVEL_DRAFT}, {"standard", Accuracy::LEVEL_STANDARD}, {"fine", Accuracy::LEVEL_FINE}}));
   }
+  if (!flags.bounds.empty()) ApplyBounds(flags.bounds, *spec.mutable_accuracy());
   if (flags.tolerance) spec.mutable_accuracy()->set_kkt_tolerance(*flags.tolerance);
   if (flags.max_refinements) spec.mutable_accuracy()->set_max_refinements(*flags.max_refinements);
   if (flags.max_iterations) spec.mutable_solver_limits()->set_max_iterations(*flags.max_iterations);
@@ -224,8 +180,7 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
   command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")->group("Body");
   command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
-      ->group("Body")
-      ->take_all();
+      ->group("Body")->take_all();
   command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
   command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
@@ -233,8 +188,7 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
   command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
   command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
-      ->group("Body")
-      ->take_all();
+      ->group("Body")->take_all();
 }
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
@@ -256,6 +210,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--touch-down", flags.touch_down, "Motion", "How feet come down: smooth (at rest) or plastic (an impact stops them)");
   add("--touch-down-point", flags.touch_down_point, "Motion", "Where a surface touches down: A or A,B from -1 (heel) to 1 (toe)");
   add("--lift-off-point", flags.lift_off_point, "Motion", "Where a surface lifts off, likewise");
+  command.add_flag("--allow-overlap", flags.allow_overlap, "Legs, feet and arms may pass through each other")->group("Motion");
   add("--from", flags.from, "Manoeuvre", "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
   add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
   add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");
@@ -268,6 +223,9 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
   add("--accuracy", flags.accuracy, "Numerics", "draft, standard or fine");
+  add("--bound", flags.bounds, "Numerics",
+      "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for example max_pull_bw=1e-4; may be repeated")
+      ->take_all();
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 6]");
   add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");

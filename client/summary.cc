@@ -78,8 +78,7 @@ Rows AccuracyRows(const v1::Solve& solve, bool color) {
   for (const AccuracyLine& line : AccuracyLines(solve)) {
     std::string bound;
     if (line.bound) {
-      const bool met = line.value <= *line.bound;
-      bound = Paint(met ? "≤ " : "exceeds ", met ? Tone::kGood : Tone::kBad, color) + FormatNumber(*line.bound);
+      bound = Paint(line.exceeded ? "exceeds " : "≤ ", line.exceeded ? Tone::kBad : Tone::kGood, color) + FormatNumber(*line.bound);
     }
     std::string note = bound + (bound.empty() || line.where.empty() ? "" : "; ") + line.where;
     rows.push_back({"  " + line.name, FormatNumber(line.value, 3), line.unit, note});
@@ -124,6 +123,7 @@ std::string Verdict(const v1::Solve& solve) {
   switch (solve.state()) {
     case v1::SOLVE_STATE_SUCCEEDED:
       return TerminationName(solve.result().termination()) +
+             (HasSolution(solve) ? ", accuracy " + AccuracyVerdict(solve) : "") +
              (solve.result().message().empty() ? "" : ": " + solve.result().message());
     case v1::SOLVE_STATE_FAILED:
       return "failed (" + ErrorKindName(solve.error().kind()) + "): " + solve.error().message();
@@ -149,9 +149,7 @@ std::string Summarize(const v1::Solve& solve, bool color) {
     text += Section("Cost", CostRows(result), "lr", color);
   }
   if (result.has_accuracy()) {
-    text += Section(result.accuracy().within_requested_accuracy() ? "Accuracy (within what was requested)"
-                                                                  : "Accuracy (NOT within what was requested)",
-                    AccuracyRows(solve, color), "lr", color);
+    text += Section("Accuracy: " + AccuracyVerdict(solve), AccuracyRows(solve, color), "lr", color);
   }
   text += Section("Beside people on level ground", NormativeRows(result.normative()), "lrrr", color);
   return text + EffortLine(solve);

@@ -59,6 +59,10 @@ std::string TerminationName(v1::Termination termination) {
   return Words(v1::Termination_Name(termination), "TERMINATION_");
 }
 
+std::string VerdictName(v1::Verdict verdict) {
+  return Words(v1::Verdict_Name(verdict == v1::VERDICT_UNSPECIFIED ? v1::VERDICT_NOT_JUDGED : verdict), "VERDICT_");
+}
+
 std::string ErrorKindName(v1::SolveError::Kind kind) { return Words(v1::SolveError::Kind_Name(kind), "KIND_"); }
 
 std::string SchemeName(v1::Discretization::Scheme scheme) {

@@ -26,6 +26,8 @@ std::string FormatTime(const google::protobuf::Timestamp& time);
 // Lower-case words for people: "running", "iteration limit" …
 std::string StateName(v1::SolveState state);
 std::string TerminationName(v1::Termination termination);
+// "within", "exceeded", "not judged"; the last also for a result that says nothing of it.
+std::string VerdictName(v1::Verdict verdict);
 std::string ErrorKindName(v1::SolveError::Kind kind);
 std::string SchemeName(v1::Discretization::Scheme scheme);
 // "INVALID_ARGUMENT", as gRPC spells it.

@@ -90,6 +90,9 @@ ExitCode FollowToEnd(Connection& connection, const std::string& name, const Foll
     terminal.out << Summarize(solve, terminal.out_color) << std::flush;
   }
   const ExitCode code = ExitCodeOf(solve);
+  if (connection.options().quiet && code != ExitCode::kSuccess) {
+    terminal.err << "rollgait: " << solve.name() << "  " << Verdict(solve) << std::endl;
+  }
   if (!output.empty()) {
     try {
       WriteSolve(solve, output);

@@ -29,8 +29,11 @@ std::vector<std::string> ListRow(const v1::Solve& solve) {
   };
   const bool timed = solve.has_start_time() && solve.has_end_time();
   const auto& motion = solve.spec().motion();
+  const v1::SolveOutcome& outcome = solve.outcome();
   return {solve.name(),
           StateName(solve.state()),
+          outcome.termination() == v1::TERMINATION_UNSPECIFIED ? "-" : TerminationName(outcome.termination()),
+          solve.has_outcome() ? VerdictName(outcome.verdict()) : "-",
           solve.spec().model().name(),
           FormatNumber(solve.spec().slope_rad() * 180 / kPi) + "°",
           motion.has_speed_m_s() ? FormatNumber(motion.speed_m_s()) + " m/s"
@@ -93,8 +96,8 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
     more = !response.next_page_token().empty();
   }
   if (!global.json && !rows.empty()) {
-    rows.insert(rows.begin(), {"NAME", "STATE", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
-    terminal.out << FormatTable(rows, "lllrr");
+    rows.insert(rows.begin(), {"NAME", "STATE", "ENDED", "ACCURACY", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
+    terminal.out << FormatTable(rows, "lllllrr");
   }
   terminal.out << std::flush;
   if (!global.quiet && !global.json && rows.empty()) terminal.err << "no solves" << std::endl;

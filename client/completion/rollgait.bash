@@ -7,9 +7,9 @@ _rollgait() {
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
   local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
-    --touch-down --touch-down-point --lift-off-point
+    --touch-down --touch-down-point --lift-off-point --allow-overlap
     --from --to --duration --duty-factor
-    --preset --cost --normalize --starts --warm-start --scheme --intervals --double-intervals --accuracy --tolerance --max-refinements
+    --preset --cost --normalize --starts --warm-start --scheme --intervals --double-intervals --accuracy --bound --tolerance --max-refinements
     --max-iterations --time-limit --output"
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     if [[ " $commands " == *" $word "* ]]; then command=$word; break; fi
@@ -19,6 +19,9 @@ _rollgait() {
     --scheme) COMPREPLY=($(compgen -W "radau2 radau3 hermite-simpson" -- "$current")); return ;;
     --cycle) COMPREPLY=($(compgen -W "half full" -- "$current")); return ;;
     --accuracy) COMPREPLY=($(compgen -W "draft standard fine" -- "$current")); return ;;
+    --bound) COMPREPLY=($(compgen -S = -W "max_gap_m max_slip_m_s max_penetration_m max_overlap_m max_position_defect max_velocity_defect
+      max_range_excess max_velocity_excess max_effort_excess max_pull_bw max_friction_excess max_separation_speed_m_s max_periodicity_error
+      max_energy_error max_momentum_error_m_s" -- "$current")); compopt -o nospace 2> /dev/null; return ;;
     --cost) COMPREPLY=($(compgen -W "torque torque-rate force-rate work time effort muscle-work passive-load acceleration" -- "$current")); return ;;
     --feet) COMPREPLY=($(compgen -W "one two" -- "$current")); return ;;
     --touch-down) COMPREPLY=($(compgen -W "smooth plastic" -- "$current")); return ;;

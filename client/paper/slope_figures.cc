@@ -44,7 +44,7 @@ SlopeFigures MeasureSlope(const v1::Solve& solve) {
   figures.solve = solve.name();
   figures.wall_time_s = result.wall_time_s();
   if (!result.has_trajectory() || result.trajectory().phases_size() == 0 || !result.has_model()) return figures;
-  figures.solved = ExitCodeOf(solve) == ExitCode::kSuccess;
+  figures.solved = HasSolution(solve);
   figures.mirrored = result.trajectory().cycle() != v1::CYCLE_FULL;
 
   const v1::Model& model = result.model();

@@ -9,7 +9,7 @@ function paperHead() {
     el("p", {}, `${DATA.paper.statements.length} statements of the paper: our figures agree with ${count("agrees")}, disagree with ${count("disagrees")}, and leave ${count("open")} open.`));
   page.append(table(["Slope", "How it ended", "Accuracy", "Speed", "Step length", "Stride", "Iterations", "Time"], SOLVES.map((s) => [labelOf(s),
     el("span", { class: `verdict ${s.good ? "good" : "bad"}` }, s.verdict),
-    el("span", { class: `badge ${s.accurate ? "good" : "bad"}` }, s.accurate ? "as requested" : "not as requested"),
+    accuracyBadge(s),
     s.stride ? `${fmt(s.speed)} m/s` : "–", s.stride ? `${fmt(s.step_length)} m` : "–", s.stride ? `${fmt(s.stride.duration, 3)} s` : "–", String(s.iterations), s.wall]), [3, 4, 5, 6, 7]));
 }
 

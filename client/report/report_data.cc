@@ -117,7 +117,8 @@ json AccuracyRows(const v1::Solve& solve) {
                     {"unit", line.unit},
                     {"where", line.where},
                     {"explanation", line.explanation},
-                    {"bound", line.bound ? json(*line.bound) : json()}});
+                    {"bound", line.bound ? json(*line.bound) : json()},
+                    {"exceeded", line.exceeded}});
   }
   return rows;
 }
@@ -155,7 +156,8 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"slope_rad", solve.spec().slope_rad()},
           {"verdict", Verdict(solve)},
           {"good", good},
-          {"accurate", good && result.accuracy().within_requested_accuracy()},
+          {"accurate", VerdictName(result.accuracy().verdict())},
+          {"accuracy_verdict", AccuracyVerdict(solve)},
           {"created", FormatTime(solve.create_time())},
           {"from_cache", solve.from_cache()},
           {"request", RequestRows(solve.spec())},

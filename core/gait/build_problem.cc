@@ -145,6 +145,8 @@ double TurningMoment(const GaitSpec& spec) {
 std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   auto problem = std::make_unique<OptimalControlProblem>(spec.scene.model);
   problem->contacts = spec.scene.contacts;
+  problem->bodies = spec.scene.bodies;
+  problem->pairs = spec.scene.pairs;
   problem->gravity = spec.gravity;
   for (const GaitSpec::Phase& phase : spec.phases) {
     problem->phases.push_back({phase.contacts, {phase.min_duration, phase.max_duration}});

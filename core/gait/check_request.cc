@@ -46,13 +46,20 @@ struct CheckedAccuracy {
   int max_refinements;
 };
 
-CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestCheck& check) {
+CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_overlap, RequestCheck& check) {
   using Level = GaitRequest::AccuracyLevel;
   const bool is_draft = accuracy.level == Level::kDraft;
   CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
   for (const auto& [criterion, bound] : accuracy.bounds) {
     const CriterionTraits& traits = TraitsOf(criterion);
     bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, traits.unit});
+  }
+  if (allow_overlap) {
+    if (accuracy.bounds.count(Criterion::kOverlap) > 0) {
+      check.Add(std::string("accuracy.") + TraitsOf(Criterion::kOverlap).field,
+                "bounds what limits.allow_body_overlap leaves free; leave one of the two out");
+    }
+    bounds[Criterion::kOverlap] = kInfinity;
   }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
           check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 5, 0, 6)};
@@ -105,7 +112,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);
   std::vector<Joint> joints = CheckLimits(request, known, similarity, check);
-  const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, check);
+  const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, request.limits.allow_body_overlap, check);
   const int max_iterations =
       check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, once ? 5000 : 1000, 1, 100000);
   const double max_wall_time =
@@ -145,6 +152,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .touch_down = request.ground_contact.touch_down,
                   .scheme = request.discretization.scheme,
                   .kkt_tolerance = accuracy.kkt_tolerance,
+                  .allow_body_overlap = request.limits.allow_body_overlap,
                   .bounds = accuracy.bounds,
                   .max_refinements = accuracy.max_refinements,
                   .max_iterations = max_iterations,

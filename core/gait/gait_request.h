@@ -89,6 +89,7 @@ struct GaitRequest {
     std::map<std::string, Range> joint_position;
     std::map<std::string, double> joint_velocity;
     std::map<std::string, Range> joint_effort;
+    bool allow_body_overlap = false;
   } limits;
   struct Discretization {
     Scheme scheme = Scheme::kRadau2;
@@ -140,7 +141,8 @@ struct GaitSpec {
   GaitRequest::TouchDown touch_down;
   Scheme scheme;
   double kkt_tolerance;
-  CriterionValues bounds;  // all infinite: the trajectory is not judged
+  bool allow_body_overlap;  // bodies may pass through each other; the bound of the overlap is then infinite
+  CriterionValues bounds;   // all infinite: the trajectory is not judged
   int max_refinements;
   int max_iterations;
   double max_wall_time;

@@ -267,8 +267,21 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.message += " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || IsDone(solution) || spec.max_refinements == 0) break;
-    if (IsArtefact(spec, solution)) {
+    if (!Converged(result.termination) || IsDone(solution)) break;
+    const bool is_artefact = IsArtefact(spec, solution);
+    if (!is_artefact && additions < kMostAdditions && AddOverlapping(spec, *solution.accuracy, &added)) {
+      // Bodies that overlapped move a long way, on the same mesh first. From a guess, which has the legs on their sides, the way is
+      // shorter than from a motion that has them crossed.
+      ++additions;
+      if (guess.near_solution) {
+        guess = GuessFromTrajectory(*solution.trajectory);
+        options = OptionsForNeighbour(spec);
+        previous = std::move(current);
+      }
+      continue;
+    }
+    if (spec.max_refinements == 0) break;
+    if (is_artefact) {
       if (refinements++ == spec.max_refinements) break;
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);

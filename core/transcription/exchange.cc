@@ -31,6 +31,7 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
       }
       ++index;
     }
+    ShareForces(p, x.data() + first);
   };
   for (int p = 0; p < layout_.phases(); ++p) {
     if (!layout_.jumps(p)) continue;
@@ -52,6 +53,29 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
   }
   set_node(layout_.node(layout_.intervals()), guess.motion(layout_.phases() - 1, 1));
   return x;
+}
+
+void CollocationNlp::ShareForces(int p, double* forces) const {
+  const std::vector<ActiveContact> active = problem_.ActiveContacts(p);
+  for (const ActiveContact& contact : active) {
+    double normal = 0, along = 0;
+    int count = 0;
+    const auto normal_of = [forces](const ActiveContact& of) -> double {
+      return forces[of.offset + static_cast<int>(of.directions.size()) - 1];
+    };
+    for (const ActiveContact& other : active) {
+      if (problem_.contacts[other.contact].joint != problem_.contacts[contact.contact].joint) continue;
+      if (other.offset < contact.offset) count = -static_cast<int>(active.size());  // the first of its link does it for all
+      normal += normal_of(other);
+      along += forces[other.offset];
+      ++count;
+    }
+    if (count < 2 || normal <= 0 || contact.directions.front() != 0) continue;
+    for (const ActiveContact& other : active) {
+      if (problem_.contacts[other.contact].joint != problem_.contacts[contact.contact].joint) continue;
+      forces[other.offset] = along * normal_of(other) / normal;
+    }
+  }
 }
 
 Trajectory CollocationNlp::Extract(const double* x) {

@@ -72,6 +72,18 @@ RollingEllipsoidRequest DecodeRollingBody(const v1::RollingBody& body) {
   return decoded;
 }
 
+// The field of a criterion is found by its name in the table; tests hold that each is there and is an optional double.
+std::map<Criterion, double> DecodeBounds(const v1::Accuracy& accuracy) {
+  std::map<Criterion, double> bounds;
+  for (const CriterionTraits& traits : Criteria()) {
+    const google::protobuf::FieldDescriptor* field = v1::Accuracy::descriptor()->FindFieldByName(traits.field);
+    ROLLGAIT_CHECK(field != nullptr);
+    const google::protobuf::Reflection& reflection = *v1::Accuracy::GetReflection();
+    if (reflection.HasField(accuracy, field)) bounds[traits.criterion] = reflection.GetDouble(accuracy, field);
+  }
+  return bounds;
+}
+
 BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1::ModelSelection& selection) {
   BodyRequest body;
   body.model = selection.name();
@@ -242,15 +254,13 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.ground_contact = DecodeGround(spec.ground_contact());
   request.ground_contact.touch_down = DecodeTouchDown(spec.ground_contact().touch_down());
   request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
-                    DecodeRanges(spec.limits().joint_effort())};
+                    DecodeRanges(spec.limits().joint_effort()), spec.limits().allow_body_overlap()};
   request.discretization = {DecodeScheme(spec.discretization().scheme()),
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
                             ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};
   const v1::Accuracy& accuracy = spec.accuracy();
-  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance), {},
+  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance), DecodeBounds(accuracy),
                       ROLLGAIT_OPTIONAL(accuracy, max_refinements)};
-  if (accuracy.has_max_gap_m()) request.accuracy.bounds[Criterion::kGap] = accuracy.max_gap_m();
-  if (accuracy.has_max_slip_m_s()) request.accuracy.bounds[Criterion::kSlip] = accuracy.max_slip_m_s();
   request.solver_limits = {ROLLGAIT_OPTIONAL(spec.solver_limits(), max_iterations),
                            ROLLGAIT_OPTIONAL(spec.solver_limits(), max_wall_time_s)};
   request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);

@@ -51,6 +51,18 @@ v1::Cycle EncodeCycle(Cycle cycle) {
   ROLLGAIT_CHECK(false);
 }
 
+v1::Verdict EncodeVerdict(Verdict::Kind kind) {
+  switch (kind) {
+    case Verdict::Kind::kNotJudged:
+      return v1::VERDICT_NOT_JUDGED;
+    case Verdict::Kind::kWithin:
+      return v1::VERDICT_WITHIN;
+    case Verdict::Kind::kExceeded:
+      return v1::VERDICT_EXCEEDED;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
 // One column per time becomes one row per time; column-major in, row-major out, so the numbers keep their order.
 void EncodeTimes(const MatrixX& columns, v1::Matrix* matrix) {
   matrix->set_rows(static_cast<int>(columns.cols()));
@@ -75,7 +87,21 @@ void EncodePhase(const TrajectoryPhase& phase, const Scene& scene, v1::Trajector
   encoded->set_impact_loss_j(phase.impact_loss);
 }
 
-v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSolution& solution, const Model& model) {
+// `bound` infinite: not judged.
+void EncodeCriterion(const CriterionTraits& traits, const Finding& finding, double bound, v1::CriterionResult* encoded) {
+  encoded->set_criterion(traits.field);
+  encoded->set_value(finding.value);
+  if (bound != kInfinity) encoded->set_bound(bound);
+  encoded->set_unit(traits.unit);
+  encoded->set_meaning(traits.meaning);
+  encoded->set_where(finding.where);
+  encoded->set_phase(finding.phase);
+  encoded->set_time_s(finding.time);
+  encoded->set_exceeded(bound != kInfinity && !(finding.value <= bound));
+}
+
+v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSolution& solution, const Model& model,
+                                  const CriterionValues& bounds) {
   const auto joint_name = [&](int joint) {
     return joint >= 0 && joint < model.size() ? model.joint(joint).name : std::string();
   };
@@ -104,6 +130,10 @@ v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSoluti
   encoded.set_kkt_error(solution.kkt_error);
   encoded.set_constraint_violation(solution.constraint_violation);
   encoded.set_within_requested_accuracy(solution.within_requested_accuracy());
+  encoded.set_verdict(EncodeVerdict(solution.verdict.kind));
+  for (const CriterionTraits& traits : Criteria()) {
+    EncodeCriterion(traits, report.findings[static_cast<int>(traits.criterion)], bounds[traits.criterion], encoded.add_criteria());
+  }
   return encoded;
 }
 
@@ -187,7 +217,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
     result.mutable_multipliers()->mutable_bounds()->Add(bounds.begin(), bounds.end());
   }
   if (solution.accuracy) {
-    *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model);
+    *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model, spec.bounds);
   }
   if (solution.events) *result.mutable_gait_events() = EncodeGaitEvents(*solution.events, scene);
   if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);

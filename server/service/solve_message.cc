@@ -44,6 +44,10 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
   if (!record.error.empty() && !solve.mutable_error()->ParseFromString(record.error)) {
     return Unreadable("error", record.id);
   }
+  if (record.state == SolveState::kSucceeded) {
+    solve.mutable_outcome()->set_termination(static_cast<v1::Termination>(record.termination));
+    solve.mutable_outcome()->set_verdict(static_cast<v1::Verdict>(record.verdict));
+  }
   solve.set_attempts(record.attempts);
   solve.set_from_cache(record.from_cache);
   solve.set_last_sequence(record.last_sequence);

@@ -69,7 +69,8 @@ LocalExit SolveLocally(const std::string& json, GaitSolver& solver, const StopFl
     return kLocalFailed;
   }
   const bool solved = solution.termination == Termination::kOptimal || solution.termination == Termination::kAcceptable;
-  return solved ? kLocalSolved : kLocalNoSolution;
+  if (!solved) return kLocalNoSolution;
+  return solution.verdict.kind == Verdict::Kind::kExceeded ? kLocalMissesBound : kLocalSolved;
 }
 
 }  // namespace rollgait::server

@@ -2,6 +2,10 @@
 
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "rollgait/v1/solve.pb.h"
 
 namespace rollgait::server {
 namespace {
@@ -145,9 +149,33 @@ void From1To2(SqlConnection& connection) {
 
 void From2To3(SqlConnection& connection) { connection.Execute(kBytes); }
 
+// What lists show of a result without reading it: the numbers of v1::Termination and v1::Verdict; 0: not known.
+constexpr char kOutcomes[] = R"(
+ALTER TABLE results ADD COLUMN termination BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE results ADD COLUMN verdict BIGINT NOT NULL DEFAULT 0;
+)";
+
+// The termination is the first field of a v1::SolveResult: the byte of its tag, then its number. Older results have no verdict.
+void From3To4(SqlConnection& connection) {
+  connection.Execute(kOutcomes);
+  std::vector<std::pair<int64_t, int64_t>> terminations;
+  {
+    Query query(connection, "SELECT id, SUBSTR(payload, 1, 2) FROM results ORDER BY id");
+    while (query.Step()) {
+      const std::string start = query.Bytes(1);
+      constexpr char kTag = v1::SolveResult::kTerminationFieldNumber << 3;
+      const bool known = start.size() == 2 && start[0] == kTag && v1::Termination_IsValid(start[1]);
+      if (known) terminations.emplace_back(query.Int(0), start[1]);
+    }
+  }
+  for (const auto& [id, termination] : terminations) {
+    Query::Do(connection, "UPDATE results SET termination = ? WHERE id = ?", termination, id);
+  }
+}
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

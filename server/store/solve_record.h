@@ -35,6 +35,8 @@ struct SolveRecord {
   int64_t last_sequence = 0;     // number of its newest event
   int64_t trimmed_sequence = 0;  // events up to here are no longer held
   std::string result;         // v1::SolveResult; empty unless kSucceeded
+  // What the result says, also where it is left out: v1::Termination, v1::Verdict. 0: no result, or written before they were kept.
+  int termination = 0, verdict = 0;
   std::string error;          // v1::SolveError; empty unless kFailed or kCancelled
 };
 

@@ -66,6 +66,13 @@ SolveRow ReadSolve(const Query& query) {
   return row;
 }
 
+SolveRow ReadSolveAndOutcome(const Query& query) {
+  SolveRow row = ReadSolve(query);
+  row.record.termination = static_cast<int>(query.Int(kSolveColumns));
+  row.record.verdict = static_cast<int>(query.Int(kSolveColumns + 1));
+  return row;
+}
+
 std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id) {
   if (!CouldBeId(id)) return std::nullopt;
   Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE id = ? {for_update}", id);

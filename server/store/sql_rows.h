@@ -27,12 +27,20 @@ struct SolveRow {
   "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, " \
   "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
 inline constexpr int kSolveColumns = 22;
+// Behind them, where a query asks for them: what is known of the result without reading it.
+#define ROLLGAIT_OUTCOME_COLUMNS                                       \
+  ", (SELECT r.termination FROM results AS r WHERE r.id = result_id)" \
+  ", (SELECT r.verdict FROM results AS r WHERE r.id = result_id) "
+inline constexpr int kSolveAndOutcomeColumns = kSolveColumns + 2;
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
 
 // The row that a query over ROLLGAIT_SOLVE_COLUMNS stands on.
 SolveRow ReadSolve(const Query& query);
+
+// Likewise over ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS.
+SolveRow ReadSolveAndOutcome(const Query& query);
 
 // Nobody else changes the row until the end of the transaction.
 std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id);

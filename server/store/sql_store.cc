@@ -17,8 +17,12 @@ Error NoSuchSolve(const std::string& id) {
 // The record with its result.
 SolveRecord FullRecord(SqlConnection& connection, SolveRow row) {
   if (row.result_id != 0) {
-    Query query(connection, "SELECT payload FROM results WHERE id = ?", row.result_id);
-    if (query.Step()) row.record.result = query.Bytes(0);
+    Query query(connection, "SELECT payload, termination, verdict FROM results WHERE id = ?", row.result_id);
+    if (query.Step()) {
+      row.record.result = query.Bytes(0);
+      row.record.termination = static_cast<int>(query.Int(1));
+      row.record.verdict = static_cast<int>(query.Int(2));
+    }
   }
   return std::move(row.record);
 }
@@ -42,23 +46,25 @@ Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) 
   const int state = static_cast<int>(query.state.value_or(SolveState::kQueued));
   if (query.tenant.has_value() && query.state.has_value()) {
     return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
                  "FROM solves WHERE tenant = ? AND state = ? AND number < ? ORDER BY number DESC LIMIT ?",
                  *query.tenant, state, before, limit);
   }
   if (query.tenant.has_value()) {
     return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
                  "FROM solves WHERE tenant = ? AND number < ? ORDER BY number DESC LIMIT ?",
                  *query.tenant, before, limit);
   }
   if (query.state.has_value()) {
     return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
                  "FROM solves WHERE state = ? AND number < ? ORDER BY number DESC LIMIT ?",
                  state, before, limit);
   }
-  return Query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE number < ? ORDER BY number DESC LIMIT ?",
+  return Query(connection,
+               "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
+               "FROM solves WHERE number < ? ORDER BY number DESC LIMIT ?",
                before, limit);
 }
 
@@ -77,12 +83,12 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
   return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveRecord> {
     Query query(connection,
-                "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
                 ", (SELECT payload FROM results WHERE results.id = solves.result_id) FROM solves WHERE id = ?",
                 id);
     if (!query.Step()) return NoSuchSolve(id);
-    SolveRecord record = ReadSolve(query).record;
-    record.result = query.Bytes(kSolveColumns);
+    SolveRecord record = ReadSolveAndOutcome(query).record;
+    record.result = query.Bytes(kSolveAndOutcomeColumns);
     return record;
   });
 }
@@ -117,7 +123,7 @@ Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
         page.next_page_token = MakePageToken(last_number, query);
         break;
       }
-      SolveRow row = ReadSolve(rows);
+      SolveRow row = ReadSolveAndOutcome(rows);
       last_number = row.number;
       bytes += row.record.spec.size() + row.record.error.size();
       page.records.push_back(std::move(row.record));

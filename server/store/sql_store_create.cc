@@ -25,13 +25,15 @@ struct Questions {
 Questions::Questions(SqlConnection& connection, const NewSolve& solve) {
   if (!solve.request_id.empty()) {
     earlier.emplace(connection,
-                    "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                    "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
                     ", (SELECT payload FROM results WHERE results.id = solves.result_id) "
                     "FROM solves WHERE tenant = ? AND request_id = ?",
                     solve.actor.tenant, solve.request_id);
   }
   if (!solve.solve_key.empty()) {
-    reusable.emplace(connection, "SELECT id, payload FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1", solve.solve_key);
+    reusable.emplace(connection,
+                     "SELECT id, payload, termination, verdict FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1",
+                     solve.solve_key);
     equal.emplace(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
                   solve.solve_key);
   }
@@ -132,8 +134,8 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
     if (solve.max_queued_tenant > 0) connection.Lock("queue of tenant " + solve.actor.tenant, mode);
     Questions questions(connection, solve);
     if (questions.earlier.has_value() && questions.earlier->Step()) {
-      SolveRecord old = ReadSolve(*questions.earlier).record;
-      old.result = questions.earlier->Bytes(kSolveColumns);
+      SolveRecord old = ReadSolveAndOutcome(*questions.earlier).record;
+      old.result = questions.earlier->Bytes(kSolveAndOutcomeColumns);
       if (old.spec == solve.spec) return std::optional(CreatedSolve{std::move(old), false});
       return Error{ErrorCode::kAlreadyExists, "request_id \"" + solve.request_id + "\" belongs to solves/" + old.id +
                                                   ", which has another spec; use a new request_id"};
@@ -153,6 +155,8 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
       row.record.from_cache = true;
       EndSolve(connection, row, SolveState::kSucceeded, questions.reusable->Int(0), "", now_us);
       row.record.result = questions.reusable->Bytes(1);
+      row.record.termination = static_cast<int>(questions.reusable->Int(2));
+      row.record.verdict = static_cast<int>(questions.reusable->Int(3));
     }
     return std::optional(CreatedSolve{std::move(row.record), true});
   });

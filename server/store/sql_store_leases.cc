@@ -185,6 +185,8 @@ Outcome<std::vector<Outcome<LeaseState>>> SqlStore::AppendAll(const std::vector<
 Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) {
   ROLLGAIT_CHECK(IsTerminal(end.state));
   const bool succeeded = end.state == SolveState::kSucceeded;
+  v1::SolveResult result;
+  if (!result.ParseFromString(end.result)) result.Clear();  // stored all the same; whoever reads it says that it cannot be read
   return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
     Query leased = AskLeased(connection, lease);
     std::optional<Query> next_result, equal;
@@ -205,8 +207,9 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
     if (next_result.has_value()) {
       ROLLGAIT_CHECK(next_result->Step());
       result_id = next_result->Int(0);
-      Query::Do(connection, "INSERT INTO results (id, solve_key, reusable, payload) {given_key} VALUES (?, ?, ?, ?)", result_id, key,
-                end.reusable && !key.empty(), Blob{end.result});
+      Query::Do(connection, "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, ?, ?, ?, ?, ?)",
+                result_id, key, end.reusable && !key.empty(), Blob{end.result}, static_cast<int>(result.termination()),
+                static_cast<int>(result.accuracy().verdict()));
       row.bytes += static_cast<int64_t>(end.result.size());
     }
     EndSolve(connection, row, end.state, result_id, end.error, now_us);

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "client/bound_flags.h"
 #include "tests/client/client_process.h"
 
 namespace rollgait::client {
@@ -35,6 +36,16 @@ TEST(CompletionTest, KnowsEveryFlag) {
       EXPECT_EQ(completed.count(match[2]), 1u) << command << " " << match[2];
     }
     EXPECT_GE(flags, 1) << command;
+  }
+}
+
+TEST(CompletionTest, KnowsEveryBound) {
+  std::ifstream file(ROLLGAIT_COMPLETION);
+  std::ostringstream text;
+  text << file.rdbuf();
+  ASSERT_FALSE(BoundNames().empty());
+  for (const std::string& name : BoundNames()) {
+    EXPECT_TRUE(std::regex_search(text.str(), std::regex("[\" ]" + name + "[\" \n]"))) << name;
   }
 }
 

@@ -18,6 +18,19 @@ TEST(ExitCodeTest, OfFinishedSolves) {
   };
   EXPECT_EQ(code(v1::TERMINATION_OPTIMAL), ExitCode::kSuccess);
   EXPECT_EQ(code(v1::TERMINATION_ACCEPTABLE), ExitCode::kSuccess);
+  const auto judged = [&](v1::Termination termination, v1::Verdict verdict) {
+    solve.mutable_result()->mutable_accuracy()->set_verdict(verdict);
+    const ExitCode ended = code(termination);
+    solve.mutable_result()->clear_accuracy();
+    return ended;
+  };
+  for (const v1::Termination termination : {v1::TERMINATION_OPTIMAL, v1::TERMINATION_ACCEPTABLE}) {
+    EXPECT_EQ(judged(termination, v1::VERDICT_WITHIN), ExitCode::kSuccess);
+    EXPECT_EQ(judged(termination, v1::VERDICT_NOT_JUDGED), ExitCode::kSuccess);
+    EXPECT_EQ(judged(termination, v1::VERDICT_EXCEEDED), ExitCode::kMissesBound);
+  }
+  EXPECT_EQ(static_cast<int>(ExitCode::kMissesBound), 8) << "a contract with scripts";
+  EXPECT_EQ(judged(v1::TERMINATION_INFEASIBLE, v1::VERDICT_EXCEEDED), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_INFEASIBLE), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_ITERATION_LIMIT), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_TIME_LIMIT), ExitCode::kNoSolution);

@@ -77,7 +77,8 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
     return Refusal(
         {{"slope_rad", "is 0.873, must be in [-0.785, 0.785]"}, {"motion.speed_m_s", "is 9, must be in (0, 4]"}});
   }
-  if (model != "planar" && model != "infeasible" && model != "crash" && model != "endless") {
+  if (model != "planar" && model != "infeasible" && model != "crash" && model != "endless" &&
+      model != "inaccurate" && model != "draft") {
     return Refusal({{"model.name", "is \"" + model + "\", must be one of planar"}});
   }
   Record record;
@@ -96,6 +97,12 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
     record.events.push_back(event);
   }
   record.solve.set_state(v1::SOLVE_STATE_RUNNING);
+  if (model == "endless" || model == "crash") record.solve.clear_outcome();
+  if (model == "inaccurate") Exceed(record.solve, "max_slip_m_s", 20);
+  if (model == "draft") {
+    record.solve.mutable_result()->mutable_accuracy()->set_verdict(v1::VERDICT_NOT_JUDGED);
+    record.solve.mutable_outcome()->set_verdict(v1::VERDICT_NOT_JUDGED);
+  }
   if (model == "infeasible") {
     v1::SolveResult& result = *record.solve.mutable_result();
     result.set_termination(v1::TERMINATION_INFEASIBLE);
@@ -111,7 +118,7 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
     record.solve.mutable_error()->set_message("the solver died three times");
   }
   if (model == "crash") Finish(record, v1::SOLVE_STATE_FAILED);
-  if (model == "planar" || model == "infeasible") Finish(record, v1::SOLVE_STATE_SUCCEEDED);
+  if (model != "crash" && model != "endless") Finish(record, v1::SOLVE_STATE_SUCCEEDED);
   *solve = record.solve;
   solve->clear_result();
   if (request->validate_only()) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "client/bound_flags.h"
 #include "client/failure.h"
 
 namespace rollgait::client {
@@ -33,7 +34,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
       "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 "
       "--warm-start nearest --cost effort --cost muscle-work --cost passive-load "
-      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7");
+      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7 --allow-overlap");
+  EXPECT_TRUE(spec.limits().allow_body_overlap());
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_EQ(spec.model().stature_m(), 1.7);
@@ -139,6 +141,33 @@ TEST(SpecFlagsTest, UnknownWordsAreRefusedWithTheKnownOnes) {
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
     EXPECT_STREQ(failure.what(), "--cycle third: must be one of full, half");
+  }
+}
+
+TEST(SpecFlagsTest, BoundsReachTheirFields) {
+  const std::vector<std::string> names = BoundNames();
+  EXPECT_EQ(names.size(), 15u);
+  for (const std::string& name : names) {
+    const v1::Accuracy accuracy = Parse("--bound " + name + "=0.0125").accuracy();
+    const google::protobuf::FieldDescriptor* field = v1::Accuracy::descriptor()->FindFieldByName(name);
+    ASSERT_NE(field, nullptr) << name;
+    EXPECT_EQ(v1::Accuracy::GetReflection()->GetDouble(accuracy, field), 0.0125) << name;
+  }
+  const v1::Accuracy two = Parse("--bound max_gap_m=1e-6 --accuracy draft --bound max_pull_bw=1e-4").accuracy();
+  EXPECT_EQ(two.max_gap_m(), 1e-6);
+  EXPECT_EQ(two.max_pull_bw(), 1e-4);
+  EXPECT_EQ(two.level(), v1::Accuracy::LEVEL_DRAFT);
+  EXPECT_FALSE(two.has_max_slip_m_s());
+  for (const char* const line : {"--bound max_gap_m", "--bound max_gap_m=", "--bound =1", "--bound max_gap_m=1x",
+                                 "--bound kkt_tolerance=1", "--bound max_refinements=1"}) {
+    EXPECT_THROW(Parse(line), Failure) << line;
+  }
+  try {
+    Parse("--bound max_noise=1");
+    FAIL() << "was accepted";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::kUsage);
+    for (const std::string& name : names) EXPECT_NE(std::string(failure.what()).find(name), std::string::npos) << name;
   }
 }
 

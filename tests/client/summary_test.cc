@@ -39,5 +39,50 @@ TEST(SummaryTest, TellsEventsOfFeetNotOfSurfaces) {
   EXPECT_THAT(text, HasSubstr("foot flat 57.5"));
 }
 
+TEST(SummaryTest, TellsTheVerdictAndEveryCriterion) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("\nAccuracy: within the requested bounds\n"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("slip of a contact that rolls +0.41  mm/s +≤ 1; left_foot at 0.31 s"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("joint past its range +0.0063  ° +≤ 0.05; knee_l at 0.31 s"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("over body weight +0.02  % of body weight +≤ 0.1"));
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("exceeds")));
+  Exceed(solve, "max_range_excess", 3);
+  Exceed(solve, "max_pull_bw", 12);
+  EXPECT_THAT(Summarize(solve, false),
+              HasSubstr("\nAccuracy: EXCEEDED: normal force below its least value, over body weight, 1.2 % of body weight where 0.1 % of "
+                        "body weight is allowed (right_foot at 0.31 s)\n"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("joint past its range +0.15  ° +exceeds 0.05; knee_l at 0.31 s"));
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("within")));
+}
+
+TEST(SummaryTest, WhatWasNotJudgedIsNeverWithin) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  solve.mutable_result()->mutable_accuracy()->set_verdict(v1::VERDICT_NOT_JUDGED);
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("Accuracy: not judged (draft)"));
+  solve.mutable_result()->set_termination(v1::TERMINATION_TIME_LIMIT);
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("Accuracy: not judged (the solver did not converge)"));
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("within")));
+}
+
+// Versions before 0.4.0 judged gap and slip alone and left no criteria.
+TEST(SummaryTest, ShowsOlderResults) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  solve.mutable_result()->mutable_accuracy()->clear_criteria();
+  solve.mutable_result()->mutable_accuracy()->clear_verdict();
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("Accuracy: not judged (a result of a version before 0.4.0)"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("largest slip +0.41  mm/s\n"));
+}
+
+// A server that is newer than this program.
+TEST(SummaryTest, ShowsACriterionThatItDoesNotKnow) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  v1::CriterionResult& criterion = *solve.mutable_result()->mutable_accuracy()->add_criteria();
+  criterion.set_criterion("max_noise_db");
+  criterion.set_meaning("noise of the steps");
+  criterion.set_unit("dB");
+  criterion.set_value(41);
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("noise of the steps +41  dB\n"));
+}
+
 }  // namespace
 }  // namespace rollgait::client

@@ -28,6 +28,10 @@ TEST(TextTest, Times) {
 TEST(TextTest, EnumeratorsAsWords) {
   EXPECT_EQ(StateName(v1::SOLVE_STATE_RUNNING), "running");
   EXPECT_EQ(TerminationName(v1::TERMINATION_ITERATION_LIMIT), "iteration limit");
+  EXPECT_EQ(VerdictName(v1::VERDICT_WITHIN), "within");
+  EXPECT_EQ(VerdictName(v1::VERDICT_EXCEEDED), "exceeded");
+  EXPECT_EQ(VerdictName(v1::VERDICT_NOT_JUDGED), "not judged");
+  EXPECT_EQ(VerdictName(v1::VERDICT_UNSPECIFIED), "not judged") << "of a version before 0.4.0";
   EXPECT_EQ(ErrorKindName(v1::SolveError::KIND_MEMORY_LIMIT), "memory limit");
   EXPECT_EQ(StatusCodeName(grpc::StatusCode::UNAUTHENTICATED), "UNAUTHENTICATED");
 }

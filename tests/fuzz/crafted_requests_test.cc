@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/validation/criteria.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "tests/e2e/daemon.h"
@@ -24,11 +25,9 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using Random = std::mt19937_64;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // A number that must lie within [low, high]; `exclusive`: low itself is out of range.
 struct NumberRule {
-  const char* path;  // within SolveSpec; elements by index
+  std::string path;  // within SolveSpec; elements by index
   double low, high;
   bool exclusive = false;
   const char* base = "{\"model\": {\"name\": \"planar\"}}";
@@ -42,7 +41,7 @@ constexpr char kWork[] = R"({"model": {"name": "planar"}, "costs": [{"squaredTor
 constexpr char kTracking[] =
     R"({"model": {"name": "planar"}, "costs": [{"tracking": {"channels": [{"joint": "knee_r", "positions": [0, 0.1]}]}}]})";
 
-const NumberRule kNumbers[] = {
+const NumberRule kWrittenNumbers[] = {
     {"slope_rad", -M_PI / 4, M_PI / 4},
     {"gravity_m_s2", 0.1, 100},
     {"starts", 1, 32},
@@ -57,8 +56,6 @@ const NumberRule kNumbers[] = {
     {"discretization.single_support_intervals", 1, 1000},
     {"discretization.double_support_intervals", 1, 1000},
     {"accuracy.kkt_tolerance", 1e-12, 1e-2},
-    {"accuracy.max_gap_m", 1e-9, 0.1},
-    {"accuracy.max_slip_m_s", 1e-9, 1},
     {"accuracy.max_refinements", 0, 6},
     {"solver_limits.max_iterations", 1, 100'000},
     {"solver_limits.max_wall_time_s", 0.01, 86'400},
@@ -75,6 +72,15 @@ const NumberRule kNumbers[] = {
     {"costs[0].muscle_work.smoothing_w", 0.01, 1000, false, kMuscleWork},
     {"costs[0].tracking.channels[0].weight", 0, 1e6, false, kTracking},
 };
+
+// Those, and the bound of every criterion.
+std::vector<NumberRule> NumberRules() {
+  std::vector<NumberRule> rules(std::begin(kWrittenNumbers), std::end(kWrittenNumbers));
+  for (const CriterionTraits& traits : Criteria()) {
+    rules.push_back({std::string("accuracy.") + traits.field, traits.least, traits.most});
+  }
+  return rules;
+}
 
 // An enumeration and where it is.
 constexpr const char* kEnums[] = {
@@ -184,16 +190,17 @@ struct Crafted {
 };
 
 Crafted Craft(int number, Random& random) {
+  static const std::vector<NumberRule> number_rules = NumberRules();
   static const std::vector<OtherRule> others = OtherRules();
   Crafted crafted;
   v1::SolveSpec& spec = *crafted.request.mutable_spec();
-  spec = FromJson(kNumbers[0].base);
-  const size_t numbers = std::size(kNumbers), enums = std::size(kEnums);
+  spec = FromJson(number_rules[0].base);
+  const size_t numbers = number_rules.size(), enums = std::size(kEnums);
   const size_t rule = static_cast<size_t>(number) % (numbers + enums + others.size() + 2);
   if (rule < numbers) {
-    spec = FromJson(kNumbers[rule].base);
-    SetNumber(kNumbers[rule], spec, random);
-    crafted.path = std::string("spec.") + kNumbers[rule].path;
+    spec = FromJson(number_rules[rule].base);
+    SetNumber(number_rules[rule], spec, random);
+    crafted.path = "spec." + number_rules[rule].path;
   } else if (rule < numbers + enums) {
     const char* path = kEnums[rule - numbers];
     const auto [message, field] = Find(&spec, path);

@@ -37,6 +37,8 @@ TEST_F(ResourceCommandTest, ListTurnsPages) {
   EXPECT_THAT(list.out, HasSubstr("solves/planar"));
   EXPECT_THAT(list.out, HasSubstr("solves/endless"));
   EXPECT_THAT(list.out, HasSubstr("10°"));
+  EXPECT_THAT(list.out, testing::ContainsRegex("solves/planar +succeeded +optimal +within +planar"));
+  EXPECT_THAT(list.out, testing::ContainsRegex("solves/endless +running +- +- +endless"));
   EXPECT_THAT(Run({"list", "--state", "running"}).out, Not(HasSubstr("solves/planar")));
   const Ended one = Run({"list", "--limit", "1"});
   EXPECT_THAT(one.out, Not(HasSubstr("solves/planar")));

@@ -49,9 +49,9 @@ TEST_F(SolveCommandTest, PrintsIterationsAndSummary) {
   EXPECT_THAT(client.err(), HasSubstr("objective"));
   EXPECT_THAT(client.err(), HasSubstr("9.960000e+02"));
   EXPECT_THAT(client.err(), Not(HasSubstr("\x1b")));
-  EXPECT_THAT(client.out(), HasSubstr("solves/planar  optimal: The KKT conditions hold"));
+  EXPECT_THAT(client.out(), HasSubstr("solves/planar  optimal, accuracy within the requested bounds: The KKT conditions hold"));
   EXPECT_THAT(client.out(), HasSubstr("step length"));
-  EXPECT_THAT(client.out(), HasSubstr("largest slip"));
+  EXPECT_THAT(client.out(), HasSubstr("slip of a contact that rolls"));
   EXPECT_THAT(client.out(), HasSubstr("-10  °"));
   ASSERT_EQ(service_.created().size(), 1u);
   EXPECT_NEAR(service_.created()[0].spec().slope_rad(), -0.17453292519943295, 1e-15);
@@ -100,6 +100,10 @@ TEST_F(SolveCommandTest, ExitCodesOfTheOutcomes) {
     return client.Wait();
   };
   EXPECT_EQ(exit_code({"solve", "--model", "infeasible"}), 4);
+  EXPECT_EQ(exit_code({"solve", "--model", "inaccurate"}), 8);
+  EXPECT_EQ(exit_code({"watch", "inaccurate"}), 8);
+  EXPECT_EQ(exit_code({"--json", "watch", "inaccurate"}), 8);
+  EXPECT_EQ(exit_code({"solve", "--model", "draft"}), 0);
   EXPECT_EQ(exit_code({"solve", "--model", "crash"}), 5);
   EXPECT_EQ(exit_code({"solve", "--model", "refused"}), 2);
   EXPECT_EQ(exit_code({"watch", "nosuch"}), 7);
@@ -113,6 +117,17 @@ TEST_F(SolveCommandTest, ExitCodesOfTheOutcomes) {
   ClientProcess unreachable({"--server", "127.0.0.1:1", "solve", "--model", "planar"});
   EXPECT_EQ(unreachable.Wait(), 3);
   EXPECT_THAT(unreachable.err(), HasSubstr("rollgaitd --data-dir"));
+}
+
+TEST_F(SolveCommandTest, SaysWhatWasNotKeptAndWhatWasNotJudged) {
+  ClientProcess inaccurate(Arguments({"-q", "solve", "--model", "inaccurate"}));
+  EXPECT_EQ(inaccurate.Wait(), 8);
+  EXPECT_EQ(inaccurate.out(), "");
+  EXPECT_THAT(inaccurate.err(), HasSubstr("EXCEEDED: slip of a contact that rolls, 20 mm/s where 1 mm/s is allowed (left_foot at 0.31 s)"));
+  ClientProcess draft(Arguments({"solve", "--model", "draft"}));
+  EXPECT_EQ(draft.Wait(), 0);
+  EXPECT_THAT(draft.out(), HasSubstr("Accuracy: not judged (draft)"));
+  EXPECT_THAT(draft.out(), Not(HasSubstr("within")));
 }
 
 TEST_F(SolveCommandTest, NamesUnmetConstraintsAndFailures) {

@@ -65,7 +65,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
                        touch_down_point { min: -0.9 max: -0.8 } lift_off_point { min: 0.7 max: 0.75 }
                        touch_down: TOUCH_DOWN_PLASTIC }
       limits { joint_position { key: 'k' value { min: -1 max: 2 } } joint_velocity { key: 'v' value: 3 }
-               joint_effort { key: 'e' value { min: -4 max: 5 } } }
+               joint_effort { key: 'e' value { min: -4 max: 5 } } allow_body_overlap: true }
       discretization { scheme: SCHEME_HERMITE_SIMPSON single_support_intervals: 21 double_support_intervals: 11 }
       accuracy { level: LEVEL_FINE kkt_tolerance: 1e-7 max_gap_m: 2e-4 max_slip_m_s: 3e-3 max_refinements: 2 }
       solver_limits { max_iterations: 321 max_wall_time_s: 44 }
@@ -97,6 +97,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.limits.joint_position.at("k").max, 2);
   EXPECT_EQ(request.limits.joint_velocity.at("v"), 3);
   EXPECT_EQ(request.limits.joint_effort.at("e").min, -4);
+  EXPECT_TRUE(request.limits.allow_body_overlap);
   EXPECT_EQ(request.discretization.scheme, Scheme::kHermiteSimpson);
   EXPECT_EQ(request.discretization.single_support_intervals, 21);
   EXPECT_EQ(request.discretization.double_support_intervals, 11);
@@ -108,6 +109,33 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.solver_limits.max_iterations, 321);
   EXPECT_EQ(request.solver_limits.max_wall_time, 44);
   EXPECT_EQ(request.gravity, 1.62);
+}
+
+// Every criterion of the table has a field of its own, and no field is without a criterion.
+TEST(DecodeRequest, EveryBoundArrives) {
+  v1::SolveSpec spec = Parse("model { name: 'planar' } accuracy { level: LEVEL_DRAFT }");
+  EXPECT_TRUE(DecodeRequest(spec).value().accuracy.bounds.empty());
+  const google::protobuf::Reflection& reflection = *v1::Accuracy::GetReflection();
+  for (const CriterionTraits& traits : Criteria()) {
+    const google::protobuf::FieldDescriptor* field = v1::Accuracy::descriptor()->FindFieldByName(traits.field);
+    ASSERT_NE(field, nullptr) << traits.field;
+    EXPECT_EQ(field->cpp_type(), google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) << traits.field;
+    EXPECT_TRUE(field->has_presence()) << traits.field;
+    reflection.SetDouble(spec.mutable_accuracy(), field, traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion)));
+  }
+  int doubles = 0;
+  for (int i = 0; i < v1::Accuracy::descriptor()->field_count(); ++i) {
+    doubles += v1::Accuracy::descriptor()->field(i)->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE ? 1 : 0;
+  }
+  EXPECT_EQ(doubles, kCriterionCount + 1) << "kkt_tolerance is the only other";
+  const GaitRequest request = DecodeRequest(spec).value();
+  ASSERT_EQ(request.accuracy.bounds.size(), static_cast<size_t>(kCriterionCount));
+  const GaitSpec checked = CheckRequest(request).value();
+  for (const CriterionTraits& traits : Criteria()) {
+    const double bound = traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion));
+    EXPECT_EQ(request.accuracy.bounds.at(traits.criterion), bound) << traits.field;
+    EXPECT_EQ(checked.bounds[traits.criterion], bound) << traits.field;
+  }
 }
 
 TEST(DecodeRequest, EveryCostTermArrives) {

@@ -174,6 +174,53 @@ TEST(EncodeResult, EveryFigureArrives) {
   EXPECT_NEAR(result.model().gravity_m_s2(), 9.81, 1e-14) << "magnitude of the turned vector, rounding";
 }
 
+TEST(EncodeResult, TheVerdictArrives) {
+  const auto encoded = [](Verdict::Kind kind) {
+    GaitSolution solution = Solution();
+    solution.verdict.kind = kind;
+    return EncodeResult(solution, Planar()).accuracy();
+  };
+  EXPECT_EQ(encoded(Verdict::Kind::kNotJudged).verdict(), v1::VERDICT_NOT_JUDGED);
+  EXPECT_EQ(encoded(Verdict::Kind::kWithin).verdict(), v1::VERDICT_WITHIN);
+  EXPECT_EQ(encoded(Verdict::Kind::kExceeded).verdict(), v1::VERDICT_EXCEEDED);
+  EXPECT_FALSE(encoded(Verdict::Kind::kNotJudged).within_requested_accuracy());
+  EXPECT_TRUE(encoded(Verdict::Kind::kWithin).within_requested_accuracy());
+  EXPECT_FALSE(encoded(Verdict::Kind::kExceeded).within_requested_accuracy());
+}
+
+// One bound is left out and one measure is not a number; every number differs.
+TEST(EncodeResult, EveryCriterionArrives) {
+  GaitSpec spec = Planar();
+  GaitSolution solution = Solution();
+  for (int i = 0; i < kCriterionCount; ++i) {
+    solution.accuracy->findings[i] = {100 + i + 0.5, "place " + std::to_string(i), 200 + i, 300.0 + i};
+    spec.bounds[static_cast<Criterion>(i)] = i % 2 == 0 ? 100 + i : 101 + i;
+  }
+  spec.bounds[Criterion::kOverlap] = kInfinity;
+  solution.accuracy->findings[static_cast<int>(Criterion::kFriction)].value = std::nan("");
+  const v1::AccuracyReport accuracy = EncodeResult(solution, spec).accuracy();
+  ASSERT_EQ(accuracy.criteria_size(), kCriterionCount);
+  for (int i = 0; i < kCriterionCount; ++i) {
+    const CriterionTraits& traits = Criteria()[i];
+    const v1::CriterionResult& result = accuracy.criteria(i);
+    EXPECT_EQ(result.criterion(), traits.field);
+    EXPECT_EQ(result.unit(), traits.unit);
+    EXPECT_EQ(result.meaning(), traits.meaning);
+    EXPECT_EQ(result.where(), "place " + std::to_string(i));
+    EXPECT_EQ(result.phase(), 200 + i);
+    EXPECT_EQ(result.time_s(), 300 + i);
+    if (traits.criterion == Criterion::kFriction) {
+      EXPECT_TRUE(std::isnan(result.value()));
+      EXPECT_TRUE(result.exceeded()) << "what is not a number exceeds every bound";
+      continue;
+    }
+    EXPECT_EQ(result.value(), 100 + i + 0.5);
+    EXPECT_EQ(result.has_bound(), traits.criterion != Criterion::kOverlap);
+    EXPECT_EQ(result.bound(), !result.has_bound() ? 0 : i % 2 == 0 ? 100 + i : 101 + i);
+    EXPECT_EQ(result.exceeded(), result.has_bound() && i % 2 == 0) << traits.field;
+  }
+}
+
 TEST(EncodeResult, MeshStatisticsArrive) {
   const v1::SolveResult result = EncodeResult(Solution(), Planar());
   ASSERT_EQ(result.meshes_size(), 1);

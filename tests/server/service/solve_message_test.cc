@@ -56,8 +56,21 @@ TEST(ToSolveTest, CarriesEveryField) {
   EXPECT_EQ(solve.attempts(), 3);
   EXPECT_TRUE(solve.from_cache());
   EXPECT_EQ(solve.last_sequence(), 9);
+  EXPECT_FALSE(solve.has_outcome());
   record.error = "\xff\xff";
   EXPECT_EQ(ToSolve(record).error().code, ErrorCode::kInternal);
+}
+
+TEST(ToSolveTest, TellsTheOutcomeWithoutTheResult) {
+  SolveRecord record;
+  record.id = "a";
+  record.state = SolveState::kSucceeded;
+  record.termination = v1::TERMINATION_OPTIMAL;
+  record.verdict = v1::VERDICT_EXCEEDED;
+  const v1::Solve solve = ToSolve(record).value();
+  EXPECT_FALSE(solve.has_result());
+  EXPECT_EQ(solve.outcome().termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_EQ(solve.outcome().verdict(), v1::VERDICT_EXCEEDED);
 }
 
 TEST(ToSolveBytesTest, AreThoseOfTheMessage) {

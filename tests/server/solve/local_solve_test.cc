@@ -16,13 +16,15 @@ using ::testing::HasSubstr;
 
 class LocalSolveTest : public ::testing::Test {
  protected:
-  LocalExit Solve(const std::string& json, Termination termination) {
+  LocalExit Solve(const std::string& json, Termination termination, Verdict::Kind verdict = Verdict::Kind::kNotJudged) {
     ScriptedSolver solver([&](const GaitSpec& spec, const SolveControl& control) {
       slope_ = spec.slope;
       IterationInfo iteration;
       iteration.index = 17;
       control.observer(iteration);
-      return EndedWith(termination);
+      GaitSolution solution = EndedWith(termination);
+      solution.verdict.kind = verdict;
+      return solution;
     });
     return SolveLocally(json, solver, stop_, out_, progress_);
   }
@@ -45,6 +47,14 @@ TEST_F(LocalSolveTest, PrintsTheResultAsJson) {
 TEST_F(LocalSolveTest, NoSolutionHasItsOwnExitCode) {
   EXPECT_EQ(Solve(R"({"model": {"name": "planar"}})", Termination::kInfeasible), kLocalNoSolution);
   EXPECT_THAT(out_.str(), HasSubstr("TERMINATION_INFEASIBLE"));
+}
+
+TEST_F(LocalSolveTest, AMissedBoundHasItsOwnExitCode) {
+  const std::string json = R"({"model": {"name": "planar"}})";
+  EXPECT_EQ(Solve(json, Termination::kOptimal, Verdict::Kind::kWithin), kLocalSolved);
+  EXPECT_EQ(Solve(json, Termination::kOptimal, Verdict::Kind::kNotJudged), kLocalSolved);
+  EXPECT_EQ(Solve(json, Termination::kOptimal, Verdict::Kind::kExceeded), kLocalMissesBound);
+  EXPECT_EQ(Solve(json, Termination::kAcceptable, Verdict::Kind::kExceeded), kLocalMissesBound);
 }
 
 TEST_F(LocalSolveTest, EveryViolationIsPrinted) {

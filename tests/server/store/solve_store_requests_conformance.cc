@@ -87,6 +87,33 @@ TEST_P(SolveStoreConformance, ListIsNewestFirstInPagesAndByState) {
   EXPECT_EQ(running.next_page_token, "");
 }
 
+// Lists tell termination and verdict without the result; a copy of an answer has those of the answer.
+TEST_P(SolveStoreConformance, RecordsTellWhatTheResultSays) {
+  StoreBench bench(GetParam());
+  bench.Add("judged", "key");
+  v1::SolveResult result;
+  result.set_termination(v1::TERMINATION_OPTIMAL);
+  result.mutable_accuracy()->set_verdict(v1::VERDICT_EXCEEDED);
+  ASSERT_TRUE(bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
+  const SolveRecord copy = bench.store().Create({"copy", "request", "spec of judged", "key"}).value().record;
+  const SolveRecord again = bench.store().Create({"again", "request", "spec of judged", "key"}).value().record;
+  EXPECT_EQ(again.id, "copy");
+  bench.Add("unread");
+  ASSERT_TRUE(bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, "\xff no result", "", true}).ok());
+  bench.Add("waits");
+  const std::vector<SolveRecord> listed = bench.store().List({10, "", std::nullopt}).value().records;
+  ASSERT_EQ(listed.size(), 4u);
+  EXPECT_EQ(listed[3].result, "");
+  for (const SolveRecord& record : {listed[3], listed[2], bench.Get("judged"), bench.Get("copy"), copy, again}) {
+    EXPECT_EQ(record.termination, v1::TERMINATION_OPTIMAL) << record.id;
+    EXPECT_EQ(record.verdict, v1::VERDICT_EXCEEDED) << record.id;
+  }
+  for (const SolveRecord& record : {listed[1], listed[0]}) {
+    EXPECT_EQ(record.termination, 0) << record.id;
+    EXPECT_EQ(record.verdict, 0) << record.id;
+  }
+}
+
 TEST_P(SolveStoreConformance, ForeignPageTokensAreRefused) {
   StoreBench bench(GetParam());
   for (size_t i = 0; i < 3; ++i) bench.Add(Numbered("s", i));

@@ -73,13 +73,15 @@ void WriteVersion1(const std::string& path, const Clock& clock) {
       sequence INTEGER NOT NULL, kind INTEGER NOT NULL, payload BLOB NOT NULL,
       PRIMARY KEY (solve, sequence)) WITHOUT ROWID;
     INSERT INTO schema_version VALUES (1);
-    INSERT INTO results VALUES (7, 'key', 1, x'616e73776572');
+    INSERT INTO results VALUES (7, 'key', 1, x'616e73776572'), (8, 'limit', 0, x'080412026e6f');
     INSERT INTO solves (number, id, request_id, spec, solve_key, state, create_time_us, end_time_us, attempts,
       last_sequence, result_id) VALUES (3, 'old', 'request', x'73', 'key', 3, 11, 12, 1, 3, 7);
     INSERT INTO solves (number, id, spec, solve_key, state, create_time_us, start_time_us, attempts, last_sequence,
       owner, epoch, lease_boot_id, lease_end_ns) VALUES (4, 'runs', x'73', 'k2', 2, 11, 12, 1, 2, 'agent', 5, 'b', 9);
     INSERT INTO solves (number, id, spec, solve_key, state, create_time_us, last_sequence)
       VALUES (5, 'waits', x'73', 'k3', 1, 11, 1);
+    INSERT INTO solves (number, id, spec, solve_key, state, create_time_us, end_time_us, attempts, last_sequence, result_id)
+      VALUES (2, 'late', x'73', 'limit', 3, 11, 12, 1, 0, 8);
     INSERT INTO events VALUES (3, 1, 1, x''), (3, 2, 1, x''), (3, 3, 3, x''), (4, 1, 1, x''), (4, 2, 1, x''),
       (5, 1, 1, x'');)");
 }
@@ -94,6 +96,11 @@ TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
     ASSERT_TRUE(store.ok()) << store.error().message;
     EXPECT_EQ(store.value()->Get("old").value().result, "answer");
     EXPECT_EQ(store.value()->Get("old").value().tenant, "");
+    EXPECT_EQ(store.value()->Get("old").value().termination, 0) << "its result is none";
+    const SolveRecord late = store.value()->List({10, "", std::nullopt}).value().records.back();
+    EXPECT_EQ(late.id, "late");
+    EXPECT_EQ(late.termination, v1::TERMINATION_ITERATION_LIMIT);
+    EXPECT_EQ(late.verdict, 0) << "older results have none";
     EXPECT_EQ(store.value()->ReadEvents("old", 0, 10).value().events.size(), 3u);
     EXPECT_EQ(store.value()->Counts().value().queued, 1);
   }

@@ -1,0 +1,77 @@
+#include "bench/verdict_audit/kinematics.h"
+
+#include <Eigen/Geometry>
+
+#include "core/base/check.h"
+
+namespace rollgait::audit {
+
+std::vector<LinkPose> Poses(const Model& model, const VectorX& q, const VectorX& v) {
+  std::vector<LinkPose> poses(static_cast<size_t>(model.size()));
+  for (int i = 0; i < model.size(); ++i) {
+    const Joint& joint = model.joint(i);
+    LinkPose parent{Matrix3::Identity(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+    if (joint.parent >= 0) parent = poses[static_cast<size_t>(joint.parent)];
+    const Matrix3 R_WJ = parent.R_WL * joint.R_PJ;
+    LinkPose& pose = poses[static_cast<size_t>(i)];
+    pose.axis = R_WJ * joint.axis;
+    const bool turns = joint.type == JointType::kRevolute;
+    const Vector3 arm = parent.R_WL * joint.p_PJ + (turns ? Vector3(Vector3::Zero()) : Vector3(pose.axis * q[i]));
+    pose.p_WL = parent.p_WL + arm;
+    pose.R_WL = turns ? Matrix3(R_WJ * Eigen::AngleAxisd(q[i], joint.axis).toRotationMatrix()) : R_WJ;
+    pose.w_WL = parent.w_WL;
+    pose.v_WL = parent.v_WL + parent.w_WL.cross(arm);
+    (turns ? pose.w_WL : pose.v_WL) += pose.axis * v[i];
+  }
+  return poses;
+}
+
+LowestPoint FindLowestPoint(const ContactSurface& contact, const std::vector<LinkPose>& poses) {
+  const Ellipsoid* const ellipsoid = contact.surface.ellipsoid();
+  ROLLGAIT_CHECK(ellipsoid != nullptr);
+  const LinkPose& link = poses[static_cast<size_t>(contact.joint)];
+  const Matrix3 R_WE = link.R_WL * contact.R_LE;
+  // The plane under the body with normal −z touches it at −R A² Rᵀz / |A Rᵀz|, A the semi-axes.
+  const Vector3 up = R_WE.transpose() * Vector3::UnitZ();
+  const Vector3 scaled = ellipsoid->semi_axes().cwiseProduct(up);
+  const Vector3 below = ellipsoid->semi_axes().cwiseProduct(scaled) / scaled.norm();
+  LowestPoint lowest;
+  lowest.point = link.p_WL + link.R_WL * contact.p_LE - R_WE * below;
+  lowest.velocity = link.v_WL + link.w_WL.cross(lowest.point - link.p_WL);
+  return lowest;
+}
+
+MatrixX PointJacobian(const Model& model, const std::vector<LinkPose>& poses, int link, const Vector3& point) {
+  MatrixX jacobian = MatrixX::Zero(3, model.size());
+  for (int i = link; i >= 0; i = model.parent(i)) {
+    const LinkPose& pose = poses[static_cast<size_t>(i)];
+    const bool turns = model.joint(i).type == JointType::kRevolute;
+    jacobian.col(i) = turns ? Vector3(pose.axis.cross(point - pose.p_WL)) : pose.axis;
+  }
+  return jacobian;
+}
+
+double Energy(const Model& model, const std::vector<LinkPose>& poses, const Vector3& gravity) {
+  double energy = 0;
+  for (int i = 0; i < model.size(); ++i) {
+    const Joint& joint = model.joint(i);
+    const LinkPose& pose = poses[static_cast<size_t>(i)];
+    const Vector3 arm = pose.R_WL * joint.center_of_mass;
+    const Vector3 velocity = pose.v_WL + pose.w_WL.cross(arm);
+    const Vector3 turn = pose.R_WL.transpose() * pose.w_WL;
+    energy += 0.5 * joint.mass * velocity.squaredNorm() + 0.5 * turn.dot(joint.inertia * turn) -
+              joint.mass * gravity.dot(pose.p_WL + arm);
+  }
+  return energy;
+}
+
+Vector3 Momentum(const Model& model, const std::vector<LinkPose>& poses) {
+  Vector3 momentum = Vector3::Zero();
+  for (int i = 0; i < model.size(); ++i) {
+    const LinkPose& pose = poses[static_cast<size_t>(i)];
+    momentum += model.joint(i).mass * (pose.v_WL + pose.w_WL.cross(pose.R_WL * model.joint(i).center_of_mass));
+  }
+  return momentum;
+}
+
+}  // namespace rollgait::audit
