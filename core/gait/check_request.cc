@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "core/gait/default_speed.h"
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
 

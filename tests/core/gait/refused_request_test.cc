@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 namespace {
