@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
 

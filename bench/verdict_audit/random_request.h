@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait::audit {
 

@@ -2,7 +2,7 @@
 #ifndef ROLLGAIT_BENCH_VERDICT_AUDIT_SECOND_JUDGE_H_
 #define ROLLGAIT_BENCH_VERDICT_AUDIT_SECOND_JUDGE_H_
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
 

@@ -9,7 +9,7 @@ namespace rollgait {
 namespace {
 
 // Refuses contradictions between the prescribed quantities; returns the mean speed that they imply, if any.
-std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, double gravity, RequestCheck& check) {
+std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, const Similarity& similarity, RequestCheck& check) {
   const bool both = motion.step_length && motion.step_duration;
   if (motion.free_speed && motion.speed) {
     check.Add("motion.free_speed", "contradicts speed_m_s " + FormatNumber(*motion.speed) + "; give one of the two");
@@ -30,7 +30,7 @@ std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, double gra
   }
   if (motion.free_speed) return std::nullopt;
   if (both) return *motion.step_length / *motion.step_duration;
-  return motion.speed.value_or(gravity > 0 ? DefaultSpeed(gravity) : DefaultSpeed(kDefaultGravity));
+  return motion.speed.value_or(DefaultSpeed(kDefaultGravity * similarity.gravity));
 }
 
 // Walking on one leg at a time needs v² <= g L: above it the ground would have to pull on the stance leg.
@@ -40,8 +40,7 @@ void CheckFroude(double speed, const GaitRequest::Motion& motion, const Scene& s
   if (!(gravity > 0) || !(froude > 1)) return;  // without gravity, gravity was refused already
   const bool derived = motion.step_length && motion.step_duration;
   check.Add(derived ? "motion" : "motion.speed_m_s",
-            FormatNumber(speed) + " m/s" + (derived || motion.speed ? "" : " (the default)") +
-                " has Froude number v²/(g L) = " + FormatNumber(froude) + " with leg length " +
+            FormatNumber(speed) + " m/s has Froude number v²/(g L) = " + FormatNumber(froude) + " with leg length " +
                 FormatNumber(scene.leg_length) + " m; walking is impossible above 1: give at most " +
                 FormatNumber(std::sqrt(gravity * scene.leg_length)) + " m/s");
 }
@@ -80,7 +79,7 @@ CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene,
     checked.speed_range.max = std::min(checked.speed_range.max, std::sqrt(gravity * scene->leg_length));
     checked.step_length_range = {0.1 * scene->leg_length, 1.6 * scene->leg_length};
   }
-  const std::optional<double> speed = ImpliedSpeed(motion, gravity, check);
+  const std::optional<double> speed = ImpliedSpeed(motion, similarity, check);
   if (!check.ok()) return {};
   if (speed && *speed > 4) {
     check.Add("motion",

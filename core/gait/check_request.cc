@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "core/gait/default_speed.h"
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
 
@@ -20,7 +20,7 @@ std::optional<Scene> CheckBody(BodyRequest body, RequestCheck& check) {
 // Of a body that rolls on its own defaults do not follow mass and gravity: how fast it goes is up to its manoeuvre.
 Similarity SimilarityOf(const Scene* scene, double gravity) {
   constexpr double kMass = 75;  // kg
-  if (scene == nullptr || scene->selection.rolling_body || !(gravity > 0)) return {};
+  if (scene == nullptr || scene->selection.rolling_body || !(gravity > 0 && std::isfinite(gravity))) return {};
   return {scene->selection.mass / kMass, gravity / kDefaultGravity};
 }
 

@@ -7,10 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/base/result.h"
 #include "core/gait/manoeuvre_request.h"
-#include "core/gait/similarity.h"
-#include "core/gait/warm_start.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
@@ -109,49 +106,6 @@ struct GaitRequest {
   bool warm_start = false;  // that one is wanted; GaitSpec::warm_start is filled where solutions are stored
   std::optional<double> gravity;  // m/s²
 };
-
-// A request that has been checked and completed: every default filled in, every name resolved, the scene built.
-// Made only by CheckRequest, without a warm start. Immutable value.
-struct GaitSpec {
-  struct Phase {
-    std::vector<int> contacts;  // indices into scene.contacts
-    int intervals;
-    double min_duration, max_duration;
-  };
-  struct CostTerm {
-    decltype(GaitRequest::CostTerm::term) term;  // optionals inside are filled
-    double weight;
-  };
-  Scene scene;  // limits of the request already applied to its joints
-  Similarity similarity;  // of the body and the gravity, which defaults and presets followed
-  double time_unit = 1;   // s for each that the numbers here count (InTimeUnit)
-  double passive_scale;   // factor on measured passive torques: a preset takes them to the gravity of the request
-  double slope;
-  Vector3 gravity;  // world axes, m/s²
-  std::optional<double> speed, step_length, step_duration;  // prescribed ones
-  GaitRequest::Range speed_range, step_length_range, step_duration_range;
-  std::optional<GaitRequest::Range> duty_factor;
-  Cycle cycle;
-  std::optional<Manoeuvre> manoeuvre;  // of a rolling body, in one phase; the prescribed motion above then means nothing
-  std::vector<Phase> phases;
-  std::vector<CostTerm> costs;
-  GaitRequest::Normalization normalization;
-  double friction_coefficient, min_normal_force_bw, swing_clearance;
-  std::optional<GaitRequest::Range> touch_down_point, lift_off_point;
-  GaitRequest::TouchDown touch_down;
-  Scheme scheme;
-  double kkt_tolerance;
-  bool allow_body_overlap;  // bodies may pass through each other; the bound of the overlap is then infinite
-  CriterionValues bounds;   // all infinite: the trajectory is not judged
-  int max_refinements;
-  int max_iterations;
-  double max_wall_time;
-  int starts;
-  std::optional<WarmStart> warm_start;  // passes CheckWarmStart
-};
-
-// Checks every field before any work starts. Violations name the fields as in the proto, relative to the spec.
-Result<GaitSpec> CheckRequest(const GaitRequest& request);
 
 }  // namespace rollgait
 

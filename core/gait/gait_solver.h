@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/nlp/result.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/gait_events.h"

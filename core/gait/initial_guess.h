@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_CORE_GAIT_INITIAL_GUESS_H_
 #define ROLLGAIT_CORE_GAIT_INITIAL_GUESS_H_
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {

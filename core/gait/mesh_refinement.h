@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_CORE_GAIT_MESH_REFINEMENT_H_
 #define ROLLGAIT_CORE_GAIT_MESH_REFINEMENT_H_
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/transcription/layout.h"
 #include "core/validation/report.h"
 

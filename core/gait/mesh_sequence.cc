@@ -64,15 +64,6 @@ void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
       {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.bounds[Criterion::kSlip], "m/s"});
 }
 
-ValidationOptions JudgeOptions(const GaitSpec& spec) {
-  ValidationOptions options;
-  options.gravity = spec.gravity;
-  options.manoeuvre = spec.manoeuvre;
-  options.friction_coefficient = spec.friction_coefficient;
-  options.min_normal_force = spec.min_normal_force_bw * spec.scene.model.total_mass() * spec.gravity.norm();
-  return options;
-}
-
 MeshStatistics Describe(const GaitSpec& spec, const CollocationNlp& nlp, const NlpResult& result) {
   MeshStatistics statistics;
   statistics.intervals = nlp.mesh().Intervals();
@@ -108,20 +99,6 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   statistics->max_gap = solution->accuracy->max_gap;
   statistics->max_slip = solution->accuracy->max_slip;
 }
-
-}  // namespace
-
-bool Converged(Termination termination) {
-  return termination == Termination::kOptimal || termination == Termination::kAcceptable;
-}
-
-void Judge(const GaitSpec& spec, GaitSolution* solution) {
-  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
-  solution->verdict =
-      Converged(solution->termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
-}
-
-namespace {
 
 // Whether surfaces slip between nodes at more than this share of the speed of the motion.
 bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {

@@ -2,12 +2,11 @@
 #define ROLLGAIT_CORE_GAIT_MESH_SEQUENCE_H_
 
 #include "core/gait/gait_solver.h"
+#include "core/gait/judge_solution.h"
 #include "core/gait/solve_budget.h"
 #include "core/ocp/problem.h"
 
 namespace rollgait {
-
-bool Converged(Termination termination);
 
 // True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion that
 // exists on its mesh only.
@@ -15,9 +14,6 @@ bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
 // True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
 bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
-
-// Fills accuracy and verdict of a solution with a trajectory.
-void Judge(const GaitSpec& spec, GaitSolution* solution);
 
 // The meshes of a solve that went before this one.
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);

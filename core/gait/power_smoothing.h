@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 

@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
 #define ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/models/rolling_ellipsoid.h"
 #include "core/transcription/collocation_nlp.h"
 

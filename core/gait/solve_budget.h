@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/nlp/nlp_options.h"
 #include "core/nlp/result.h"
 #include "core/transcription/collocation_nlp.h"

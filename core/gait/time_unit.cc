@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/gait/mesh_sequence.h"
+#include "core/gait/judge_solution.h"
 
 namespace rollgait {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "rollgait/v1/solve_spec.pb.h"
 
 namespace rollgait::server {

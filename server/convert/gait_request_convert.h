@@ -2,7 +2,7 @@
 #define ROLLGAIT_SERVER_CONVERT_GAIT_REQUEST_CONVERT_H_
 
 #include "core/base/result.h"
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "rollgait/v1/solve_spec.pb.h"
 
 namespace rollgait::server {

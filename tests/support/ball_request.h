@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 

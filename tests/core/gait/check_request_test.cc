@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 #include "core/gait/request_check.h"
 
 namespace rollgait {

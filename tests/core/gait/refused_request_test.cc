@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 namespace {
@@ -63,7 +63,8 @@ const BadCase kBadCases[] = {
     {"SpeedZero", [](GaitRequest& r) { r.motion.speed = 0; }, "motion.speed_m_s", "(0, 4] m/s"},
     {"SpeedNoOneCanRun", [](GaitRequest& r) { r.motion.speed = 12; }, "motion.speed_m_s", "12 is outside"},
     {"SpeedNoOneCanWalk", [](GaitRequest& r) { r.motion.speed = 3.9; }, "motion.speed_m_s", "walking is impossible"},
-    {"DefaultSpeedOnTheMoon", [](GaitRequest& r) { r.gravity = 0.5; }, "motion.speed_m_s", "(the default)"},
+    {"EarthsSpeedOnTheMoon", [](GaitRequest& r) { r.gravity = 1.62; r.motion.speed = 1.3; }, "motion.speed_m_s",
+     "walking is impossible"},
     {"DutyFactorOfARun", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.4, 0.6}; },
      "motion.duty_factor.min", "[0.5, 0.95]"},
     {"DutyFactorUpsideDown", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.62, 0.6}; },

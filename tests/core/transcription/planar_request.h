@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
 #define ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
 
-#include "core/gait/gait_request.h"
+#include "core/gait/gait_spec.h"
 
 namespace rollgait {
 
