@@ -44,7 +44,8 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestChec
   CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
   for (const auto& [criterion, bound] : accuracy.bounds) {
     const CriterionTraits& traits = TraitsOf(criterion);
-    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, traits.unit});
+    const char* const unit = std::string(traits.unit) == "1" ? "" : traits.unit;
+    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, unit});
   }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
           check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 5, 0, 6)};
