@@ -17,6 +17,7 @@
 #include "core/gait/optimizing_gait_solver.h"
 #include "core/gait/presets.h"
 #include "core/trajectory/sampling.h"
+#include "core/validation/overlap.h"
 
 namespace rollgait {
 namespace {
@@ -157,6 +158,18 @@ void PrintForces(const Trajectory& trajectory, const GaitSpec& spec) {
   std::printf("    least normal force between points %.1f N = %.2f %%BW\n", least, 100 * least / weight);
 }
 
+// Which bodies overlap, by how much, and what it costs to know.
+void PrintOverlaps(const Scene& scene, const Trajectory& trajectory) {
+  const BodyDynamics dynamics(scene.model);
+  const std::clock_t begin = std::clock();
+  const OverlapFindings found = MeasureOverlap(scene, dynamics, trajectory);
+  const double elapsed = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  std::printf("    overlap %.4f mm (%s at %.3f s), judged in %.1f ms:", 1e3 * found.worst.value, found.worst.where.c_str(),
+              found.worst.time, 1e3 * elapsed);
+  for (const int pair : found.Deeper(0)) std::printf(" %s %.3f", scene.PairName(pair).c_str(), 1e3 * found.pairs[pair]);
+  std::printf("\n");
+}
+
 int Main(int argc, char** argv) {
   std::vector<std::string> intervals = {"8", "16", "32", "64"}, slopes = {"-10", "0", "10"},
                            schemes = {"radau2", "radau3", "hermite-simpson"};
@@ -203,7 +216,8 @@ int Main(int argc, char** argv) {
     const Preset preset = *request.preset;
     FillFromPreset(&request);
     request.preset.reset();
-    request.costs = PresetCosts(preset, CheckRequest(request).value().scene);
+    const GaitSpec spec = CheckRequest(request).value();
+    request.costs = PresetCosts(preset, spec.scene, spec.similarity);
     request.costs.insert(request.costs.end(), extra.begin(), extra.end());
   }
   bool all = true;
@@ -242,6 +256,7 @@ int Main(int argc, char** argv) {
           }
         }
         if (s.trajectory) PrintForces(*s.trajectory, spec.value());
+        if (s.trajectory) PrintOverlaps(spec.value().scene, *s.trajectory);
         if (a.impact_loss != 0) {
           std::printf("    impacts off by %.1e rad/s or m/s, %.1e N s\n", a.jump_velocity_error, a.jump_impulse_error);
         }

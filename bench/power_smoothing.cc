@@ -22,7 +22,8 @@ GaitSpec Spec(GaitRequest request, double smoothing) {
   const Preset preset = *request.preset;
   FillFromPreset(&request);
   request.preset.reset();
-  request.costs = PresetCosts(preset, CheckRequest(request).value().scene);
+  const GaitSpec body = CheckRequest(request).value();
+  request.costs = PresetCosts(preset, body.scene, body.similarity);
   for (GaitRequest::CostTerm& cost : request.costs) {
     if (auto* work = std::get_if<GaitRequest::MuscleWork>(&cost.term)) work->smoothing = smoothing;
   }

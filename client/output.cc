@@ -7,14 +7,16 @@
 #include <filesystem>
 
 #include "client/failure.h"
+#include "client/gait_events_table.h"
 #include "client/json.h"
+#include "client/report/gait_events_data.h"
 #include "client/report/stride.h"
 #include "client/text.h"
 
 namespace rollgait::client {
 namespace {
 
-constexpr int kStrideIntervals = 200;
+constexpr int kStrideIntervals = kCycleSteps;
 constexpr int kDigits = 12;
 
 std::string Ending(const std::string& path) { return std::filesystem::path(path).extension().string(); }
@@ -111,7 +113,9 @@ std::string ToCsv(const v1::Solve& solve) {
 std::string ToSto(const v1::Solve& solve) {
   const v1::Trajectory& trajectory = TrajectoryOf(solve);
   const v1::Model& model = solve.result().model();
-  const Stride stride = BuildStride(trajectory, model, kStrideIntervals);
+  const v1::GaitEvents& events = solve.result().gait_events();
+  const Stride stride = BuildStride(trajectory, model, events.start_s(), kStrideIntervals);
+  for (const v1::FootOnGround& foot : events.feet()) RequireInstants(foot);
   std::string labels = "time";
   int columns = 1;
   const auto label = [&](const std::string& name) {
@@ -126,16 +130,22 @@ std::string ToSto(const v1::Solve& solve) {
   for (const v1::ContactSurface& contact : model.contacts()) {
     for (const char* const axis : {"x", "y", "z"}) label(contact.name() + "_force_v" + axis);
   }
+  for (const v1::FootOnGround& foot : events.feet()) {
+    const std::string name = SideName(foot.foot()) + "_ground_force_";
+    for (const char* const column : {"vx", "vy", "vz", "px", "py"}) label(name + column);
+  }
 
   std::string text = (solve.name().empty() ? "rollgait" : solve.name()) +
                      "\nversion=1\nnRows=" + std::to_string(stride.samples.size()) +
                      "\nnColumns=" + std::to_string(columns) + "\ninDegrees=no\nRollgait: " +
                      (solve.spec().has_manoeuvre() ? "a manoeuvre" : "one gait cycle from heel strike of the right foot") +
                      ". SI units: rad, m, rad/s (_u), N m "
-                     "(_effort), N. Axes fixed to the ground: x along it in the direction of walking, y left, z its "
+                     "(_effort), N (_force_v, sums over the surfaces of a foot in _ground_force_v), centre of pressure in m "
+                     "(_ground_force_p, nan below 1 % of body weight). Axes fixed to the ground: x along it in the direction of walking, y left, z its "
                      "normal; slope " +
                      FormatNumber(solve.spec().slope_rad() * 180 / kPi) + " deg.\nendheader\n" + labels + "\n";
-  for (const StrideSample& sample : stride.samples) {
+  for (size_t row = 0; row < stride.samples.size(); ++row) {
+    const StrideSample& sample = stride.samples[row];
     text += FormatNumber(sample.time_s, kDigits);
     const auto add = [&text](double value) { text += "\t" + FormatNumber(value, kDigits); };
     for (const double value : sample.instant.position) add(value);
@@ -145,6 +155,13 @@ std::string ToSto(const v1::Solve& solve) {
     }
     for (const auto& force : sample.instant.force) {
       for (const double value : force) add(value);
+    }
+    for (const v1::FootOnGround& foot : events.feet()) {
+      const auto at = [row](const v1::Matrix& matrix, int column) {
+        return matrix.values(static_cast<int>(row) * matrix.columns() + column);
+      };
+      for (int axis = 0; axis < 3; ++axis) add(at(foot.force_n(), axis));
+      for (int axis = 0; axis < 2; ++axis) add(at(foot.center_of_pressure_m(), axis));
     }
     text += "\n";
   }

@@ -86,6 +86,7 @@ void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
         Lookup<v1::TouchDown>("--touch-down", *flags.touch_down,
                               {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
   }
+  if (flags.allow_overlap) spec.mutable_limits()->set_allow_body_overlap(true);
   if (flags.touch_down_point) {
     ApplyRange("--touch-down-point", *flags.touch_down_point, *spec.mutable_ground_contact()->mutable_touch_down_point());
   }
@@ -179,8 +180,7 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
   command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")->group("Body");
   command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
-      ->group("Body")
-      ->take_all();
+      ->group("Body")->take_all();
   command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
   command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
@@ -188,8 +188,7 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
   command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
   command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
-      ->group("Body")
-      ->take_all();
+      ->group("Body")->take_all();
 }
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
@@ -211,6 +210,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--touch-down", flags.touch_down, "Motion", "How feet come down: smooth (at rest) or plastic (an impact stops them)");
   add("--touch-down-point", flags.touch_down_point, "Motion", "Where a surface touches down: A or A,B from -1 (heel) to 1 (toe)");
   add("--lift-off-point", flags.lift_off_point, "Motion", "Where a surface lifts off, likewise");
+  command.add_flag("--allow-overlap", flags.allow_overlap, "Legs, feet and arms may pass through each other")->group("Motion");
   add("--from", flags.from, "Manoeuvre", "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
   add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
   add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");

@@ -28,7 +28,7 @@ struct SpecFlags {
   std::optional<double> friction, clearance_m, tolerance, time_limit_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
   std::optional<std::string> feet, ranges;
-  bool free_speed = false, toes = false, sagittal = false, drop_arms = false, rigid_trunk = false;
+  bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false, rigid_trunk = false;
   std::vector<std::string> locks, segments;  // "knee_l=20" in degrees, "thigh=0.45" in m
   std::vector<std::string> costs;  // "torque", "work:0.5" …
   std::vector<std::string> bounds;  // "max_pull_bw=1e-4" …

@@ -6,6 +6,7 @@
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
+#include "client/gait_events_table.h"
 #include "client/normative_table.h"
 #include "client/report/rolling_path.h"
 #include "client/terminal.h"
@@ -144,6 +145,7 @@ std::string Summarize(const v1::Solve& solve, bool color) {
   if (result.has_trajectory()) {
     text += solve.spec().has_manoeuvre() ? Section("Manoeuvre", ManoeuvreRows(solve), "lr", color)
                                          : Section("Gait", GaitRows(solve), "lr", color);
+    text += Section("Gait cycle from right heel strike, %", GaitEventRows(result.gait_events()), "lr", color);
     text += Section("Cost", CostRows(result), "lr", color);
   }
   if (result.has_accuracy()) {

@@ -89,8 +89,9 @@ std::string StatusCodeName(grpc::StatusCode code) {
 }
 
 std::string PhaseName(const v1::TrajectoryPhase& phase) {
-  if (phase.contacts_size() == 1) return "single support, " + phase.contacts(0);
-  return phase.contacts_size() == 0 ? "flight" : "double support";
+  std::string name;
+  for (const std::string& contact : phase.contacts()) name += (name.empty() ? "" : " + ") + contact;
+  return name.empty() ? "flight" : name;
 }
 
 std::string SolveName(const std::string& name) {

@@ -23,7 +23,7 @@ std::string FormatDuration(double seconds);
 // "2026-11-21 06:31:00 UTC"; "-" if unset.
 std::string FormatTime(const google::protobuf::Timestamp& time);
 
-// Lower-case words for people: "running", "iteration limit", "double support" …
+// Lower-case words for people: "running", "iteration limit" …
 std::string StateName(v1::SolveState state);
 std::string TerminationName(v1::Termination termination);
 // "within", "exceeded", "not judged"; the last also for a result that says nothing of it.
@@ -33,7 +33,7 @@ std::string SchemeName(v1::Discretization::Scheme scheme);
 // "INVALID_ARGUMENT", as gRPC spells it.
 std::string StatusCodeName(grpc::StatusCode code);
 
-// What a trajectory phase is called: "double support" with two contacts or more, "single support, left_foot" with one.
+// What a trajectory phase is called: the contacts that are on the ground, "left_heel + left_forefoot", or "flight".
 std::string PhaseName(const v1::TrajectoryPhase& phase);
 
 // "solves/{id}" from "solves/{id}" or "{id}". Throws Failure(kUsage) for an empty name.

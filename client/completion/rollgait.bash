@@ -7,7 +7,7 @@ _rollgait() {
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
   local request="--spec --model --speed --step-length --step-duration --free-speed --cycle --friction --clearance
-    --touch-down --touch-down-point --lift-off-point
+    --touch-down --touch-down-point --lift-off-point --allow-overlap
     --from --to --duration --duty-factor
     --preset --cost --normalize --starts --warm-start --scheme --intervals --double-intervals --accuracy --bound --tolerance --max-refinements
     --max-iterations --time-limit --output"

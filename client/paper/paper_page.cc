@@ -25,7 +25,7 @@ json Optional(const std::optional<double>& value) { return value ? json(*value) 
 // Of hip, knee and ankle of the right leg, where the model has them.
 json TorqueData(const v1::Solve& solve) {
   const v1::Model& model = solve.result().model();
-  const Stride stride = BuildStride(solve.result().trajectory(), model, kTorqueIntervals);
+  const Stride stride = BuildStride(solve.result().trajectory(), model, solve.result().gait_events().start_s(), kTorqueIntervals);
   json torques = json::object();
   for (const StrideSample& sample : stride.samples) torques["percent"].push_back(sample.percent);
   for (const char* const name : {"hip", "knee", "ankle"}) {

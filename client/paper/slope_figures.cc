@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "client/failure.h"
+#include "client/gait_events_table.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -12,41 +12,6 @@ namespace {
 
 // Samples of a stride, for the trapezoidal rule.
 constexpr int kIntervals = 2000;
-
-// "_l", "_r" or nothing.
-std::string SideOf(const v1::Model& model, int contact) {
-  const std::string& joint = model.joints(model.contacts(contact).joint()).name();
-  const std::string end = joint.size() > 2 ? joint.substr(joint.size() - 2) : "";
-  return end == "_l" || end == "_r" ? end : "";
-}
-
-int Feet(const v1::Model& model, const std::vector<int>& contacts) {
-  std::set<std::string> sides;
-  for (const int contact : contacts) sides.insert(SideOf(model, contact));
-  return static_cast<int>(sides.size());
-}
-
-bool Touches(const v1::Model& model, const StridePhase& phase, bool reference_side, const std::string& reference) {
-  return std::any_of(phase.contacts.begin(), phase.contacts.end(),
-                     [&](int contact) { return (SideOf(model, contact) == reference) == reference_side; });
-}
-
-CycleEvents FindEvents(const v1::Model& model, const Stride& stride) {
-  CycleEvents events;
-  if (stride.reference_contact < 0) return events;
-  const std::string reference = SideOf(model, stride.reference_contact);
-  for (size_t i = 1; i < stride.phases.size(); ++i) {
-    const double at = stride.phases[i].start_percent;
-    const auto changes = [&](bool side, bool on) {
-      return Touches(model, stride.phases[i], side, reference) == on &&
-             Touches(model, stride.phases[i - 1], side, reference) != on;
-    };
-    if (!events.opposite_toe_off && changes(false, false)) events.opposite_toe_off = at;
-    if (!events.opposite_heel_strike && changes(false, true)) events.opposite_heel_strike = at;
-    if (!events.toe_off && changes(true, false)) events.toe_off = at;
-  }
-  return events;
-}
 
 JointEffort MeasureJoint(const v1::Model& model, int joint, const Stride& stride) {
   JointEffort effort{model.joints(joint).name(), 0, 0, 0, 0, 0};
@@ -83,15 +48,17 @@ SlopeFigures MeasureSlope(const v1::Solve& solve) {
   figures.mirrored = result.trajectory().cycle() != v1::CYCLE_FULL;
 
   const v1::Model& model = result.model();
-  const Stride stride = BuildStride(result.trajectory(), model, kIntervals);
+  const v1::GaitEvents& events = result.gait_events();
+  const Stride stride = BuildStride(result.trajectory(), model, events.start_s(), kIntervals);
   figures.stride_time_s = stride.duration_s;
   figures.stride_length_m = stride.displacement_m;
-  figures.events = FindEvents(model, stride);
-  for (const StridePhase& phase : stride.phases) {
-    PhaseShare share{phase.start_percent, phase.end_percent,
-                     (phase.end_percent - phase.start_percent) / 100 * stride.duration_s, Feet(model, phase.contacts), {}};
-    for (const int contact : phase.contacts) share.contacts.push_back(model.contacts(contact).name());
-    figures.phases.push_back(share);
+  figures.events = {FirstEvent(events, v1::GaitEvent::KIND_TOE_OFF, v1::FOOT_LEFT),
+                    FirstEvent(events, v1::GaitEvent::KIND_HEEL_STRIKE, v1::FOOT_LEFT),
+                    FirstEvent(events, v1::GaitEvent::KIND_TOE_OFF, v1::FOOT_RIGHT)};
+  for (const v1::SupportPhase& phase : events.phases()) {
+    figures.phases.push_back({phase.start_percent(), phase.end_percent(),
+                              (phase.end_percent() - phase.start_percent()) / 100 * events.duration_s(), phase.feet_size(),
+                              {phase.contacts().begin(), phase.contacts().end()}});
   }
   figures.total.joint = "all joints";
   for (int j = 0; j < model.joints_size(); ++j) {

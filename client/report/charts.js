@@ -60,6 +60,7 @@ function valueAt(values, percent) {
   const place = Math.min(Math.max(percent / 100, 0), 1) * (values.length - 1);
   const index = Math.min(Math.floor(place), values.length - 2);
   const share = place - index;
+  if (values[index] === null || values[index + 1] === null) return null;
   return values[index] * (1 - share) + values[index + 1] * share;
 }
 

@@ -2,7 +2,7 @@
 header();
 if (MOVING.length) {
   walkers();
-  section("Phases", "When each foot is on the ground, in % of the gait cycle.", MOVING.map(phaseBar));
+  section("Phases", "When each surface of each foot is on the ground, in % of the gait cycle; events of the right foot above, of the left foot below. Grey: both feet are on the ground.", MOVING.map(phaseBar));
   curves();
   people();
 }

@@ -21,12 +21,12 @@ function figureTwo() {
 }
 
 function phasesAndEvents() {
-  section("Phases and events", "When each foot is on the ground, in % of the gait cycle.", MOVING.map(phaseBar),
+  section("Phases and events", "When each surface of each foot is on the ground, in % of the gait cycle; events of the right foot above, of the left foot below. Grey: both feet are on the ground.", MOVING.map(phaseBar),
     table(["Slope", "Heel strike", "Opposite toe-off", "Opposite heel strike", "Toe-off"], PAPER.map((s) => [labelOf(s.solve), ...["heel_strike", "opposite_toe_off", "opposite_heel_strike", "toe_off"].map((event) => {
       const percent = s.events_percent[event];
       return percent === null ? "–" : `${fmt(percent, 3)} %, ${fmt((percent / 100) * s.stride_time_s, 3)} s`;
     })]), [1, 2, 3, 4]),
-    table(["Slope", "Phase", "Feet", "From", "To", "Duration"], PAPER.flatMap((s) => s.phases.map((p, i) => [i ? "" : labelOf(s.solve), p.feet === 2 ? "double support" : p.feet === 1 ? "single support" : "flight", p.contacts.map((c) => c.replace("_", " ")).join(", "), `${fmt(p.start_percent, 3)} %`, `${fmt(p.end_percent, 3)} %`, `${fmt(p.duration_s, 3)} s`])), [3, 4, 5]));
+    table(["Slope", "Phase", "Feet", "From", "To", "Duration"], PAPER.flatMap((s) => s.phases.map((p, i) => [i ? "" : labelOf(s.solve), supportName(p.feet), p.contacts.map((c) => c.replace("_", " ")).join(", "), `${fmt(p.start_percent, 3)} %`, `${fmt(p.end_percent, 3)} %`, `${fmt(p.duration_s, 3)} s`])), [3, 4, 5]));
 }
 
 function efforts() {

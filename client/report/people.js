@@ -46,7 +46,7 @@ function people() {
   const solves = SOLVES.filter((s) => s.people && s.people.datasets);
   if (!solves.length) return;
   const curvesOf = (quantity) => [...new Set(solves[0].people.datasets.flatMap((set) => set.curves).filter((c) => c.quantity === quantity).map((c) => c.joint))].map((joint) => peopleChart(solves, quantity, joint));
-  section("Beside people", "Right leg, from heel strike to heel strike, over what people do on level ground: bands are mean ± one standard deviation. Moments are net, from inverse dynamics, per kg of body mass; triangles mark our toe-off. On a slope people walk otherwise; the bands stay those of level ground.",
+  section("Beside people", "Right leg, from heel strike to heel strike, over what people do on level ground: bands are mean ± one standard deviation. Moments are net (muscles and passive tissue together: the efforts of the gait, inverse dynamics of the people), per kg of body mass; triangles mark our toe-off. On a slope people walk otherwise; the bands stay those of level ground.",
     el("div", { class: "grid" }, curvesOf("QUANTITY_ANGLE")), el("div", { class: "grid" }, curvesOf("QUANTITY_MOMENT")),
     el("div", { class: "grid" }, curvesOf("QUANTITY_VERTICAL_FORCE"), curvesOf("QUANTITY_FORWARD_FORCE")),
     peopleCycle(solves), peopleFigures(solves),

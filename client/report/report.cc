@@ -29,9 +29,9 @@ std::string EscapeHtml(const std::string& text) {
 }
 
 // JSON that cannot end the script element it stands in.
-std::string EscapeScript(const std::string& json) {
+std::string EscapeScript(const std::string& text) {
   std::string escaped;
-  for (const char c : json) escaped += c == '<' ? "\\u003c" : std::string(1, c);
+  for (const char c : text) escaped += c == '<' ? "\\u003c" : std::string(1, c);
   return escaped;
 }
 

@@ -8,6 +8,7 @@
 #include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "client/json.h"
+#include "client/report/gait_events_data.h"
 #include "client/report/rolling_path.h"
 #include "client/report/walker_data.h"
 #include "client/summary.h"
@@ -17,8 +18,6 @@ namespace rollgait::client {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kStrideIntervals = 200;
 
 std::string SlopeLabel(double slope_rad) {
   const double degrees = slope_rad * 180 / kPi;
@@ -194,7 +193,10 @@ json ReportData(const std::vector<v1::Solve>& solves, const std::string& title) 
         list.push_back(std::move(solve));
         continue;
       }
-      solve["stride"] = StrideData(BuildStride(result.trajectory(), result.model(), kStrideIntervals), result.model());
+      const v1::GaitEvents& events = result.gait_events();
+      const Stride stride = BuildStride(result.trajectory(), result.model(), events.start_s(), kCycleSteps);
+      solve["stride"] = StrideData(stride, result.model());
+      solve["stride"].update(GaitEventsData(events, result.model()));
     }
     list.push_back(std::move(solve));
   }

@@ -16,10 +16,11 @@ function table(head, rows, numeric) {
 
 const swatch = (solve) => el("span", { class: "swatch", style: `border-color:${solveColor(solve.index)}` });
 const labelOf = (solve) => el("span", { class: "label" }, swatch(solve), solve.label);
-const doubleSupports = (stride) => stride.phases.filter((phase) => phase.contacts.length > 1);
+const supportName = (feet) => (feet > 1 ? "double support" : feet ? "single support" : "flight");
+const doubleSupports = (stride) => stride.phases.filter((phase) => phase.feet > 1);
+const rightFoot = (stride) => stride.feet.find((foot) => foot.right);
 const rightToeOff = (stride) => {
-  const right = stride.contacts.filter((c) => c.right).map((c) => c.name);
-  const event = stride.events.find((e) => !e.strike && right.includes(e.contact));
+  const event = stride.events.find((e) => e.foot === "right" && e.name === "toe off");
   return event ? event.percent : null;
 };
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -35,11 +36,11 @@ function header() {
   const head = ["Slope", "How it ended", "Accuracy", "Speed", "Step length", "Step time", "Stance (right)", "Double support", "Objective", "Iterations", "Time"];
   const rows = SOLVES.map((solve) => {
     const stride = solve.stride;
-    const both = stride ? doubleSupports(stride).reduce((sum, p) => sum + p.end - p.start, 0) : null;
+    const foot = stride ? rightFoot(stride) : null;
     return [labelOf(solve), el("span", { class: `verdict ${solve.good ? "good" : "bad"}` }, solve.verdict),
       solve.accuracy.length ? accuracyBadge(solve) : "–",
       stride ? `${fmt(solve.speed)} m/s` : "–", stride ? `${fmt(solve.step_length)} m` : "–", stride ? `${fmt(stride.duration / 2, 3)} s` : "–",
-      stride && rightToeOff(stride) !== null ? `${fmt(rightToeOff(stride), 3)} %` : "–", stride ? `${fmt(both, 3)} %` : "–",
+      foot ? `${fmt(100 * foot.stance, 3)} %` : "–", foot ? `${fmt(100 * stride.double_support, 3)} %` : "–",
       fmt(solve.objective, 5), String(solve.iterations), solve.wall];
   });
   page.append(table(head, rows, [3, 4, 5, 6, 7, 8, 9, 10]));
@@ -58,39 +59,53 @@ function walkers() {
     MOVING.map((s) => snapshots(s, s.index)));
 }
 
+// When each foot and each of its surfaces is on the ground, and the events of each foot: those of the right foot above the bars, those of
+// the left one below, each on the first line where it has room.
 function phaseBar(solve) {
-  const stride = solve.stride, width = 1120, left = 70, right = 12, row = 20;
+  const stride = solve.stride, width = 1120, left = 110, right = 12, row = 20, line = 13;
   const x = (percent) => left + (percent / 100) * (width - left - right);
   const contacts = [...stride.contacts].sort((a, b) => Number(b.right) - Number(a.right));
-  const tall = 26 + contacts.length * (row + 6) + 34;
+  const place = (foot) => {
+    const ends = [];
+    return stride.events.filter((event) => event.foot === foot).map((event) => {
+      const words = `${event.name} ${fmt(event.percent, 3)} %`, half = 3.2 * words.length;
+      const middle = Math.min(Math.max(x(event.percent), left + half), width - right - half);
+      let level = ends.findIndex((end) => end + 6 < middle - half);
+      if (level < 0) level = ends.length;
+      ends[level] = middle + half;
+      return { ...event, words, middle, level };
+    });
+  };
+  const above = place("right"), below = place("left");
+  const levels = (list) => Math.max(0, ...list.map((event) => event.level + 1));
+  const top = 22 + line * levels(above), bottom = top + contacts.length * (row + 6);
+  const tall = bottom + line * levels(below) + 12;
   const root = svg("svg", { viewBox: `0 0 ${width} ${tall}`, role: "img", "aria-label": `Phases at ${solve.label}` });
   for (const phase of stride.phases) {
     const middle = (x(phase.start) + x(phase.end)) / 2, wide = x(phase.end) - x(phase.start);
-    if (phase.contacts.length > 1) root.append(svg("rect", { class: "band", x: x(phase.start), y: 0, width: wide, height: tall - 30 }));
-    const name = phase.contacts.length > 1 ? "double" : phase.contacts.length ? "single" : "flight";
+    if (phase.feet > 1) root.append(svg("rect", { class: "band", x: x(phase.start), y: top - 4, width: wide, height: bottom - top + 4 }));
     const share = `${fmt(phase.end - phase.start, 3)} %`;
-    root.append(svg("text", { x: middle, y: 15, "text-anchor": "middle" }, wide > 110 ? `${name} support ${share}` : wide > 34 ? share : ""));
+    root.append(svg("text", { x: middle, y: 12, "text-anchor": "middle" }, wide > 120 ? `${supportName(phase.feet)} ${share}` : wide > 40 ? share : ""));
   }
   contacts.forEach((contact, i) => {
-    const y = 24 + i * (row + 6);
+    const y = top + i * (row + 6);
     root.append(svg("text", { x: left - 8, y: y + 14, "text-anchor": "end" }, contact.name.replace("_", " ")));
     for (const phase of stride.phases.filter((p) => p.contacts.includes(contact.name))) {
       root.append(svg("rect", { x: x(phase.start), y, width: x(phase.end) - x(phase.start), height: row, style: `fill:${solveColor(solve.index)};fill-opacity:${contact.right ? 0.9 : 0.4}` }));
     }
   });
-  const seen = [...stride.events, { percent: 100, contact: null }];
-  seen.forEach((event, i) => {
-    const side = event.contact === null ? "" : event.contact.replace("_foot", "");
-    const words = event.contact === null ? "" : `${side} ${event.strike ? "heel strike" : "toe-off"}`;
-    root.append(svg("line", { class: "zero", x1: x(event.percent), x2: x(event.percent), y1: 20, y2: tall - 28 }));
-    const anchor = event.percent > 94 ? "end" : event.percent < 3 ? "start" : "middle";
-    const crowded = i > 0 && event.percent - seen[i - 1].percent < 16 && i % 2 === 1;
-    root.append(svg("text", { x: x(event.percent), y: tall - 16 + (crowded ? 13 : 0), "text-anchor": anchor }, `${fmt(event.percent, 3)} % ${words}`));
-  });
-  const cursor = svg("line", { class: "cursor", y1: 0, y2: tall - 28, x1: -9, x2: -9 });
+  for (const [list, sign, edge] of [[above, -1, top - 6], [below, 1, bottom + 10]]) {
+    for (const event of list) {
+      const y = edge + sign * line * event.level;
+      root.append(svg("line", { class: "zero", x1: x(event.percent), x2: x(event.percent), y1: sign < 0 ? y + 3 : top - 4, y2: sign < 0 ? bottom : y - 10 }));
+      root.append(svg("text", { x: event.middle, y, "text-anchor": "middle" }, event.words));
+    }
+  }
+  const cursor = svg("line", { class: "cursor", y1: top - 4, y2: bottom, x1: -9, x2: -9 });
   root.append(cursor);
   cursors.push((percent) => { cursor.setAttribute("x1", x(percent)); cursor.setAttribute("x2", x(percent)); });
-  return el("div", { class: "card", style: "margin:14px 0" }, el("h3", {}, labelOf(solve), el("span", { class: "soft" }, `stride ${fmt(stride.duration, 3)} s, ${fmt(stride.displacement, 3)} m`)), root);
+  const both = stride.double_support === null ? "" : `, double support ${fmt(100 * stride.double_support, 3)} %, stance of the right foot ${fmt(100 * rightFoot(stride).stance, 3)} %`;
+  return el("div", { class: "card", style: "margin:14px 0" }, el("h3", {}, labelOf(solve), el("span", { class: "soft" }, `stride ${fmt(stride.duration, 3)} s, ${fmt(stride.displacement, 3)} m${both}`)), root);
 }
 
 // Curves of one kind, all solves overlaid, one chart a joint.
@@ -123,25 +138,28 @@ function curves() {
   section("Joint angles", "Angles of the right leg and of the trunk. Zero is the upright posture with straight legs and level feet, relative to the slope's normal.",
     overlaid("angles", "degrees", true));
   section("Joint power of the right leg", "Torque times angular velocity: positive power adds energy, negative power takes it away.", overlaid("powers", "W", false));
-  // The foot whose heel strike is 0 %. A ratio means nothing where there is no force.
-  const right = (s) => s.stride.contacts.find((c) => c.right) || s.stride.contacts[0];
+  // Forces are sums over the surfaces of a foot. A ratio means nothing where there is no force.
+  const known = MOVING.filter((s) => s.stride.feet.length);
+  if (!known.length) return;
+  const right = (s) => rightFoot(s.stride);
   const ratio = (s) => right(s).normal.map((normal, i) => (normal > 0.5 ? Math.abs(right(s).tangential[i]) / normal : 0));
   const overlay = (title, unit, note, values) => chart({
     title, unit, note,
-    series: MOVING.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: values(s), mark: rightToeOff(s.stride) })),
+    series: known.map((s) => ({ label: s.label, color: solveColor(s.index), dash: DASHES[s.index % 4], values: values(s), mark: rightToeOff(s.stride) })),
   });
   const overlays = [
     overlay("Normal, right foot", "% of body weight", "", (s) => right(s).normal),
     overlay("Tangential, right foot", "% of body weight", "+ forward", (s) => right(s).tangential),
-    overlay("Friction ratio, right foot", "tangential / normal", "", ratio)];
-  const pool = MOVING.flatMap((s) => s.stride.contacts.flatMap((c) => [...c.normal, ...c.tangential]));
-  const each = MOVING.map((s) => chart({
+    overlay("Friction ratio, right foot", "tangential / normal", "", ratio),
+    overlay("Centre of pressure, right foot", "mm", "forward from its first place", (s) => right(s).pressure)];
+  const pool = known.flatMap((s) => s.stride.feet.flatMap((foot) => [...foot.normal, ...foot.tangential]));
+  const each = known.map((s) => chart({
     title: s.label, unit: "% of body weight", pool, note: "grey: double support", bands: doubleSupports(s.stride),
-    series: s.stride.contacts.flatMap((c) => [
-      { label: `${c.name.replace("_", " ")}, normal`, color: solveColor(s.index), opacity: c.right ? 1 : 0.5, values: c.normal, mark: null },
-      { label: "tangential", color: solveColor(s.index), opacity: c.right ? 1 : 0.5, dash: DASHES[2], values: c.tangential, mark: null }]),
+    series: s.stride.feet.flatMap((foot) => [
+      { label: `${foot.name}, normal`, color: solveColor(s.index), opacity: foot.right ? 1 : 0.5, values: foot.normal, mark: null },
+      { label: "tangential", color: solveColor(s.index), opacity: foot.right ? 1 : 0.5, dash: DASHES[2], values: foot.tangential, mark: null }]),
   }));
-  section("Contact forces", "Force of the ground on each foot, normal to the ground and along it. 100 % is the body's weight.",
+  section("Ground reaction forces", "Force of the ground on each foot, the sum over its surfaces, normal to the ground and along it. 100 % is the body's weight. The centre of pressure is shown where the foot carries at least 1 % of it.",
     el("div", { class: "grid" }, overlays), el("div", { class: "grid" }, each));
 }
 

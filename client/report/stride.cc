@@ -19,49 +19,6 @@ int MirrorContact(const v1::Model& model, int contact) {
                                       "\", which is no contact of the model");
 }
 
-bool Contains(const std::vector<int>& contacts, int contact) {
-  return std::find(contacts.begin(), contacts.end(), contact) != contacts.end();
-}
-
-// The phases of the whole cycle in s, from the start of the trajectory.
-std::vector<Motion::PhaseSpan> CyclePhases(const Motion& motion, const v1::Model& model, bool half) {
-  std::vector<Motion::PhaseSpan> phases = motion.phases();
-  if (!half) return phases;
-  for (Motion::PhaseSpan span : motion.phases()) {
-    span.start_s += motion.duration_s();
-    span.end_s += motion.duration_s();
-    for (int& contact : span.contacts) contact = MirrorContact(model, contact);
-    std::sort(span.contacts.begin(), span.contacts.end());
-    phases.push_back(span);
-  }
-  return phases;
-}
-
-bool IsRight(const v1::Model& model, int contact) {
-  const std::string& joint = model.joints(model.contacts(contact).joint()).name();
-  return joint.size() > 2 && joint.compare(joint.size() - 2, 2, "_r") == 0;
-}
-
-struct Start {
-  int contact = -1;
-  size_t phase = 0;
-};
-
-// Where 0 % is: the touch-down of a right contact, else any touch-down, else the start of the trajectory.
-Start FindStart(const std::vector<Motion::PhaseSpan>& phases, const v1::Model& model) {
-  Start start;
-  for (size_t i = 0; i < phases.size(); ++i) {
-    const auto& before = phases[(i + phases.size() - 1) % phases.size()].contacts;
-    for (const int contact : phases[i].contacts) {
-      if (Contains(before, contact)) continue;
-      if (start.contact < 0) start = {contact, i};
-      if (IsRight(model, contact)) return {contact, i};
-    }
-  }
-  if (start.contact < 0 && !phases[0].contacts.empty()) start.contact = phases[0].contacts[0];
-  return start;
-}
-
 }  // namespace
 
 std::vector<double> ForwardShift(const v1::Model& model, double displacement_m) {
@@ -100,18 +57,18 @@ Instant Mirror(const Instant& instant, const v1::Model& model) {
   return image;
 }
 
-Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, int intervals) {
+Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, double start_s, int intervals) {
   const Motion motion(trajectory, model);
   const bool half = trajectory.cycle() != v1::CYCLE_FULL && trajectory.cycle() != v1::CYCLE_ONCE;
   const double span = motion.duration_s();
-  const auto cycle = CyclePhases(motion, model, half);
-  const Start start = FindStart(cycle, model);
 
   Stride stride;
   stride.duration_s = half ? 2 * span : span;
   stride.displacement_m = half ? 2 * motion.displacement_m() : motion.displacement_m();
-  stride.reference_contact = start.contact;
-  const double zero_s = cycle[start.phase].start_s;
+  if (!(start_s >= 0 && start_s < stride.duration_s)) {
+    throw Failure(ExitCode::kUsage, "gait_events.start_s is " + std::to_string(start_s) + ", must be in [0, " +
+                                        std::to_string(stride.duration_s) + ")");
+  }
   const std::vector<double> shift = ForwardShift(model, motion.displacement_m());
 
   // The instant at time t ≥ 0 from the start of the trajectory, any number of spans later.
@@ -125,21 +82,7 @@ Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, int
   };
   for (int i = 0; i <= intervals; ++i) {
     const double time = stride.duration_s * i / intervals;
-    stride.samples.push_back({100.0 * i / intervals, time, at(zero_s + time, i == intervals)});
-  }
-  for (size_t i = 0; i < cycle.size(); ++i) {
-    const size_t current = (start.phase + i) % cycle.size();
-    const auto& contacts = cycle[current].contacts;
-    const auto& before = cycle[(current + cycle.size() - 1) % cycle.size()].contacts;
-    const double length = 100.0 * (cycle[current].end_s - cycle[current].start_s) / stride.duration_s;
-    const double from = stride.phases.empty() ? 0.0 : stride.phases.back().end_percent;
-    stride.phases.push_back({from, i + 1 == cycle.size() ? 100.0 : from + length, contacts});
-    for (const int contact : contacts) {
-      if (!Contains(before, contact)) stride.events.push_back({from, contact, true});
-    }
-    for (const int contact : before) {
-      if (!Contains(contacts, contact)) stride.events.push_back({from, contact, false});
-    }
+    stride.samples.push_back({100.0 * i / intervals, time, at(start_s + time, i == intervals)});
   }
   return stride;
 }

@@ -86,9 +86,10 @@ function figure(stride, color, withForces) {
 
 // What stands on the ground at a percentage, in words.
 function phaseAt(stride, percent) {
+  if (!stride.phases.length) return "";
   const phase = stride.phases.find((p) => percent < p.end) || stride.phases[stride.phases.length - 1];
   const names = phase.contacts.map((name) => name.replace("_", " "));
-  return names.length > 1 ? "double support" : names.length ? `single support, ${names[0]}` : "flight";
+  return [supportName(phase.feet), ...names].join(", ");
 }
 
 // One panel of the animation; follows the walker.

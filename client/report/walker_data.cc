@@ -25,9 +25,17 @@ json Place(double metres) { return std::round(metres * 1e4) / 1e4; }
 
 enum Side { kMiddle = 0, kReference = 1, kOther = 2 };
 
-// The side of each joint: lateral joints have another joint as their mirror image; the reference side is that of the
-// contact whose touch-down is 0 %.
-std::vector<Side> Sides(const v1::Model& model, int reference_contact) {
+// A contact on a joint whose name ends in "_r", else the first one; -1 without contacts.
+int ReferenceContact(const v1::Model& model) {
+  for (int c = 0; c < model.contacts_size(); ++c) {
+    if (model.joints(model.contacts(c).joint()).name().ends_with("_r")) return c;
+  }
+  return model.contacts_size() > 0 ? 0 : -1;
+}
+
+// The side of each joint: lateral joints have another joint as their mirror image; the reference side is the right one.
+std::vector<Side> Sides(const v1::Model& model) {
+  const int reference_contact = ReferenceContact(model);
   std::vector<Side> sides(model.joints_size(), kMiddle);
   for (int i = 0; i < model.joints_size(); ++i) {
     if (model.joints(i).mirror_joint() != i) sides[i] = kOther;
@@ -77,19 +85,10 @@ json Curve(const Stride& stride, const v1::Model& model, int joint, const Value&
   return {{"joint", name}, {"title", Title(name)}, {"positive", PositiveDirection(model, joint)}, {"values", values}};
 }
 
-json Contacts(const Stride& stride, const v1::Model& model, const std::vector<Side>& sides) {
-  const double percent = 100.0 / (model.total_mass_kg() * model.gravity_m_s2());
+json Contacts(const v1::Model& model, const std::vector<Side>& sides) {
   json contacts = json::array();
-  for (int c = 0; c < model.contacts_size(); ++c) {
-    json normal = json::array(), tangential = json::array();
-    for (const StrideSample& sample : stride.samples) {
-      normal.push_back(Rounded(percent * sample.instant.force[c][2]));
-      tangential.push_back(Rounded(percent * sample.instant.force[c][0]));
-    }
-    contacts.push_back({{"name", model.contacts(c).name()},
-                        {"right", sides[model.contacts(c).joint()] == kReference},
-                        {"normal", normal},
-                        {"tangential", tangential}});
+  for (const v1::ContactSurface& contact : model.contacts()) {
+    contacts.push_back({{"name", contact.name()}, {"right", sides[contact.joint()] == kReference}});
   }
   return contacts;
 }
@@ -208,20 +207,9 @@ json ModelData(const v1::Model& model) {
 }
 
 json StrideData(const Stride& stride, const v1::Model& model) {
-  const std::vector<Side> sides = Sides(model, stride.reference_contact);
+  const std::vector<Side> sides = Sides(model);
   json data = {{"duration", stride.duration_s}, {"displacement", stride.displacement_m}};
   for (const StrideSample& sample : stride.samples) data["percent"].push_back(sample.percent);
-  data["phases"] = json::array();
-  for (const StridePhase& phase : stride.phases) {
-    json contacts = json::array();
-    for (const int contact : phase.contacts) contacts.push_back(model.contacts(contact).name());
-    data["phases"].push_back({{"start", phase.start_percent}, {"end", phase.end_percent}, {"contacts", contacts}});
-  }
-  data["events"] = json::array();
-  for (const StrideEvent& event : stride.events) {
-    data["events"].push_back(
-        {{"percent", event.percent}, {"contact", model.contacts(event.contact).name()}, {"strike", event.touch_down}});
-  }
   for (const char* const key : {"angles", "torques", "powers"}) data[key] = json::array();
   for (const int i : ShownJoints(model, sides)) {
     const double scale = model.joints(i).type() == v1::Joint::TYPE_PRISMATIC ? 1.0 : 180 / kPi;
@@ -233,7 +221,7 @@ json StrideData(const Stride& stride, const v1::Model& model) {
     if (model.joints(i).actuated() || model.joints(i).type() == v1::Joint::TYPE_PRISMATIC) continue;
     data["angles"].push_back(Curve(stride, model, i, [i](const Instant& at) { return at.position[i] * 180 / kPi; }));
   }
-  data["contacts"] = Contacts(stride, model, sides);
+  data["contacts"] = Contacts(model, sides);
   data["walker"] = Walker(stride, model, sides);
   return data;
 }

@@ -13,8 +13,7 @@ namespace rollgait::client {
 nlohmann::json ModelData(const v1::Model& model);
 
 // {duration, displacement, percent: [...],
-//  phases: [{start, end, contacts}], events: [{percent, contact, strike}],     contacts by name
-//  contacts: [{name, right, normal: [...], tangential: [...]}],                % of body weight; tangential along +x
+//  contacts: [{name, right}],
 //  angles, torques, powers: [{joint, title, positive, values}],                °, N m, W of the joints shown
 //  walker: {points: [[x0, z0, x1, z1, …] per sample], segments: [[from, to, side]], feet: [[cx, cz, a, b, angle, px,
 //  pz,

@@ -58,6 +58,13 @@ class PhaseExcesses {
 
 }  // namespace
 
+bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added) {
+  if (spec.bounds[Criterion::kOverlap] == kInfinity) return false;
+  bool any = false;
+  for (int pair : report.overlapping_pairs) any |= Insert(pair, &added->separated);
+  return any;
+}
+
 bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added) {
   added->between.resize(trajectory.phases.size());
   bool any = false;

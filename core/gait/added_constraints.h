@@ -14,6 +14,9 @@ namespace rollgait {
 // since most of them never matter and each costs time.
 bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added);
 
+// The same for the distances of pairs of bodies that overlap, unless the request has no bound on overlap.
+bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added);
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_GAIT_ADDED_CONSTRAINTS_H_

@@ -30,12 +30,12 @@ TrackingCost DescribeTracking(const GaitRequest::Tracking& tracking, const Model
   return cost;
 }
 
-std::vector<MuscledJoint> MuscledJoints(const Scene& scene, const std::map<std::string, double>& weights) {
+std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale, const std::map<std::string, double>& weights) {
   std::vector<MuscledJoint> joints;
   for (int index : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(index);
     const double strength = std::max(-joint.effort_min, joint.effort_max);
-    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint, scene.selection.mass)});
+    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint, passive_scale * scene.selection.mass)});
   }
   return joints;
 }
@@ -43,6 +43,7 @@ std::vector<MuscledJoint> MuscledJoints(const Scene& scene, const std::map<std::
 // Describes each kind of term.
 struct TermDescription {
   const Scene& scene;
+  double passive_scale;
   const OptimalControlProblem& problem;
   PointLayout layout;
   // Mechanical power of a walker, W: about 0.5 J per newton of weight and metre.
@@ -66,14 +67,14 @@ struct TermDescription {
   Term operator()(const GaitRequest::Time&) const { return std::make_unique<TimeCost>(); }
   Term operator()(const GaitRequest::Tracking& term) const { return DescribeTracking(term, problem.model); }
   Term operator()(const GaitRequest::MuscleEffort& term) const {
-    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, term.joint_weights), term.exponent.value(), layout);
+    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, passive_scale, term.joint_weights), term.exponent.value(), layout);
   }
   Term operator()(const GaitRequest::MuscleWork& term) const {
-    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, term.joint_weights), term.positive_efficiency.value(),
+    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, passive_scale, term.joint_weights), term.positive_efficiency.value(),
                                             term.negative_efficiency.value(), term.smoothing.value(), layout, power());
   }
   Term operator()(const GaitRequest::PassiveLoad& term) const {
-    return std::make_unique<PassiveLoadCost>(MuscledJoints(scene, term.joint_weights), layout);
+    return std::make_unique<PassiveLoadCost>(MuscledJoints(scene, passive_scale, term.joint_weights), layout);
   }
   Term operator()(const GaitRequest::SquaredAcceleration& term) const {
     VectorX weights = VectorX::Zero(problem.model.size());
@@ -144,6 +145,8 @@ double TurningMoment(const GaitSpec& spec) {
 std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   auto problem = std::make_unique<OptimalControlProblem>(spec.scene.model);
   problem->contacts = spec.scene.contacts;
+  problem->bodies = spec.scene.bodies;
+  problem->pairs = spec.scene.pairs;
   problem->gravity = spec.gravity;
   for (const GaitSpec::Phase& phase : spec.phases) {
     problem->phases.push_back({phase.contacts, {phase.min_duration, phase.max_duration}});
@@ -159,7 +162,7 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   if (spec.lift_off_point) problem->lift_off_point = Scaled(1, *spec.lift_off_point);
   problem->plastic_touch_down = spec.touch_down == GaitRequest::TouchDown::kPlastic;
   DescribeTravel(spec, problem.get());
-  const TermDescription describe{spec.scene, *problem, problem->Layout(0)};
+  const TermDescription describe{spec.scene, spec.passive_scale, *problem, problem->Layout(0)};
   for (const GaitSpec::CostTerm& term : spec.costs) {
     problem->costs.push_back({std::visit(describe, term.term), term.weight});
   }

@@ -28,7 +28,10 @@ Weights CheckWeights(const std::string& path, const Weights& weights, const Scen
 struct TermCheck {
   std::string path;
   const Scene* scene;
+  const Similarity& similarity;
   RequestCheck& check;
+
+  double DefaultSmoothing() const { return 5 * similarity.power(); }  // W
 
   void operator()(GaitRequest::SquaredTorque& term) const {
     term.joint_weights = CheckWeights(path + ".squared_torque.joint_weights", term.joint_weights, scene, check);
@@ -39,7 +42,7 @@ struct TermCheck {
   }
 
   void operator()(GaitRequest::MechanicalWork& term) const {
-    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, 5, {0.01, 1000, "W"});
+    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
   }
 
   void operator()(GaitRequest::SquaredForceRate&) const {}
@@ -71,7 +74,7 @@ struct TermCheck {
     const NumberLimits efficiency{0.01, 100};
     term.positive_efficiency = check.Number(field + ".positive_efficiency", term.positive_efficiency, 0.25, efficiency);
     term.negative_efficiency = check.Number(field + ".negative_efficiency", term.negative_efficiency, 1.2, efficiency);
-    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, 5, {0.01, 1000, "W"});
+    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
     term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
   }
 
@@ -111,12 +114,13 @@ struct TermCheck {
 
 }  // namespace
 
-std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
+std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                                           RequestCheck& check) {
   std::vector<GaitRequest::CostTerm> terms = request.costs;
   if (request.preset) {
     if (!terms.empty()) check.Add("preset", "contradicts costs; give one of the two");
     if (scene == nullptr) return {};
-    terms = PresetCosts(*request.preset, *scene);
+    terms = PresetCosts(*request.preset, *scene, similarity);
   }
   if (terms.empty()) terms.push_back({GaitRequest::SquaredTorque{}, std::nullopt});
   if (terms.size() > static_cast<size_t>(kMaxCostTerms)) {
@@ -128,7 +132,7 @@ std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Sce
   for (size_t i = 0; i < terms.size(); ++i) {
     const std::string path = Indexed("costs", i);
     const double weight = check.Number(path + ".weight", terms[i].weight, 1, kWeightLimits);
-    std::visit(TermCheck{path, scene, check}, terms[i].term);
+    std::visit(TermCheck{path, scene, similarity, check}, terms[i].term);
     checked.push_back({std::move(terms[i].term), weight});
   }
   return checked;

@@ -1,13 +1,15 @@
 #include <numbers>
 
+#include "core/gait/presets.h"
 #include "core/gait/request_check.h"
 #include "core/models/joint_limits.h"
 
 namespace rollgait {
 
-std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
+std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity, RequestCheck& check) {
   std::vector<Joint> joints;
   if (scene != nullptr) joints = scene->model.joints();
+  if (request.preset) ScaleLimits(similarity, &joints);
   // Index of the joint to change, -1 if it is unknown or there is no scene.
   const auto find = [&](const std::string& field, const std::string& name, bool actuated) {
     return scene == nullptr ? -1 : check.Joint(field, name, *scene, actuated);

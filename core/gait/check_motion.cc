@@ -9,7 +9,7 @@ namespace rollgait {
 namespace {
 
 // Refuses contradictions between the prescribed quantities; returns the mean speed that they imply, if any.
-std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, RequestCheck& check) {
+std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, double gravity, RequestCheck& check) {
   const bool both = motion.step_length && motion.step_duration;
   if (motion.free_speed && motion.speed) {
     check.Add("motion.free_speed", "contradicts speed_m_s " + FormatNumber(*motion.speed) + "; give one of the two");
@@ -30,7 +30,7 @@ std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, RequestChe
   }
   if (motion.free_speed) return std::nullopt;
   if (both) return *motion.step_length / *motion.step_duration;
-  return motion.speed.value_or(kDefaultSpeed);
+  return motion.speed.value_or(gravity > 0 ? DefaultSpeed(gravity) : DefaultSpeed(kDefaultGravity));
 }
 
 // Walking on one leg at a time needs v² <= g L: above it the ground would have to pull on the stance leg.
@@ -64,7 +64,8 @@ void CheckStepDuration(double step, const char* field, Cycle cycle, const std::v
 }
 
 // Everything but the durations of the phases. Stops at the first contradiction: what follows would repeat it.
-CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene, double gravity, RequestCheck& check) {
+CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene, double gravity, const Similarity& similarity,
+                          RequestCheck& check) {
   check.Number("motion.speed_m_s", motion.speed, 0, {0, 4, "m/s", true});
   check.Number("motion.step_length_m", motion.step_length, 0, {0, 2, "m", true});
   check.Number("motion.step_duration_s", motion.step_duration, 0, {0.1, 5, "s"});
@@ -73,13 +74,13 @@ CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene,
   CheckedMotion checked;
   checked.step_length = motion.step_length;
   checked.step_duration = motion.step_duration;
-  checked.speed_range = {0.2, 3};
-  checked.step_duration_range = {0.1, 5};
+  checked.speed_range = {0.2 * similarity.speed(), 3 * similarity.speed()};
+  checked.step_duration_range = {0.1 * similarity.time(), 5 * similarity.time()};
   if (scene != nullptr) {
-    checked.speed_range.max = std::min(3.0, std::sqrt(gravity * scene->leg_length));
+    checked.speed_range.max = std::min(checked.speed_range.max, std::sqrt(gravity * scene->leg_length));
     checked.step_length_range = {0.1 * scene->leg_length, 1.6 * scene->leg_length};
   }
-  const std::optional<double> speed = ImpliedSpeed(motion, check);
+  const std::optional<double> speed = ImpliedSpeed(motion, gravity, check);
   if (!check.ok()) return {};
   if (speed && *speed > 4) {
     check.Add("motion",
@@ -110,10 +111,10 @@ CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene,
 
 }  // namespace
 
-CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity,
+CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity, const Similarity& similarity,
                           const std::vector<GaitSpec::Phase>& phases, RequestCheck& check) {
   RequestCheck own;
-  const CheckedMotion motion = CheckTravel(request.motion, scene, gravity, own);
+  const CheckedMotion motion = CheckTravel(request.motion, scene, gravity, similarity, own);
   if (own.ok() && motion.step_duration) {
     CheckStepDuration(*motion.step_duration, "motion.step_duration_s", request.cycle, phases, own);
   } else if (own.ok() && motion.speed && motion.step_length) {

@@ -5,7 +5,7 @@
 namespace rollgait {
 namespace {
 
-constexpr double kDefaultMinDuration = 0.02;  // s
+constexpr double kDefaultMinDuration = 0.02;  // s, both at 9.81 m/s²
 constexpr double kDefaultMaxDuration = 1.5;   // s
 constexpr const char* kPath = "phases.phases";
 
@@ -78,7 +78,7 @@ void CheckOrder(const std::vector<GaitSpec::Phase>& phases, Cycle cycle, const S
 }
 
 GaitSpec::Phase CheckPhase(const std::string& path, const GaitRequest::Phase& phase, int default_intervals,
-                           const Scene* scene, RequestCheck& check) {
+                           const Scene* scene, const Similarity& similarity, RequestCheck& check) {
   GaitSpec::Phase checked{};
   if (phase.contacts.empty()) {
     check.Add(path + ".contacts", "no contact; name at least one surface that rolls in this phase");
@@ -87,8 +87,8 @@ GaitSpec::Phase CheckPhase(const std::string& path, const GaitRequest::Phase& ph
   }
   checked.intervals = check.Integer(path + ".intervals", phase.intervals, default_intervals, 1, 1000);
   const NumberLimits limits{0, 10, "s", true};
-  checked.min_duration = check.Number(path + ".min_duration_s", phase.min_duration, kDefaultMinDuration, limits);
-  checked.max_duration = check.Number(path + ".max_duration_s", phase.max_duration, kDefaultMaxDuration, limits);
+  checked.min_duration = check.Number(path + ".min_duration_s", phase.min_duration, similarity.time() * kDefaultMinDuration, limits);
+  checked.max_duration = check.Number(path + ".max_duration_s", phase.max_duration, similarity.time() * kDefaultMaxDuration, limits);
   if (checked.min_duration > checked.max_duration) {
     check.Add(path + ".min_duration_s", FormatNumber(checked.min_duration) + " s is longer than max_duration_s " +
                                             FormatNumber(checked.max_duration) + " s" +
@@ -99,7 +99,8 @@ GaitSpec::Phase CheckPhase(const std::string& path, const GaitRequest::Phase& ph
 
 }  // namespace
 
-std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene* scene, RequestCheck& check) {
+std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                                         RequestCheck& check) {
   const GaitRequest::Discretization& mesh = request.discretization;
   const int single =
       check.Integer("discretization.single_support_intervals", mesh.single_support_intervals, 16, 1, 1000);
@@ -125,7 +126,8 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
   std::vector<GaitSpec::Phase> checked;
   long total = 0;
   for (size_t i = 0; i < phases.size(); ++i) {
-    checked.push_back(CheckPhase(PhasePath(i), phases[i], phases[i].contacts.size() > 1 ? both : single, scene, check));
+    checked.push_back(CheckPhase(PhasePath(i), phases[i], phases[i].contacts.size() > 1 ? both : single, scene, similarity,
+                                 check));
     total += checked.back().intervals;
   }
   if (total > kMaxTotalIntervals) {

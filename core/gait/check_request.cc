@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/gait/default_speed.h"
 #include "core/gait/gait_request.h"
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
@@ -14,6 +15,13 @@ std::optional<Scene> CheckBody(BodyRequest body, RequestCheck& check) {
   if (scene.ok()) return std::move(scene).value();
   for (const Violation& violation : scene.violations()) check.Add("model." + violation.field, violation.message);
   return std::nullopt;
+}
+
+// Of a body that rolls on its own defaults do not follow mass and gravity: how fast it goes is up to its manoeuvre.
+Similarity SimilarityOf(const Scene* scene, double gravity) {
+  constexpr double kMass = 75;  // kg
+  if (scene == nullptr || scene->selection.rolling_body || !(gravity > 0)) return {};
+  return {scene->selection.mass / kMass, gravity / kDefaultGravity};
 }
 
 struct CheckedGround {
@@ -38,7 +46,7 @@ struct CheckedAccuracy {
   int max_refinements;
 };
 
-CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestCheck& check) {
+CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_overlap, RequestCheck& check) {
   using Level = GaitRequest::AccuracyLevel;
   const bool is_draft = accuracy.level == Level::kDraft;
   CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
@@ -47,12 +55,19 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, RequestChec
     const char* const unit = std::string(traits.unit) == "1" ? "" : traits.unit;
     bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, unit});
   }
+  if (allow_overlap) {
+    if (accuracy.bounds.count(Criterion::kOverlap) > 0) {
+      check.Add(std::string("accuracy.") + TraitsOf(Criterion::kOverlap).field,
+                "bounds what limits.allow_body_overlap leaves free; leave one of the two out");
+    }
+    bounds[Criterion::kOverlap] = kInfinity;
+  }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
           check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 5, 0, 6)};
 }
 
 // The phases and the motion of a walk.
-CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double gravity,
+CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double gravity, const Similarity& similarity,
                         std::vector<GaitSpec::Phase>* phases, RequestCheck& check) {
   if (scene != nullptr && scene->selection.rolling_body) {
     check.Add("manoeuvre", "is not set; model " + Quoted(scene->name) + " does not walk: give the state that it is to reach");
@@ -65,8 +80,8 @@ CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double g
     check.Add("cycle", "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
                        "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
   }
-  *phases = CheckPhases(request, scene, check);
-  return CheckMotion(request, scene, gravity, *phases, check);
+  *phases = CheckPhases(request, scene, similarity, check);
+  return CheckMotion(request, scene, gravity, similarity, *phases, check);
 }
 
 }  // namespace
@@ -80,7 +95,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
 
   constexpr double kSteepest = std::numbers::pi / 4;
   const double slope = check.Number("slope_rad", request.slope, 0, {-kSteepest, kSteepest, "rad"});
-  const double gravity = check.Number("gravity_m_s2", request.gravity, 9.81, {0.1, 100, "m/s²"});
+  const double gravity = check.Number("gravity_m_s2", request.gravity, kDefaultGravity, {0.1, 100, "m/s²"});
+  const Similarity similarity = SimilarityOf(known, gravity);
 
   const bool once = request.manoeuvre.has_value();
   CheckedManoeuvre manoeuvre;
@@ -88,16 +104,16 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   if (once) {
     manoeuvre = CheckManoeuvre(request, known, check);
   } else {
-    motion = CheckGait(request, known, gravity, &manoeuvre.phases, check);
+    motion = CheckGait(request, known, gravity, similarity, &manoeuvre.phases, check);
   }
   if (request.motion.duty_factor) {
     check.Range("motion.duty_factor", *request.motion.duty_factor, {0.5, 0.95}, true);
   }
-  std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, check);
+  std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, similarity, check);
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);
-  std::vector<Joint> joints = CheckLimits(request, known, check);
-  const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, check);
+  std::vector<Joint> joints = CheckLimits(request, known, similarity, check);
+  const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, request.limits.allow_body_overlap, check);
   const int max_iterations =
       check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, once ? 5000 : 1000, 1, 100000);
   const double max_wall_time =
@@ -113,6 +129,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   Scene limited = *scene;
   limited.model = std::move(model).value();
   return GaitSpec{.scene = std::move(limited),
+                  .similarity = similarity,
+                  .passive_scale = request.preset ? similarity.gravity : 1,
                   .slope = slope,
                   .gravity = gravity * Vector3(-std::sin(slope), 0, -std::cos(slope)),
                   .speed = motion.speed,
@@ -135,6 +153,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .touch_down = request.ground_contact.touch_down,
                   .scheme = request.discretization.scheme,
                   .kkt_tolerance = accuracy.kkt_tolerance,
+                  .allow_body_overlap = request.limits.allow_body_overlap,
                   .bounds = accuracy.bounds,
                   .max_refinements = accuracy.max_refinements,
                   .max_iterations = max_iterations,

@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/gait/manoeuvre_request.h"
+#include "core/gait/similarity.h"
 #include "core/gait/warm_start.h"
 #include "core/models/catalog.h"
 #include "core/trajectory/trajectory.h"
@@ -88,6 +89,7 @@ struct GaitRequest {
     std::map<std::string, Range> joint_position;
     std::map<std::string, double> joint_velocity;
     std::map<std::string, Range> joint_effort;
+    bool allow_body_overlap = false;
   } limits;
   struct Discretization {
     Scheme scheme = Scheme::kRadau2;
@@ -121,6 +123,9 @@ struct GaitSpec {
     double weight;
   };
   Scene scene;  // limits of the request already applied to its joints
+  Similarity similarity;  // of the body and the gravity, which defaults and presets followed
+  double time_unit = 1;   // s for each that the numbers here count (InTimeUnit)
+  double passive_scale;   // factor on measured passive torques: a preset takes them to the gravity of the request
   double slope;
   Vector3 gravity;  // world axes, m/s²
   std::optional<double> speed, step_length, step_duration;  // prescribed ones
@@ -136,7 +141,8 @@ struct GaitSpec {
   GaitRequest::TouchDown touch_down;
   Scheme scheme;
   double kkt_tolerance;
-  CriterionValues bounds;  // all infinite: the trajectory is not judged
+  bool allow_body_overlap;  // bodies may pass through each other; the bound of the overlap is then infinite
+  CriterionValues bounds;   // all infinite: the trajectory is not judged
   int max_refinements;
   int max_iterations;
   double max_wall_time;

@@ -8,6 +8,7 @@
 #include "core/gait/gait_request.h"
 #include "core/nlp/result.h"
 #include "core/trajectory/trajectory.h"
+#include "core/validation/gait_events.h"
 #include "core/validation/normative.h"
 #include "core/validation/report.h"
 
@@ -47,7 +48,8 @@ struct GaitSolution {
   std::string note;                          // how it was reached, where not at once; the end of the message of a whole solve
   std::optional<Trajectory> trajectory;      // present if the last iterate is finite
   std::optional<AccuracyReport> accuracy;    // present with the trajectory
-  std::optional<NormativeComparison> normative;  // present with a trajectory of a human that walks
+  std::optional<GaitEvents> events;          // present with a trajectory of a human that walks
+  std::optional<NormativeComparison> normative;  // present with events
   Verdict verdict;                           // of a converged solution; not judged otherwise
   double objective = 0;
   double kkt_error = 0;

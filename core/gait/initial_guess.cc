@@ -246,9 +246,9 @@ struct Travel {
 
 Travel ChooseTravel(const GaitSpec& spec, const OptimalControlProblem& problem, double step_factor) {
   const double steps = problem.mirrored ? 1 : 2;
-  const double leg = spec.scene.leg_length;
-  const double speed = spec.speed.value_or(std::clamp(1.3, problem.speed.min, problem.speed.max));
-  const double natural = step_factor * 0.72 * leg * std::sqrt(speed / 1.3);
+  const double leg = spec.scene.leg_length, comfortable = 1.3 * spec.similarity.speed();
+  const double speed = spec.speed.value_or(std::clamp(comfortable, problem.speed.min, problem.speed.max));
+  const double natural = step_factor * 0.72 * leg * std::sqrt(speed / comfortable);
   double step = spec.step_length.value_or(spec.step_duration ? speed * *spec.step_duration : natural);
   step = std::clamp(step, problem.displacement.min / steps, problem.displacement.max / steps);
   const double duration = spec.step_duration.value_or(step / speed);

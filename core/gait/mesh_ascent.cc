@@ -51,7 +51,10 @@ int Halvings(const GaitSpec& spec) {
 
 // What only leads to the spec's solution.
 GaitSpec OnTheWay(GaitSpec spec) {
+  // The legs must be on their sides before the mesh is fine.
+  const double overlap = spec.bounds[Criterion::kOverlap];
   spec.bounds = NoBounds();
+  spec.bounds[Criterion::kOverlap] = overlap;
   spec.max_refinements = 0;
   return spec;
 }

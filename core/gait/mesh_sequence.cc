@@ -99,12 +99,11 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
   solution->multipliers = {result.constraint_multipliers / nlp.objective_scale(),
                            (result.lower_bound_multipliers - result.upper_bound_multipliers) / nlp.objective_scale()};
   solution->added = nlp.added();
-  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
   solution->costs = ReportCosts(problem, nlp, x);
   solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
   solution->speed = nlp.displacement(x) / nlp.duration(x);
   solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
-  solution->verdict = Converged(result.termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
+  Judge(spec, solution);
   statistics->objective = solution->objective;
   statistics->max_gap = solution->accuracy->max_gap;
   statistics->max_slip = solution->accuracy->max_slip;
@@ -114,6 +113,12 @@ void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, Collocati
 
 bool Converged(Termination termination) {
   return termination == Termination::kOptimal || termination == Termination::kAcceptable;
+}
+
+void Judge(const GaitSpec& spec, GaitSolution* solution) {
+  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
+  solution->verdict =
+      Converged(solution->termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
 }
 
 namespace {
@@ -262,8 +267,21 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       solution.message += " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || IsDone(solution) || spec.max_refinements == 0) break;
-    if (IsArtefact(spec, solution)) {
+    if (!Converged(result.termination) || IsDone(solution)) break;
+    const bool is_artefact = IsArtefact(spec, solution);
+    if (!is_artefact && additions < kMostAdditions && AddOverlapping(spec, *solution.accuracy, &added)) {
+      // Bodies that overlapped move a long way, on the same mesh first. From a guess, which has the legs on their sides, the way is
+      // shorter than from a motion that has them crossed.
+      ++additions;
+      if (guess.near_solution) {
+        guess = GuessFromTrajectory(*solution.trajectory);
+        options = OptionsForNeighbour(spec);
+        previous = std::move(current);
+      }
+      continue;
+    }
+    if (spec.max_refinements == 0) break;
+    if (is_artefact) {
       if (refinements++ == spec.max_refinements) break;
       // Start afresh: a finer mesh started from there would stay near it.
       mesh = Halved(mesh);

@@ -16,6 +16,9 @@ bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 // True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
 bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
 
+// Fills accuracy and verdict of a solution with a trajectory.
+void Judge(const GaitSpec& spec, GaitSolution* solution);
+
 // The meshes of a solve that went before this one.
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);
 

@@ -12,6 +12,7 @@
 #include "core/gait/power_smoothing.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
+#include "core/gait/time_unit.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
@@ -46,8 +47,9 @@ GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
 GaitSolution SearchOnMesh(const GaitSpec& spec, SolveBudget* budget) {
   constexpr double kCoarseTolerance = 1e-3;  // of what is only a start
-  if (LeastSmoothing(spec).value_or(kSmoothingFromAfar) >= kSmoothingFromAfar) return SearchFromAfar(spec, budget);
-  GaitSpec smooth = SmoothedBy(kSmoothingFromAfar, spec);
+  const double cold = ColdSmoothing(spec);
+  if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, budget);
+  GaitSpec smooth = SmoothedBy(cold, spec);
   smooth.max_refinements = 0;
   smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
   GaitSolution solution = SearchFromAfar(smooth, budget);
@@ -84,6 +86,12 @@ GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   return cold;
 }
 
+// In the time unit of the walk's gravity; at 9.81 m/s² that is the second.
+GaitSolution SearchInOwnTime(const GaitSpec& spec, SolveBudget* budget) {
+  const double unit = spec.similarity.time();
+  return unit == 1 ? Search(spec, budget) : InSeconds(unit, spec, Search(InTimeUnit(unit, spec), budget));
+}
+
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
@@ -96,9 +104,10 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     return solution;
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
-  GaitSolution solution = Search(spec, &budget);
+  GaitSolution solution = SearchInOwnTime(spec, &budget);
   solution.message += solution.note;
-  if (solution.trajectory) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, spec.gravity);
+  if (solution.trajectory) solution.events = MeasureGaitEvents(spec.scene, *solution.trajectory, spec.gravity);
+  if (solution.events) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, *solution.events);
   return solution;
 }
 

@@ -1,5 +1,6 @@
 #include "core/gait/presets.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -9,8 +10,7 @@
 namespace rollgait {
 namespace {
 
-constexpr double kMass = 75;  // kg, at which the weights are given
-constexpr double kGravity = 9.81;
+constexpr double kGravity = 9.81;  // m/s², at which weights are given, with 75 kg
 
 // The weights whose joints the body has; "hip" stands for hip_l and hip_r.
 std::map<std::string, double> OfBody(const std::map<std::string, double>& weights, const Scene& scene) {
@@ -46,20 +46,30 @@ class Costs {
   std::vector<GaitRequest::CostTerm> terms_;
 };
 
-void AddHumanCosts(const Scene& scene, Costs* costs) {
-  const double size = scene.selection.mass / kMass;
+// Factors on weights that undo what mass and gravity do to the integral of a term, ∫ … dt with dt in proportion to 1/√g.
+struct WeightFactors {
+  explicit WeightFactors(const Similarity& s)
+      : ratio(s.speed()), energy(s.speed() / s.power()), torque_rate(s.speed() / std::pow(s.power(), 2)),
+        acceleration(s.speed() / std::pow(s.gravity, 2)) {}
+  double ratio;         // of what neither changes: torque over strength, angles
+  double energy;        // of powers
+  double torque_rate;   // of its square; a rate of torque has the factor of a power
+  double acceleration;  // of its square
+};
+
+void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* costs) {
   GaitRequest::MuscleEffort effort;
   effort.joint_weights = OfBody({{"hip", 0.5}, {"knee", 0.1}, {"ankle", 0.2}}, scene);
-  costs->Add(std::move(effort), 1);
-  costs->Add(GaitRequest::MuscleWork{}, 5e-4 / size);
-  costs->Add(GaitRequest::PassiveLoad{}, 1.2);
-  costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 / (size * size));
+  costs->Add(std::move(effort), factors.ratio);
+  costs->Add(GaitRequest::MuscleWork{}, 5e-4 * factors.energy);
+  costs->Add(GaitRequest::PassiveLoad{}, 1.2 * factors.ratio);
+  costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 * factors.torque_rate);
   GaitRequest::SquaredAcceleration acceleration;
   acceleration.joint_weights =
       OfBody({{"hip", 0.6}, {"knee", 0.3}, {"ankle", 2.7}, {"base_pitch", 1.6}, {"base_z", 0.7}}, scene);
-  costs->Add(std::move(acceleration), 2.7e-6);
+  costs->Add(std::move(acceleration), 2.7e-6 * factors.acceleration);
   GaitRequest::Tracking posture = Posture(scene);
-  if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5);
+  if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5 * factors.ratio);
 }
 
 }  // namespace
@@ -71,25 +81,33 @@ void FillFromPreset(GaitRequest* request) {
   if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.02;
 }
 
-std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene) {
-  const double size = scene.selection.mass / kMass;
+std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene, const Similarity& similarity) {
+  const WeightFactors factors(similarity);
   Costs costs;
   switch (preset) {
     case Preset::kTorque:
       costs.Add(GaitRequest::SquaredTorque{}, 1);
       return costs.Take();
     case Preset::kTransport:
-      costs.Add(GaitRequest::MuscleWork{}, 1 / (scene.selection.mass * kGravity));
+      costs.Add(GaitRequest::MuscleWork{}, 1 / (scene.selection.mass * kGravity * similarity.gravity));
       // Work alone leaves efforts undetermined, and on coarse meshes pays for energy that is none.
-      costs.Add(GaitRequest::SquaredTorqueRate{}, 3e-8 / (size * size));
-      costs.Add(GaitRequest::SquaredAcceleration{}, 3e-6);
-      costs.Add(GaitRequest::MuscleEffort{}, 0.05);
+      costs.Add(GaitRequest::SquaredTorqueRate{}, 3e-8 * factors.torque_rate);
+      costs.Add(GaitRequest::SquaredAcceleration{}, 3e-6 * factors.acceleration);
+      costs.Add(GaitRequest::MuscleEffort{}, 0.05 * factors.ratio);
       return costs.Take();
     case Preset::kHuman:
-      AddHumanCosts(scene, &costs);
+      AddHumanCosts(scene, factors, &costs);
       return costs.Take();
   }
   ROLLGAIT_CHECK(false);
+}
+
+void ScaleLimits(const Similarity& similarity, std::vector<Joint>* joints) {
+  for (Joint& joint : *joints) {
+    joint.velocity_max *= similarity.speed();
+    joint.effort_min *= similarity.gravity;
+    joint.effort_max *= similarity.gravity;
+  }
 }
 
 }  // namespace rollgait

@@ -65,16 +65,18 @@ std::string Keyed(const std::string& path, const std::string& key);
 std::string ListNames(const std::vector<std::string>& names);
 
 // The parts of CheckRequest. `scene` is null if the model could not be built; what depends on it is then not checked.
-std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene* scene, RequestCheck& check);
-std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, RequestCheck& check);
-// The joints of the model with the limits of the request; empty without a scene.
-std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, RequestCheck& check);
+std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                                         RequestCheck& check);
+std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                                           RequestCheck& check);
+// The joints of the model with the limits of the request, and those of its preset where it has none; empty without a scene.
+std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity, RequestCheck& check);
 
 struct CheckedMotion {
   std::optional<double> speed, step_length, step_duration;
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
 };
-CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity,
+CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double gravity, const Similarity& similarity,
                           const std::vector<GaitSpec::Phase>& phases, RequestCheck& check);
 
 // For a request with a manoeuvre, in place of CheckPhases and CheckMotion.

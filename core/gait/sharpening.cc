@@ -12,16 +12,17 @@
 namespace rollgait {
 
 GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget) {
-  constexpr double kFirstStep = 8, kLeastStep = 1.3;
+  constexpr double kFirstStep = 8, kLeastStep = 1.3, kRounding = 1e-9;
   // Where minima follow one another closely 10 to 60 iterations do; beyond that a smaller step costs less than patience.
   constexpr int kMostIterations = 80, kPatience = 300;
   const double least = LeastSmoothing(spec).value();
-  double reached = kSmoothingFromAfar, step = kFirstStep;
+  double reached = ColdSmoothing(spec), step = kFirstStep;
   GaitSolution last = std::move(smooth);
   while (reached > least) {
     // Where even small steps fail the path of minima ends: on to the spec at once, with patience.
     const bool path_ends = step < kLeastStep;
-    const double next = path_ends ? least : std::max(least, reached / step);
+    const bool arrives = path_ends || reached / step <= (1 + kRounding) * least;
+    const double next = arrives ? least : reached / step;
     GaitSpec sharper = SmoothedBy(next, spec);
     if (next > least) sharper.max_refinements = 0;
     sharper.warm_start = WarmStart{*last.trajectory, last.multipliers, last.added};
@@ -37,7 +38,8 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     }
     if (path_ends || !budget->Left()) {
       std::ostringstream note;
-      note << " It converged with powers smoothed by " << reached << " W, not by " << next << " W.";
+      const double watt = 1 / std::pow(spec.time_unit, 3);
+      note << " It converged with powers smoothed by " << watt * reached << " W, not by " << watt * next << " W.";
       solution.message += note.str();
       return solution;
     }

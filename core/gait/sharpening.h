@@ -6,10 +6,11 @@
 
 namespace rollgait {
 
-// From afar a price of power with a sharp corner seldom converges; with this smoothing, W, it does (docs/walking.md).
-inline constexpr double kSmoothingFromAfar = 40;
+// A cold start seldom converges where the cost of power has a sharp corner; with this smoothing, W, it does (docs/walking.md): 40 W at
+// 75 kg and 9.81 m/s², in proportion to the powers of walking.
+inline double ColdSmoothing(const GaitSpec& spec) { return 40 * spec.similarity.power(); }
 
-// Follows a solution that converged with powers smoothed by kSmoothingFromAfar to the spec: an eighth of the smoothing at a time, each
+// Follows a solution that converged with powers smoothed by ColdSmoothing to the spec: an eighth of the smoothing at a time, each
 // solution the warm start of the next; smaller steps where one does not converge. The meshes list every program from `smooth`
 // on. If the spec is not reached: what stopped the last step, and a message that says how far it came.
 GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget);

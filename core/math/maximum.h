@@ -35,7 +35,7 @@ Maximum MaximumIn(const Function& f, double left, double right, Maximum best) {
 
 // The maximum of f over grid.front() … grid.back() (ascending), given its samples there: every local maximum of the samples
 // that could be the largest is searched between its neighbours. It finds the maximum if f has at most one maximum
-// between two neighbours of the grid, and no maximum rises above its highest sample by more than a tenth of the range of the
+// between two neighbours of the grid, and no maximum rises above its highest sample by more than a quarter of the range of the
 // samples. Contract: at least two samples, all finite.
 template <class Function>
 Maximum MaximumOverGrid(const Function& f, std::span<const double> grid, std::span<const double> samples) {
@@ -46,7 +46,7 @@ Maximum MaximumOverGrid(const Function& f, std::span<const double> grid, std::sp
     if (samples[i] > best.value) best = {samples[i], grid[i]};
     if (samples[i] < least) least = samples[i];
   }
-  const double margin = 0.1 * (best.value - least);
+  const double margin = 0.25 * (best.value - least);
   if (!(margin > 0)) return best;
   const double enough = best.value - margin;
   for (int i = 0; i < n; ++i) {

@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/models/joint_limits.h"
+#include "core/models/limb_bodies.h"
 #include "core/models/passive_torque.h"
 
 namespace rollgait {
@@ -28,11 +29,26 @@ class HumanBuilder {
     ROLLGAIT_CHECK(model.ok());
     const int half = static_cast<int>(contacts_.size()) / 2;
     for (int c = 0; c < 2 * half; ++c) contacts_[c].mirror_contact = (c + half) % (2 * half);
-    return {std::move(model).value(), std::move(contacts_)};
+    HumanBody human{std::move(model).value(), std::move(contacts_), {}, {}};
+    for (LimbSurface& limb : limbs_) {
+      for (size_t k = 0; k < limbs_.size(); ++k) {
+        if (limbs_[k].body.name == MirrorName(limb.body.name)) limb.body.mirror_body = static_cast<int>(k);
+      }
+      human.bodies.push_back(limb.body);
+    }
+    human.pairs = LimbPairs(limbs_);
+    return human;
   }
 
  private:
   static const char* Suffix(Side side) { return side == Side::kLeft ? "_l" : side == Side::kRight ? "_r" : ""; }
+
+  static std::string Sided(Side side, const std::string& name) {
+    return (side == Side::kLeft ? "left_" : "right_") + name;
+  }
+  static std::string MirrorName(const std::string& name) {
+    return name.starts_with("left_") ? "right_" + name.substr(5) : "left_" + name.substr(6);
+  }
 
   // Appends a joint; returns its index. Its link has no mass yet.
   int Add(const std::string& name, JointType type, int parent, const Vector3& origin, const Vector3& axis) {
@@ -117,12 +133,21 @@ class HumanBuilder {
     for (const FootSurface& surface : FootSurfaces(table_, options_.feet)) {
       const bool on_toes = surface.on_toes && options_.toes;
       ContactSurface contact;
-      contact.name = (side == Side::kLeft ? "left_" : "right_") + surface.name;
+      contact.name = Sided(side, surface.name);
       contact.joint = on_toes ? toes : foot;
       contact.surface = surface.surface;
       contact.p_LE = on_toes ? surface.center - table_.AnkleToToes() : surface.center;
       contacts_.push_back(contact);
+      AddLimb(LimbPart::kFoot, side, surface.name, contact.joint, {surface.surface, contact.p_LE});
     }
+    if (options_.feet == FootShape::kTwoEllipsoids) AddLimb(LimbPart::kFoot, side, "instep", foot, InstepBody(table_));
+    AddLimb(LimbPart::kShank, side, "shank", shank, ShankBody(table_));
+    AddLimb(LimbPart::kThigh, side, "thigh", thigh, ThighBody(table_));
+  }
+
+  void AddLimb(LimbPart part, Side side, const std::string& name, int joint, const LimbBody& limb) {
+    const PlacedSurface placed{limb.surface, limb.center, Matrix3::Identity()};
+    limbs_.push_back({part, side, {Sided(side, name), joint, placed, 0}});
   }
 
   // Torso and head on the lumbar joint; the torso's mass properties are about the cervical joint.
@@ -148,6 +173,7 @@ class HumanBuilder {
     const Vector3 wrist(0, 0, -table_.Length(Segment::kForearm));
     SetLink(forearm, "forearm" + suffix,
             Lumped({table_.Body(Segment::kForearm, side), Shifted(table_.Body(Segment::kHand, side), wrist)}));
+    AddLimb(LimbPart::kForearm, side, "forearm", forearm, ForearmBody(table_));
   }
 
   void PairJoints() {
@@ -167,6 +193,7 @@ class HumanBuilder {
   Vector3 cervical_ = Vector3::Zero();  // from the lumbar joint
   std::vector<Joint> joints_;
   std::vector<ContactSurface> contacts_;
+  std::vector<LimbSurface> limbs_;
 };
 
 }  // namespace
@@ -178,7 +205,7 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options) {
 
 std::vector<std::string> HumanSources() {
   std::vector<std::string> sources = SegmentTable::Sources();
-  for (const std::vector<std::string>& more : {FootSources(), JointLimitSources(), PassiveTorqueSources()}) {
+  for (const std::vector<std::string>& more : {FootSources(), LimbBodySources(), JointLimitSources(), PassiveTorqueSources()}) {
     sources.insert(sources.end(), more.begin(), more.end());
   }
   sources.push_back(

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/body_surface.h"
 #include "core/contact/contact_surface.h"
 #include "core/models/foot.h"
 #include "core/multibody/model.h"
@@ -19,6 +20,8 @@ struct HumanOptions {
 struct HumanBody {
   Model model;
   std::vector<ContactSurface> contacts;  // all of the left foot, then all of the right one
+  std::vector<BodySurface> bodies;       // limb_bodies.h
+  std::vector<BodyPair> pairs;
 };
 
 // The whole human: 29 degrees of freedom, 23 of them actuated; 31 and 25 with toe joints. All zero: standing straight,
@@ -37,6 +40,8 @@ struct HumanBody {
 // shoulder.
 // Left and right joints mirror each other with sign 1; base_y, yaw, roll, trunk bending and rotation mirror themselves
 // with sign -1. Contacts: left_foot and right_foot, or left_heel, left_forefoot, right_heel, right_forefoot.
+// Bodies: the contacts under their own names, with feet of two ellipsoids left_instep, too; left_shank, left_thigh,
+// left_forearm (with the hand), and the same of the right. Standing straight, none overlap.
 // Contract: the table's person.
 HumanBody Human(const SegmentTable& table, const HumanOptions& options);
 

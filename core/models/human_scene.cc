@@ -119,6 +119,10 @@ Result<Scene> HumanScene(const BodySelection& selection) {
     contacts.push_back(ReduceContact(contact, reduction.value()));
     if (selection.sagittal) contacts.back().directions = {0, 2};
   }
+  std::vector<BodySurface> bodies;
+  for (const BodySurface& body : human.bodies) bodies.push_back(ReduceBody(body, reduction.value()));
+  std::vector<BodyPair> pairs;
+  if (!selection.sagittal) pairs = ReducePairs(human.pairs, bodies);
   return Scene{
       .name = selection.model,
       .description = "",
@@ -128,6 +132,8 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .leg_length = table.LegLength(),
       .sources = HumanSources(),
       .symmetric = reduction.value().symmetric,
+      .bodies = std::move(bodies),
+      .pairs = std::move(pairs),
   };
 }
 

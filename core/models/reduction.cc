@@ -126,4 +126,33 @@ ContactSurface ReduceContact(const ContactSurface& contact, const ModelReduction
   return reduced;
 }
 
+BodySurface ReduceBody(const BodySurface& body, const ModelReduction& reduction) {
+  const ModelReduction::Place& place = reduction.places[body.joint];
+  ROLLGAIT_CHECK(place.joint >= 0);
+  BodySurface reduced = body;
+  reduced.joint = place.joint;
+  reduced.placed.p_BE = place.p_KL + place.R_KL * body.placed.p_BE;
+  reduced.placed.R_BE = place.R_KL * body.placed.R_BE;
+  return reduced;
+}
+
+std::vector<BodyPair> ReducePairs(const std::vector<BodyPair>& pairs, const std::vector<BodySurface>& reduced_bodies) {
+  const auto moves = [&](const BodyPair& pair) {
+    return reduced_bodies[pair.first].joint != reduced_bodies[pair.second].joint;
+  };
+  std::vector<int> index(pairs.size(), -1);
+  int kept = 0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (moves(pairs[i])) index[i] = kept++;
+  }
+  std::vector<BodyPair> reduced;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (index[i] < 0) continue;
+    reduced.push_back(pairs[i]);
+    const int image = index[pairs[i].mirror_pair];
+    reduced.back().mirror_pair = image >= 0 ? image : index[i];
+  }
+  return reduced;
+}
+
 }  // namespace rollgait

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/contact/body_surface.h"
 #include "core/contact/contact_surface.h"
 #include "core/multibody/model.h"
 
@@ -36,6 +37,10 @@ Result<ModelReduction> ReduceModel(const Model& model, const std::map<std::strin
 
 // A contact of the full tree on the reduced one. Contract: its link moves.
 ContactSurface ReduceContact(const ContactSurface& contact, const ModelReduction& reduction);
+// The same for a body.
+BodySurface ReduceBody(const BodySurface& body, const ModelReduction& reduction);
+// The pairs whose bodies are on different links of the reduced tree: the others keep their distance for ever.
+std::vector<BodyPair> ReducePairs(const std::vector<BodyPair>& pairs, const std::vector<BodySurface>& reduced_bodies);
 
 }  // namespace rollgait
 

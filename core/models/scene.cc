@@ -9,4 +9,8 @@ int Scene::FindContact(const std::string& contact_name) const {
   return -1;
 }
 
+std::string Scene::PairName(int pair) const {
+  return bodies[pairs[pair].first].name + " / " + bodies[pairs[pair].second].name;
+}
+
 }  // namespace rollgait

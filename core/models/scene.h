@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/body_surface.h"
 #include "core/contact/contact_surface.h"
 #include "core/models/body_selection.h"
 #include "core/multibody/model.h"
@@ -20,9 +21,13 @@ struct Scene {
   double leg_length;                 // m, hip to sole with straight leg
   std::vector<std::string> sources;  // where the numbers come from
   bool symmetric = true;             // its left/right mirror image is itself; if not, it has no half cycle
+  std::vector<BodySurface> bodies = {};  // the parts with a thickness
+  std::vector<BodyPair> pairs = {};      // those that can meet
 
   // Index of a contact by name, -1 if there is none.
   int FindContact(const std::string& contact_name) const;
+  // "left_shank / right_heel". Contract: pair in range.
+  std::string PairName(int pair) const;
 };
 
 }  // namespace rollgait

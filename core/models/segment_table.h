@@ -37,7 +37,8 @@ class SegmentTable {
   // Contract: kMidline for these three, kLeft or kRight for the others.
   RigidBody Body(Segment segment, Side side) const;
 
-  double mass() const { return mass_; }  // kg, of the body
+  double mass() const { return mass_; }        // kg, of the body
+  double stature() const { return stature_; }  // m, by the request, whatever the segments make of it
 
   // Distance in m from the proximal joint centre to the distal one (head: to the vertex; hand: to the middle of the
   // metacarpal heads 2 and 5; foot: to the middle of the metatarsal heads 1 and 5; pelvis: to the middle of the hips).

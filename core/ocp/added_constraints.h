@@ -14,6 +14,7 @@ struct BoundedBetween {
 // Constraints that are left out until a motion is seen to violate them: most of them never matter, and each costs time.
 struct AddedConstraints {
   std::vector<BoundedBetween> between;  // one a phase; fewer: none there
+  std::vector<int> separated;           // pairs of bodies that are kept apart, ascending
   friend bool operator==(const AddedConstraints&, const AddedConstraints&) = default;
 };
 

@@ -26,6 +26,8 @@ class PointConstraint {
   virtual double Size(int row) const = 0;
   // Bounds at the given fraction (0 … 1) of the phase, rows() each.
   virtual void Bounds(double fraction, double* lower, double* upper) const = 0;
+  // Whether the rows have no lower bound at the last point of a phase, which is the first node of the next one.
+  virtual bool FreeAtEndOfPhase() const { return false; }
 
   virtual Entries JacobianPattern() const = 0;
   // Pairs of variables with a second derivative; one of (i, j), (j, i) suffices.

@@ -5,8 +5,10 @@
 #include "core/ocp/constraints/approach.h"
 #include "core/ocp/constraints/contact_point.h"
 #include "core/ocp/constraints/dynamics.h"
+#include "core/ocp/constraints/force_shares.h"
 #include "core/ocp/constraints/friction.h"
 #include "core/ocp/constraints/rolling.h"
+#include "core/ocp/constraints/separation.h"
 
 namespace rollgait {
 namespace {
@@ -99,12 +101,11 @@ std::vector<ContactSurface> OptimalControlProblem::PhaseContacts(int phase) cons
 }
 
 std::vector<ActiveContact> OptimalControlProblem::ActiveContacts(int phase) const {
-  const std::vector<ContactSurface> seen = PhaseContacts(phase);
   std::vector<ActiveContact> active;
   int offset = 0;
   for (int contact : phases[phase].active) {
-    active.push_back({contact, offset, seen[contact].directions});
-    offset += static_cast<int>(seen[contact].directions.size());
+    active.push_back({contact, offset, contacts[contact].directions});
+    offset += static_cast<int>(contacts[contact].directions.size());
   }
   return active;
 }
@@ -119,7 +120,8 @@ PointLayout OptimalControlProblem::Layout(int phase) const {
   return layout;
 }
 
-std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(int phase, bool at_node) const {
+std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(
+    int phase, bool at_node, const std::vector<int>& separated) const {
   std::vector<std::unique_ptr<PointConstraint>> constraints;
   const PointLayout layout = Layout(phase);
   const auto active = ActiveContacts(phase);
@@ -133,11 +135,18 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
       constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact.contact, layout));
     }
   }
-  // At a node that belongs to the interval before as well, the gap is bounded there.
+  auto shares = MakeForceShares(contacts, active, layout, force_size());
+  if (shares) constraints.push_back(std::move(shares));
+  // At a node that belongs to the interval before as well, gaps and distances are bounded there.
   for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
     if (Contains(phases[phase].active, c)) continue;
     constraints.push_back(std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance,
                                                           swing_clearance));
+  }
+  for (size_t s = 0; !at_node && s < separated.size(); ++s) {
+    const BodyPair& pair = pairs[separated[s]];
+    constraints.push_back(std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout,
+                                                                 pair_clearance));
   }
   return constraints;
 }
@@ -187,6 +196,8 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::JumpConstra
   for (int contact : TakenUp(phase)) {
     constraints.push_back(std::make_unique<ApproachConstraint>(model, contacts, contact, layout));
   }
+  auto shares = MakeForceShares(contacts, active, layout, impulse_size());
+  if (shares) constraints.push_back(std::move(shares));
   std::vector<ForceRow> friction = FrictionRows(contacts, active, friction_coefficient);
   if (!friction.empty()) {
     constraints.push_back(std::make_unique<FrictionConstraint>(std::move(friction), layout, impulse_size()));

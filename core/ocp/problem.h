@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/body_surface.h"
 #include "core/ocp/added_constraints.h"
 #include "core/ocp/cost_description.h"
 
@@ -57,6 +58,11 @@ struct OptimalControlProblem {
   double friction_coefficient = 0.8;
   double min_normal_force = 0;   // N
   double swing_clearance = 0.01; // m
+  // Bodies with a thickness, the pairs of them that can meet, and the least distance at collocation points of those that are kept
+  // apart (AddedConstraints), m: what they may approach each other between the points.
+  std::vector<BodySurface> bodies;
+  std::vector<BodyPair> pairs;
+  double pair_clearance = 1e-3;
   std::optional<Interval> touch_down_point, lift_off_point;
   // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
   // new phase. Else they arrive at rest.
@@ -89,16 +95,19 @@ struct OptimalControlProblem {
   bool ForcesVanishAtEnd(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
   int StandingFeet(int phase) const;
-  // The contacts of the problem with the directions in which they act in a phase: of active contacts on one link the first
-  // acts in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
-  // that joins them: the rows would depend on each other, and the forces along it would be free.
+  // The contacts of the problem with the directions in which they are held in a phase: of active contacts on one link the first
+  // is held in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
+  // that joins them: the rows would depend on each other. Forces act in all directions; how contacts of one link share the
+  // force along x is the matter of ForceSharesConstraint.
   std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
 
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
-  // (first point of a Lobatto scheme).
-  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node) const;
+  // (first point of a Lobatto scheme). The last rows keep the pairs
+  // `separated` apart.
+  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node,
+                                                                 const std::vector<int>& separated = {}) const;
   // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed contact
   // points.
   std::vector<std::unique_ptr<PointConstraint>> EntryConstraints(int phase) const;

@@ -116,6 +116,25 @@ MotionSample Sample(const Trajectory& trajectory, int phase, int interval, doubl
   return sample;
 }
 
+void FillPointStates(Trajectory* trajectory) {
+  const int s = trajectory->points_per_interval;
+  MotionSample sample;
+  for (int p = 0; p < static_cast<int>(trajectory->phases.size()); ++p) {
+    TrajectoryPhase& phase = trajectory->phases[p];
+    const int intervals = static_cast<int>(phase.node_times.size()) - 1;
+    phase.point_positions.resize(phase.node_positions.rows(), intervals * s);
+    phase.point_velocities.resize(phase.node_velocities.rows(), intervals * s);
+    for (int k = 0; k < intervals; ++k) {
+      const IntervalPolynomials polynomials(*trajectory, p, k);
+      for (int i = 0; i < s; ++i) {
+        polynomials.Evaluate(trajectory->point_fractions[i], &sample);
+        phase.point_positions.col(k * s + i) = sample.position;
+        phase.point_velocities.col(k * s + i) = sample.velocity;
+      }
+    }
+  }
+}
+
 VectorX SampleEfforts(const Trajectory& trajectory, int phase, int interval, double theta) {
   VectorX efforts;
   IntervalPolynomials(trajectory, phase, interval).EvaluateEfforts(theta, &efforts);

@@ -47,6 +47,10 @@ class IntervalPolynomials {
 // Trajectory states. Contract: indices in range.
 MotionSample Sample(const Trajectory& trajectory, int phase, int interval, double theta);
 
+// Sets point_positions and point_velocities of every phase to the values of those polynomials, from the nodes, the accelerations and
+// times that are there. Contract: as IntervalPolynomials, for every interval.
+void FillPointStates(Trajectory* trajectory);
+
 // Efforts alone.
 VectorX SampleEfforts(const Trajectory& trajectory, int phase, int interval, double theta);
 

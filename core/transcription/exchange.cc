@@ -1,5 +1,6 @@
 // CollocationNlp's exchange with motions: start vector from a guess, trajectory from a solution.
 
+#include "core/trajectory/sampling.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -30,6 +31,7 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
       }
       ++index;
     }
+    ShareForces(p, x.data() + first);
   };
   for (int p = 0; p < layout_.phases(); ++p) {
     if (!layout_.jumps(p)) continue;
@@ -53,6 +55,29 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
   return x;
 }
 
+void CollocationNlp::ShareForces(int p, double* forces) const {
+  const std::vector<ActiveContact> active = problem_.ActiveContacts(p);
+  for (const ActiveContact& contact : active) {
+    double normal = 0, along = 0;
+    int count = 0;
+    const auto normal_of = [forces](const ActiveContact& of) -> double {
+      return forces[of.offset + static_cast<int>(of.directions.size()) - 1];
+    };
+    for (const ActiveContact& other : active) {
+      if (problem_.contacts[other.contact].joint != problem_.contacts[contact.contact].joint) continue;
+      if (other.offset < contact.offset) count = -static_cast<int>(active.size());  // the first of its link does it for all
+      normal += normal_of(other);
+      along += forces[other.offset];
+      ++count;
+    }
+    if (count < 2 || normal <= 0 || contact.directions.front() != 0) continue;
+    for (const ActiveContact& other : active) {
+      if (problem_.contacts[other.contact].joint != problem_.contacts[contact.contact].joint) continue;
+      forces[other.offset] = along * normal_of(other) / normal;
+    }
+  }
+}
+
 Trajectory CollocationNlp::Extract(const double* x) {
   const int s = scheme_.points();
   Trajectory trajectory;
@@ -67,6 +92,7 @@ Trajectory CollocationNlp::Extract(const double* x) {
     trajectory.phases.push_back(ExtractPhase(x, p, start));
     start += trajectory.phases.back().duration;
   }
+  FillPointStates(&trajectory);
   return trajectory;
 }
 
@@ -81,9 +107,7 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
   phase.duration = x[layout_.duration(p)];
   phase.node_positions.resize(n, count + 1);
   phase.node_velocities.resize(n, count + 1);
-  for (MatrixX* m : {&phase.point_positions, &phase.point_velocities, &phase.point_accelerations}) {
-    m->resize(n, count * s);
-  }
+  phase.point_accelerations.resize(n, count * s);
   phase.point_efforts.resize(efforts, count * s);
   phase.point_forces = MatrixX::Zero(3 * static_cast<int>(active.size()), count * s);
   for (int k = 0; k <= count; ++k) {
@@ -97,8 +121,6 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
     const VectorX& z = blocks_[p]->PointState(x + layout_.node(k), Step(x, k), i);
     const double fraction = layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k);
     phase.point_times.push_back(start + phase.duration * fraction);
-    phase.point_positions.col(column) = z.head(n);
-    phase.point_velocities.col(column) = z.segment(n, n);
     phase.point_accelerations.col(column) = z.segment(2 * n, n);
     phase.point_efforts.col(column) = z.segment(3 * n, efforts);
     for (size_t c = 0; c < active.size(); ++c) {

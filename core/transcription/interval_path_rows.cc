@@ -13,9 +13,8 @@ namespace {
 
 constexpr double kVelocityShare = 0.1;  // of a limit, that scales rows of velocity
 
-bool Includes(const std::vector<int>& values, const std::vector<int>& some) {
-  return std::all_of(some.begin(), some.end(),
-                     [&](int value) { return std::find(values.begin(), values.end(), value) != values.end(); });
+bool Contains(const std::vector<int>& values, int value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
 }
 
 std::string KeyOf(const std::string& kind, int a, int coefficient, bool positive = true) {
@@ -86,20 +85,24 @@ void IntervalPathRows::AddForces(const OptimalControlProblem& problem, int phase
     return sum;
   };
   for (int k = 0; k < s; ++k) {
+    const bool is_point = from_points_.row(k).cwiseAbs().sum() == 1;
     for (const ActiveContact& contact : active) {
-      if (from_points_.row(k).cwiseAbs().sum() == 1) continue;  // an unknown: it has a bound
+      if (is_point) continue;  // an unknown: it has a bound
       const int normal = contact.offset + static_cast<int>(contact.directions.size()) - 1;
       Row row{KeyOf("normal force", contact.contact, k), "normal force " + problem.contacts[contact.contact].name, "N", size,
               problem.min_normal_force / size, kInfinity, terms(k, {{normal, 1}})};
-      if (k == 0 && zero_at_start && Includes(taken, {contact.contact})) row.at_start = AtZero::kEquals;
+      if (k == 0 && zero_at_start && Contains(taken, contact.contact)) row.at_start = AtZero::kEquals;
       rows_.push_back(std::move(row));
     }
-    const auto at_zero = [](const ForceRow& row) { return row.positive ? AtZero::kEquals : AtZero::kFree; };
+    // Of the two rows of a direction one becomes the equation. At a point the shares of a link's force along x are equations already.
+    const auto at_zero = [is_point](const ForceRow& row) {
+      return row.positive && !(row.shared && is_point) ? AtZero::kEquals : AtZero::kFree;
+    };
     int number = 0;
     for (const ForceRow& friction : FrictionRows(problem.contacts, active, problem.friction_coefficient)) {
       Row row{KeyOf("friction", number++, k), friction.name, "N", size, 0, kInfinity, terms(k, friction.terms)};
-      if (k == 0 && zero_at_start && Includes(taken, friction.contacts)) row.at_start = at_zero(friction);
-      if (k == s - 1 && zero_at_end && Includes(given, friction.contacts)) row.at_end = at_zero(friction);
+      if (k == 0 && zero_at_start && Contains(taken, friction.contact)) row.at_start = at_zero(friction);
+      if (k == s - 1 && zero_at_end && Contains(given, friction.contact)) row.at_end = at_zero(friction);
       rows_.push_back(std::move(row));
     }
   }

@@ -23,7 +23,7 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, const AddedCo
       layout_(problem.Layout(phase)),
       points_count_(scheme.points()),
       controls_(layout_.efforts + layout_.forces),
-      regular_(problem.PointConstraints(phase, false)),
+      regular_(problem.PointConstraints(phase, false, added.separated)),
       active_contacts_(problem.phases[phase].active) {
   if (scheme.tableau().starts_at_node()) at_node_ = problem.PointConstraints(phase, true);
   for (const CostDescription& cost : problem.costs) costs_.push_back(cost.integrand());
@@ -214,10 +214,9 @@ void IntervalBlock::Bounds(double start, double length, const IntervalPlace& pla
     int row = point.first_row;
     for (PointConstraint* constraint : point.constraints) {
       constraint->Bounds(fraction, lower + row, upper + row);
-      // A gap at the end of its phase is the business of the next phase: touch-down fixes it.
-      const bool end_of_phase = place.last && i == points_count_ - 1;
+      const bool free = place.last && i == points_count_ - 1 && constraint->FreeAtEndOfPhase();
       for (int r = 0; r < constraint->rows(); ++r, ++row) {
-        if (end_of_phase && constraint->Unit(r) == "m") lower[row] = -kInfinity;
+        if (free) lower[row] = -kInfinity;
         lower[row] /= constraint->Size(r);
         upper[row] /= constraint->Size(r);
       }

@@ -69,7 +69,8 @@ void JumpRows::AddEntries(Jump* jump) const {
   }
   for (const auto& [a, b] : pairs) {
     if (jump->behind[a].empty() || jump->behind[b].empty()) continue;
-    ROLLGAIT_CHECK(a < n_);  // a position: no unknown is behind both unless they are the same
+    // A position, or an impulse: no unknown is behind both unless they are the same.
+    ROLLGAIT_CHECK(a < n_ || a >= 3 * n_);
     for (const Share& one : jump->behind[a]) {
       for (const Share& other : jump->behind[b]) {
         jump->hessian.push_back({a, b, std::max(one.unknown, other.unknown), std::min(one.unknown, other.unknown),

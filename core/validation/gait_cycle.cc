@@ -38,26 +38,26 @@ std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& tra
   ROLLGAIT_CHECK(scene.symmetric || trajectory.cycle == Cycle::kFull);
   GaitCycle cycle(scene, trajectory);
   cycle.right_ = ContactsBeyond(scene, root);
-  const std::vector<bool> left = ContactsBeyond(scene, LegRoot(scene.model, "_l"));
+  cycle.left_ = ContactsBeyond(scene, LegRoot(scene.model, "_l"));
 
   std::vector<Piece> pieces;
-  const int spans = trajectory.cycle == Cycle::kHalf ? 2 : 1;
-  for (int span = 0; span < spans; ++span) {
+  std::vector<double> starts;  // s, from the start of the trajectory
+  const int halves = trajectory.cycle == Cycle::kHalf ? 2 : 1;
+  double time = 0;
+  for (int half = 0; half < halves; ++half) {
     for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
-      Piece piece{0, p, span == 1, span * trajectory.displacement, false, false};
-      for (const int c : trajectory.phases[p].contacts) {
-        const int contact = piece.mirrored ? scene.contacts[c].mirror_contact : c;
-        piece.right = piece.right || cycle.right_[contact];
-        piece.left = piece.left || left[contact];
-      }
-      pieces.push_back(piece);
+      pieces.push_back({0, p, half == 1, half * trajectory.displacement});
+      starts.push_back(time);
+      time += Length(trajectory.phases[p]);
     }
   }
   const size_t n = pieces.size();
+  const auto on = [&](size_t i) { return cycle.Touches(pieces[i % n], cycle.right_); };
   size_t strike = 0;
-  while (strike < n && !(pieces[strike].right && !pieces[(strike + n - 1) % n].right)) ++strike;
+  while (strike < n && !(on(strike) && !on(strike + n - 1))) ++strike;
   if (strike == n) return std::nullopt;
-  cycle.displacement_ = spans * trajectory.displacement;
+  cycle.start_ = starts[strike];
+  cycle.displacement_ = halves * trajectory.displacement;
   for (size_t i = strike; i < strike + n; ++i) {
     Piece piece = pieces[i % n];
     piece.start = cycle.duration_;
@@ -65,7 +65,34 @@ std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& tra
     cycle.duration_ += Length(trajectory.phases[piece.phase]);
     cycle.pieces_.push_back(piece);
   }
+  cycle.BuildSpans();
   return cycle;
+}
+
+std::vector<int> GaitCycle::ContactsOf(const Piece& piece) const {
+  std::vector<int> contacts = trajectory_->phases[piece.phase].contacts;
+  if (piece.mirrored) {
+    for (int& contact : contacts) contact = scene_->contacts[contact].mirror_contact;
+  }
+  std::sort(contacts.begin(), contacts.end());
+  return contacts;
+}
+
+bool GaitCycle::Touches(const Piece& piece, const std::vector<bool>& leg) const {
+  const std::vector<int> contacts = ContactsOf(piece);
+  return std::any_of(contacts.begin(), contacts.end(), [&](int contact) { return leg[contact]; });
+}
+
+void GaitCycle::BuildSpans() {
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const std::vector<int> contacts = ContactsOf(pieces_[i]);
+    const double end = i + 1 < pieces_.size() ? 100 * End(i) / duration_ : 100;
+    if (!spans_.empty() && spans_.back().contacts == contacts) {
+      spans_.back().end = end;
+      continue;
+    }
+    spans_.push_back({100 * pieces_[i].start / duration_, end, contacts, Touches(pieces_[i], right_), Touches(pieces_[i], left_)});
+  }
 }
 
 MotionSample GaitCycle::Mirrored(const MotionSample& sample) const {
@@ -92,7 +119,8 @@ MotionSample GaitCycle::At(double percent) const {
   ROLLGAIT_CHECK(percent >= 0 && percent <= 100);
   const double time = percent / 100 * duration_;
   size_t place = pieces_.size() - 1;
-  while (place > 0 && pieces_[place].start > time) --place;
+  const double rounding = 1e-12 * duration_;  // of sums of durations
+  while (place > 0 && pieces_[place].start > time + rounding) --place;
   const Piece& piece = pieces_[place];
   const TrajectoryPhase& phase = trajectory_->phases[piece.phase];
   const double local = phase.node_times.front() + time - piece.start;
@@ -111,30 +139,5 @@ MotionSample GaitCycle::At(double percent) const {
   if (base_x >= 0) sample.position[base_x] += piece.shift;
   return sample;
 }
-
-double GaitCycle::Stance() const {
-  double sum = 0;
-  for (size_t i = 0; i < pieces_.size(); ++i) sum += pieces_[i].right ? End(i) - pieces_[i].start : 0;
-  return sum / duration_;
-}
-
-double GaitCycle::DoubleSupport() const {
-  double sum = 0;
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    sum += pieces_[i].right && pieces_[i].left ? End(i) - pieces_[i].start : 0;
-  }
-  return sum / duration_;
-}
-
-std::optional<double> GaitCycle::FirstChange(bool Piece::*leg, bool on) const {
-  for (size_t i = 1; i < pieces_.size(); ++i) {
-    if (pieces_[i].*leg == on && pieces_[i - 1].*leg != on) return 100 * pieces_[i].start / duration_;
-  }
-  return std::nullopt;
-}
-
-std::optional<double> GaitCycle::OppositeToeOff() const { return FirstChange(&Piece::left, false); }
-std::optional<double> GaitCycle::OppositeHeelStrike() const { return FirstChange(&Piece::left, true); }
-std::optional<double> GaitCycle::ToeOff() const { return FirstChange(&Piece::right, false); }
 
 }  // namespace rollgait

@@ -18,25 +18,27 @@ class GaitCycle {
   // never on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene is not symmetric.
   static std::optional<GaitCycle> Of(const Scene& scene, const Trajectory& trajectory);
 
+  double start() const { return start_; }                // s, of the heel strike after the start of the trajectory, < duration()
   double duration() const { return duration_; }          // s
   double displacement() const { return displacement_; }  // m
+
+  // A stretch of the cycle in which the same contacts are on the ground.
+  struct Span {
+    double begin, end;          // % of the cycle
+    std::vector<int> contacts;  // indices into Scene::contacts, ascending
+    bool right, left;           // a contact of that leg is among them
+  };
+  // From 0 to 100 % without gaps; neighbours differ in their contacts.
+  const std::vector<Span>& spans() const { return spans_; }
 
   // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases (to rounding) that of the later one, at 100 the limit from
   // the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. base_x goes on through
   // the cycle.
   MotionSample At(double percent) const;
 
-  // Shares of the cycle, 0 … 1.
-  double Stance() const;         // a contact of the right leg is on the ground
-  double DoubleSupport() const;  // contacts of both legs are
-
-  // % of the cycle; empty if it does not happen. The first after 0 %.
-  std::optional<double> OppositeToeOff() const;
-  std::optional<double> OppositeHeelStrike() const;
-  std::optional<double> ToeOff() const;
-
-  // True if the contact belongs to the right leg.
+  // True if the contact belongs to the right (left) leg.
   bool IsRight(int contact) const { return right_[contact]; }
+  bool IsLeft(int contact) const { return left_[contact]; }
 
  private:
   // A phase of the trajectory, or its mirror image, at its place in the cycle.
@@ -45,19 +47,20 @@ class GaitCycle {
     int phase;
     bool mirrored;
     double shift;   // m, added to base_x
-    bool right, left;  // on the ground
   };
   GaitCycle(const Scene& scene, const Trajectory& trajectory) : scene_(&scene), trajectory_(&trajectory) {}
   MotionSample Mirrored(const MotionSample& sample) const;
   double End(size_t piece) const { return piece + 1 < pieces_.size() ? pieces_[piece + 1].start : duration_; }
-  // Start of the first piece, in %, where `leg` becomes `on`.
-  std::optional<double> FirstChange(bool Piece::*leg, bool on) const;
+  std::vector<int> ContactsOf(const Piece& piece) const;
+  bool Touches(const Piece& piece, const std::vector<bool>& leg) const;
+  void BuildSpans();
 
   const Scene* scene_;
   const Trajectory* trajectory_;
-  double duration_ = 0, displacement_ = 0;
-  std::vector<bool> right_;
+  double start_ = 0, duration_ = 0, displacement_ = 0;
+  std::vector<bool> right_, left_;
   std::vector<Piece> pieces_;  // in order, the first starts at 0
+  std::vector<Span> spans_;
 };
 
 // Index of the joint of the right leg by its name without side ("hip", "knee", "ankle"), -1 if there is none.

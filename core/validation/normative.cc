@@ -5,18 +5,15 @@
 #include <iterator>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "core/base/check.h"
-#include "core/contact/rolling_kinematics.h"
-#include "core/multibody/body_dynamics.h"
 #include "core/validation/gait_cycle.h"
 
 namespace rollgait {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kFiner = 4;                    // our grid against that of the data
+constexpr int kFiner = kCycleSteps / kNormativeSamples;  // our grid against that of the data
+static_assert(kFiner * kNormativeSamples == kCycleSteps);
 constexpr double kNearLimit = 0.5 * kDegree;
 constexpr double kBodyWeight = 100;          // forces are in % of it
 constexpr double kDepth = 5, kOnGround = 5;  // % of body weight
@@ -24,59 +21,49 @@ constexpr double kDepth = 5, kOnGround = 5;  // % of body weight
 // Curves of the right leg at 0 … 100 %, in the units and signs of NormativeQuantity.
 class LegCurves {
  public:
-  LegCurves(const Scene& scene, const GaitCycle& cycle, const Vector3& gravity)
-      : scene_(scene), cycle_(cycle), gravity_(gravity), dynamics_(scene.model) {
-    const int steps = kFiner * kNormativeSamples;
-    for (int i = 0; i <= steps; ++i) Add(100.0 * i / steps);
+  LegCurves(const Scene& scene, const GaitCycle& cycle, const GaitEvents& events) : scene_(scene), events_(events) {
+    for (int i = 0; i <= kCycleSteps; ++i) samples_.push_back(cycle.At(100.0 * i / kCycleSteps));
   }
 
-  // Empty if the model lacks the joint.
+  // Empty if the model lacks the joint, or a motor in it whose moment is asked for.
   std::vector<double> Of(NormativeQuantity quantity, const std::string& joint) const {
-    std::vector<double> values;
-    if (quantity == NormativeQuantity::kVerticalForce) return vertical_;
-    if (quantity == NormativeQuantity::kForwardForce) return forward_;
-    const int index = RightJoint(scene_.model, joint);
-    if (index < 0) return values;
-    // Flexion and dorsiflexion are positive in our joints; moments of the data extend and plantarflex.
-    for (size_t i = 0; i < positions_.size(); ++i) {
-      values.push_back(quantity == NormativeQuantity::kAngle ? positions_[i][index] / kDegree
-                                                             : -moments_[i][index] / scene_.model.total_mass());
+    switch (quantity) {
+      case NormativeQuantity::kVerticalForce:
+        return Force(2);
+      case NormativeQuantity::kForwardForce:
+        return Force(0);
+      case NormativeQuantity::kAngle:
+        return Angle(RightJoint(scene_.model, joint));
+      case NormativeQuantity::kMoment:
+        return Moment(RightJoint(scene_.model, joint));
     }
-    return values;
+    ROLLGAIT_CHECK(false);
   }
 
  private:
-  void Add(double percent) {
-    const MotionSample sample = cycle_.At(percent);
-    positions_.push_back(sample.position);
-    dynamics_.ComputeState(sample.position, sample.velocity, &state_);
-    VectorX moments;
-    dynamics_.InverseDynamics(state_, sample.acceleration, gravity_, &workspace_, &moments);
-    Vector3 foot = Vector3::Zero();
-    for (int c = 0; c < static_cast<int>(scene_.contacts.size()); ++c) {
-      const Vector3 force = sample.forces.segment<3>(3 * c);
-      if (cycle_.IsRight(c)) foot += force;
-      if (force.isZero(0)) continue;
-      const RollingContact contact = ComputeRollingContact(scene_.contacts[c], state_);
-      MatrixX jacobian = MatrixX::Zero(6, scene_.model.size());
-      dynamics_.AddTwistJacobian(state_, scene_.contacts[c].joint, contact.p_WP, 1, &jacobian);
-      moments -= jacobian.bottomRows<3>().transpose() * force;
-    }
-    moments_.push_back(moments);
-    const double weight = scene_.model.total_mass() * gravity_.norm();
-    const Vector3 up = -gravity_.normalized();
-    vertical_.push_back(kBodyWeight * foot.dot(up) / weight);
-    forward_.push_back(kBodyWeight * foot.dot(Vector3::UnitY().cross(up)) / weight);
+  // Flexion and dorsiflexion are positive in our joints; moments of the data extend and plantarflex.
+  std::vector<double> Angle(int joint) const {
+    std::vector<double> values;
+    for (size_t i = 0; joint >= 0 && i < samples_.size(); ++i) values.push_back(samples_[i].position[joint] / kDegree);
+    return values;
+  }
+  std::vector<double> Moment(int joint) const {
+    const std::vector<int>& actuated = scene_.model.actuated();
+    const auto place = std::find(actuated.begin(), actuated.end(), joint);
+    std::vector<double> values;
+    if (place == actuated.end()) return values;
+    const auto effort = place - actuated.begin();
+    for (const MotionSample& sample : samples_) values.push_back(-sample.efforts[effort] / scene_.model.total_mass());
+    return values;
+  }
+  std::vector<double> Force(int axis) const {
+    const auto row = events_.foot(Foot::kRight).level_force.row(axis) * (kBodyWeight / events_.body_weight);
+    return {row.begin(), row.end()};
   }
 
   const Scene& scene_;
-  const GaitCycle& cycle_;
-  const Vector3 gravity_;
-  const BodyDynamics dynamics_;
-  BodyDynamics::State state_;
-  BodyDynamics::Workspace workspace_;
-  std::vector<VectorX> positions_, moments_;
-  std::vector<double> vertical_, forward_;
+  const GaitEvents& events_;
+  std::vector<MotionSample> samples_;
 };
 
 double Mean(const std::vector<double>& values) {
@@ -124,12 +111,12 @@ DatasetComparison CompareWith(const NormativeDataset& set, const LegCurves& curv
   return result;
 }
 
-std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle) {
+std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle, double stance) {
   constexpr int kSteps = 200;
   std::vector<RestingJoint> resting;
   std::vector<VectorX> positions;
   for (int i = 0; i <= kSteps; ++i) {
-    const MotionSample sample = cycle.At(100.0 * cycle.Stance() * i / kSteps);
+    const MotionSample sample = cycle.At(100.0 * stance * i / kSteps);
     positions.push_back(sample.position);
   }
   for (const int j : scene.model.actuated()) {
@@ -186,23 +173,22 @@ ForceHumps FindHumps(const std::vector<double>& force, double depth) {
   return humps;
 }
 
-std::optional<NormativeComparison> CompareWithPeople(const Scene& scene, const Trajectory& trajectory,
-                                                     const Vector3& gravity) {
+NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events) {
   const auto cycle = GaitCycle::Of(scene, trajectory);
-  if (!cycle) return std::nullopt;
-  const LegCurves curves(scene, *cycle, gravity);
+  ROLLGAIT_CHECK(cycle.has_value());
+  const LegCurves curves(scene, *cycle, events);
   NormativeComparison result;
-  result.stride_time = cycle->duration();
-  result.speed = cycle->displacement() / cycle->duration();
-  result.step_length = cycle->displacement() / 2;
-  result.cadence = 2 * 60 / cycle->duration();
-  result.stance = cycle->Stance();
-  result.double_support = cycle->DoubleSupport();
-  result.opposite_toe_off = cycle->OppositeToeOff();
-  result.opposite_heel_strike = cycle->OppositeHeelStrike();
-  result.toe_off = cycle->ToeOff();
+  result.stride_time = events.duration;
+  result.speed = events.displacement / events.duration;
+  result.step_length = events.displacement / 2;
+  result.cadence = 2 * 60 / events.duration;
+  result.stance = events.foot(Foot::kRight).stance;
+  result.double_support = events.double_support;
+  result.opposite_toe_off = events.First(GaitEventKind::kToeOff, Foot::kLeft);
+  result.opposite_heel_strike = events.First(GaitEventKind::kHeelStrike, Foot::kLeft);
+  result.toe_off = events.First(GaitEventKind::kToeOff, Foot::kRight);
   result.humps = FindHumps(StanceForce(curves, result.stance), kDepth);
-  result.resting = FindResting(scene, *cycle);
+  result.resting = FindResting(scene, *cycle, result.stance);
   for (const NormativeDataset& set : NormativeDatasets()) result.datasets.push_back(CompareWith(set, curves));
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "core/models/scene.h"
 #include "core/trajectory/trajectory.h"
+#include "core/validation/gait_events.h"
 #include "core/validation/normative_data.h"
 
 namespace rollgait {
@@ -71,11 +72,13 @@ struct NormativeComparison {
   std::vector<DatasetComparison> datasets;
 };
 
-// The gait cycle of the right leg beside people's on level ground. `gravity` as in ValidationOptions; on a slope
-// "vertical" is against gravity. Joint moments are net, by inverse dynamics of the motion and the ground's forces, as a
-// laboratory measures them: passive torques are in them. Empty without a gait cycle, see GaitCycle::Of.
-std::optional<NormativeComparison> CompareWithPeople(const Scene& scene, const Trajectory& trajectory,
-                                                     const Vector3& gravity);
+// The gait cycle of the right leg beside people's on level ground. Events, shares and the ground's force are those of `events`, which
+// MeasureGaitEvents made of the same scene and trajectory; on a slope "vertical" is against gravity. Joint moments are net moments,
+// as a laboratory reports them: what muscles, ligaments and stretched tissue exert on the joint together. In this model that is the
+// effort of the joint, in which the passive torque (core/models/passive_torque.h) is contained: costs of muscles subtract it. A
+// laboratory obtains the same quantity by inverse dynamics of measured motion and forces; of a trajectory that would repeat the
+// errors of its polynomials, twice differentiated, where no effort acts.
+NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events);
 
 }  // namespace rollgait
 

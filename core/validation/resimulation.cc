@@ -15,9 +15,11 @@ namespace rollgait {
 namespace {
 
 // Interpolation of the forces within one accepted step.
-constexpr int kForceDegree = 6, kForceGrid = 48, kForceHalvings = 8;
+constexpr int kForceDegree = 4, kForceGrid = 48, kForceHalvings = 8;
 constexpr double kForceResolved = 1e-3;  // of the least normal force of the contact, or of the least that friction is judged with
 constexpr double kContactPointResolved = 1e-5;  // m, of the contact points, which say only where forces act
+// The quintic through the ends of a step is good enough if it is off by at most this share of the velocities (and of 1 rad/s or m/s).
+constexpr double kQuinticError = 1e-5;
 // An interval takes one to ten steps; one that takes so many is not integrated.
 constexpr int kMostSteps = 2000;
 
@@ -26,6 +28,42 @@ std::vector<ContactSurface> ActiveSurfaces(const Scene& scene, const TrajectoryP
   for (int c : phase.contacts) surfaces.push_back(scene.contacts[c]);
   return surfaces;
 }
+
+// The quintic polynomial through positions, velocities and accelerations at both ends of a step. Its error is of order 6 in the
+// length of the step, that of its derivative of order 5.
+class QuinticStep {
+ public:
+  // x = [q; v] and its derivative [v; a] at the start and at the end.
+  void Set(double start, double length, const VectorX& x0, const VectorX& dx0, const VectorX& x1, const VectorX& dx1) {
+    const int n = static_cast<int>(x0.size()) / 2;
+    start_ = start, h_ = length;
+    c_[0] = x0.head(n);
+    c_[1] = h_ * x0.tail(n);
+    c_[2] = 0.5 * h_ * h_ * dx0.tail(n);
+    d_ = x1.head(n) - c_[0] - c_[1] - c_[2];
+    v_ = h_ * x1.tail(n) - c_[1] - 2 * c_[2];
+    a_ = h_ * h_ * dx1.tail(n) - 2 * c_[2];
+    c_[3] = 10 * d_ - 4 * v_ + 0.5 * a_;
+    c_[4] = -15 * d_ + 7 * v_ - a_;
+    c_[5] = 6 * d_ - 3 * v_ + 0.5 * a_;
+  }
+  void Evaluate(double t, VectorX* x) const {
+    const double s = (t - start_) / h_;
+    const int n = static_cast<int>(c_[0].size());
+    x->resize(2 * n);
+    x->head(n) = c_[0] + s * (c_[1] + s * (c_[2] + s * (c_[3] + s * (c_[4] + s * c_[5]))));
+    x->tail(n) = (c_[1] + s * (2 * c_[2] + s * (3 * c_[3] + s * (4 * c_[4] + s * 5 * c_[5])))) / h_;
+  }
+  // Largest difference of its acceleration at t from the given one, times the length of the step: how far its velocities may be off.
+  double VelocityError(double t, const Eigen::Ref<const VectorX>& acceleration) const {
+    const double s = (t - start_) / h_;
+    return ((2 * c_[2] + s * (6 * c_[3] + s * (12 * c_[4] + s * 20 * c_[5]))) / h_ - h_ * acceleration).cwiseAbs().maxCoeff();
+  }
+
+ private:
+  double start_ = 0, h_ = 1;
+  VectorX c_[6], d_, v_, a_;
+};
 
 // The forward dynamics of one phase as an ordinary differential equation in x = [q; v].
 class PhaseMotion {
@@ -59,14 +97,18 @@ class PhaseMotion {
     double t = 0;
     integrator->Start(right_side, t, *x, proposed > 0 ? std::min(proposed, end) : end);
     ReadForces(step_start_.data());
+    from_state_ = *x, from_derivative_ = integrator->derivative();
     int attempts = 0;
     while (t < end) {
       const IntegrationStatus status = integrator->Advance(right_side, end, tolerance, kMostSteps, &t, x, &attempts);
       if (status != IntegrationStatus::kReachedEnd) return status;
       if (judge_.contacts() == 0) continue;
       ReadForces(step_end_.data());
+      quintic_.Set(integrator->step_start(), integrator->step_end() - integrator->step_start(), from_state_, from_derivative_, *x,
+                   integrator->derivative());
       JudgeStep(right_side, {phase_, 0, number}, interval.start(), integrator, pieces, log);
       step_start_.swap(step_end_);
+      from_state_ = *x, from_derivative_ = integrator->derivative();
     }
     return IntegrationStatus::kReachedEnd;
   }
@@ -85,13 +127,24 @@ class PhaseMotion {
   // `offset`: time of the interval's start.
   void JudgeStep(const Dop853::RightSide& right_side, const Instant& at, double offset, Dop853* integrator, Pieces* pieces,
                  FindingLog* log) {
-    integrator->PrepareInterpolation(right_side);
-    const double from = integrator->step_start(), to = integrator->step_end();
-    unused_.resize(2 * model_.size());
-    const auto sample = [&](double t, MatrixX* values, int column) {
-      integrator->Interpolate(t, &state_);
-      right_side(t, state_, &unused_);
-      ReadForces(values->col(column).data());
+    const double from = integrator->step_start(), to = integrator->step_end(), middle = 0.5 * (from + to);
+    const int n = model_.size();
+    rates_.resize(2 * n);
+    // Between its ends the step is the quintic through them; where that is not good enough, the integrator's continuous extension of
+    // order 7, which costs three evaluations more.
+    quintic_.Evaluate(middle, &state_);
+    right_side(middle, state_, &rates_);
+    const double fastest = std::max(1.0, state_.tail(n).cwiseAbs().maxCoeff());
+    const bool use_quintic = quintic_.VelocityError(middle, rates_.tail(n)) <= kQuinticError * fastest;
+    if (!use_quintic) integrator->PrepareInterpolation(right_side);
+    MatrixX* const values = pieces->mutable_values(Rows());
+    const int last = pieces->basis().size() - 1;
+    static_assert(kForceDegree % 2 == 0);  // the middle is a node
+    if (use_quintic) ReadForces(values->col(last / 2).data());
+    const auto sample = [&](double t, MatrixX* rows, int column) {
+      use_quintic ? quintic_.Evaluate(t, &state_) : integrator->Interpolate(t, &state_);
+      right_side(t, state_, &rates_);
+      ReadForces(rows->col(column).data());
     };
     const auto resolved = [&] { return Resolved(*pieces); };
     const auto visit = [&](double piece_from, double piece_to) {
@@ -101,11 +154,12 @@ class PhaseMotion {
                            piece_to - piece_from, at, log);
     };
     // At its ends the forces of the step are known.
-    MatrixX* const values = pieces->mutable_values(Rows());
-    const int last = pieces->basis().size() - 1;
     values->col(0) = step_start_;
     values->col(last) = step_end_;
-    for (int i = 1; i < last; ++i) sample(from + pieces->basis().node(i) * (to - from), values, i);
+    for (int i = 1; i < last; ++i) {
+      if (use_quintic && 2 * i == last) continue;
+      sample(from + pieces->basis().node(i) * (to - from), values, i);
+    }
     pieces->Continue(from, to, kForceHalvings, sample, resolved, visit);
   }
 
@@ -125,7 +179,8 @@ class PhaseMotion {
   ConstrainedDynamics dynamics_;
   ForceJudge judge_;
   double least_normal_;
-  VectorX tau_, efforts_, q_, v_, state_, unused_;
+  VectorX tau_, efforts_, q_, v_, state_, rates_, from_state_, from_derivative_;
+  QuinticStep quintic_;
   VectorX step_start_, step_end_;  // rows of ForceJudge
 };
 

@@ -6,6 +6,7 @@
 #include "core/validation/findings.h"
 #include "core/validation/joint_limits.h"
 #include "core/validation/jumps.h"
+#include "core/validation/overlap.h"
 #include "core/validation/report.h"
 #include "core/validation/residuals.h"
 #include "core/validation/resimulation.h"
@@ -48,6 +49,9 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   const ContactResiduals contacts = MeasureContacts(scene, dynamics, trajectory, bounds, &forces, &log);
   const BalanceErrors balance = MeasureBalances(dynamics, scene.model, trajectory, options.gravity, &log);
   MeasureJointLimits(scene.model, trajectory, &log);
+  const OverlapFindings overlap = MeasureOverlap(scene, dynamics, trajectory);
+  log.Raise(Criterion::kOverlap, overlap.worst.value, overlap.worst.where, {overlap.worst.phase, overlap.worst.time});
+  for (int k = 0; k < intervals; ++k) log.RaiseInterval(Criterion::kOverlap, overlap.intervals[static_cast<size_t>(k)], k);
 
   // Impulses as forces of a tenth of a second.
   ForceExtremes impulses(0.1 * weight);
@@ -76,8 +80,8 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.jump_impulse_error = jumps.impulse;
   report.min_jump_impulse = impulses.min_normal();
   report.impact_loss = jumps.loss;
+  report.overlapping_pairs = overlap.Deeper(0);
   report.integrator_tolerance = options.integrator_tolerance;
-  // kOverlap: the distance between bodies is judged by core/validation/overlap.h, which raises it in the log HERE.
   report.findings = log.findings();
   report.intervals = log.intervals();
   return report;

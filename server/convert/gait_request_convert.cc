@@ -254,7 +254,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.ground_contact = DecodeGround(spec.ground_contact());
   request.ground_contact.touch_down = DecodeTouchDown(spec.ground_contact().touch_down());
   request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
-                    DecodeRanges(spec.limits().joint_effort())};
+                    DecodeRanges(spec.limits().joint_effort()), spec.limits().allow_body_overlap()};
   request.discretization = {DecodeScheme(spec.discretization().scheme()),
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
                             ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};

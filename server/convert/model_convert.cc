@@ -76,6 +76,15 @@ void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::Contac
   }
 }
 
+void EncodeBody(const BodySurface& body, const Scene& scene, v1::BodySurface* encoded) {
+  encoded->set_name(body.name);
+  encoded->set_joint(body.joint);
+  EncodeSurface(body.placed.surface, encoded->mutable_surface());
+  EncodeVector(body.placed.p_BE, encoded->mutable_center_m());
+  EncodeRotation(body.placed.R_BE, encoded->mutable_orientation());
+  encoded->set_mirror_body(scene.bodies[body.mirror_body].name);
+}
+
 void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {
   encoded->set_name(selection.model);
   if (selection.rolling_body) {
@@ -121,6 +130,12 @@ v1::Model EncodeModel(const Scene& scene, double gravity) {
   EncodeSelection(scene.selection, model.mutable_selection());
   for (int i = 0; i < scene.model.size(); ++i) EncodeJoint(scene.model.joint(i), i, model.add_joints());
   for (const ContactSurface& contact : scene.contacts) EncodeContact(contact, scene, model.add_contacts());
+  for (const BodySurface& body : scene.bodies) EncodeBody(body, scene, model.add_bodies());
+  for (const BodyPair& pair : scene.pairs) {
+    v1::BodyPair& encoded = *model.add_body_pairs();
+    encoded.set_first(scene.bodies[pair.first].name);
+    encoded.set_second(scene.bodies[pair.second].name);
+  }
   model.set_gravity_m_s2(gravity);
   model.set_total_mass_kg(scene.model.total_mass());
   if (!scene.selection.rolling_body) model.set_stature_m(scene.selection.stature);

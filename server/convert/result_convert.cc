@@ -1,5 +1,6 @@
 #include "server/convert/result_convert.h"
 
+#include "server/convert/gait_events_convert.h"
 #include "server/convert/model_convert.h"
 #include "server/convert/normative_convert.h"
 
@@ -218,6 +219,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   if (solution.accuracy) {
     *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model, spec.bounds);
   }
+  if (solution.events) *result.mutable_gait_events() = EncodeGaitEvents(*solution.events, scene);
   if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);
   result.set_objective(solution.objective);
   for (const CostValue& cost : solution.costs) EncodeCost(cost, result.add_costs());

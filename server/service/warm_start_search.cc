@@ -23,11 +23,12 @@ Error Refuse(const v1::SolveSpec& spec, const std::string& reason) {
   return InvalidArgument({{"spec.warm_start", "is \"" + spec.warm_start() + "\"; " + reason}});
 }
 
-std::optional<double> PrescribedSpeed(const v1::Motion& motion) {
+std::optional<double> PrescribedSpeed(const v1::SolveSpec& spec) {
+  const v1::Motion& motion = spec.motion();
   if (motion.free_speed()) return std::nullopt;
   if (motion.has_speed_m_s()) return motion.speed_m_s();
   if (motion.has_step_length_m() && motion.has_step_duration_s()) return motion.step_length_m() / motion.step_duration_s();
-  return kDefaultSpeed;
+  return DefaultSpeed(spec.has_gravity_m_s2() ? spec.gravity_m_s2() : kDefaultGravity);
 }
 
 // What two requests must have in common to be neighbours.
@@ -77,7 +78,7 @@ wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1:
   wire::WarmStart start;
   start.mutable_source()->set_name(SolveName(id));
   start.mutable_source()->set_slope_difference_rad(spec.slope_rad() - source.slope_rad());
-  if (const auto speed = PrescribedSpeed(spec.motion())) {
+  if (const auto speed = PrescribedSpeed(spec)) {
     start.mutable_source()->set_speed_difference_m_s(*speed - result.speed_m_s());
   }
   *start.mutable_trajectory() = std::move(*result.mutable_trajectory());
@@ -88,7 +89,7 @@ wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1:
 }  // namespace
 
 std::optional<double> WarmStartDistance(const v1::SolveSpec& a, const v1::SolveSpec& b) {
-  const std::optional<double> speed = PrescribedSpeed(a.motion()), other = PrescribedSpeed(b.motion());
+  const std::optional<double> speed = PrescribedSpeed(a), other = PrescribedSpeed(b);
   if (speed.has_value() != other.has_value()) return std::nullopt;
   return std::hypot((a.slope_rad() - b.slope_rad()) / kSlopeUnit, speed ? (*speed - *other) / kSpeedUnit : 0);
 }

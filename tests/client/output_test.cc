@@ -46,13 +46,15 @@ TEST(StoTest, HeaderIsWhatOpenSimReads) {
   EXPECT_EQ(lines[0], "solves/a");
   EXPECT_EQ(lines[1], "version=1");
   EXPECT_EQ(lines[2], "nRows=201");
-  EXPECT_EQ(lines[3], "nColumns=31");
+  EXPECT_EQ(lines[3], "nColumns=41");
   EXPECT_EQ(lines[4], "inDegrees=no");
   const auto end = std::find(lines.begin(), lines.end(), "endheader");
   ASSERT_NE(end, lines.end());
   ASSERT_EQ(lines.end() - end, 1 + 1 + 201);
   const std::vector<std::string> labels = Split(*(end + 1), '\t');
-  EXPECT_EQ(labels.size(), 31u);
+  EXPECT_EQ(labels.size(), 41u);
+  EXPECT_EQ(labels[31], "right_ground_force_vx");
+  EXPECT_EQ(labels[38], "left_ground_force_vz");
   EXPECT_EQ(labels[0], "time");
   double before = -1;
   for (auto line = end + 2; line != lines.end(); ++line) {
@@ -62,6 +64,21 @@ TEST(StoTest, HeaderIsWhatOpenSimReads) {
     before = std::stod(row[0]);
   }
   EXPECT_NEAR(before, 2 * kSampleSpan_s, 1e-11);
+  // 30 %: the right foot carries the weight, the left one swings; the numbers are those of the message.
+  const std::vector<std::string> row = Split(*(end + 2 + 60), '\t');
+  EXPECT_NEAR(std::stod(row[33]), 75 * 9.81, 1e-8);
+  EXPECT_NEAR(std::stod(row[34]), 0.3 + 0.2 * 30 / 60, 1e-11);
+  EXPECT_EQ(std::stod(row[38]), 0);
+  EXPECT_EQ(row[39], "nan");
+}
+
+TEST(StoTest, WithoutEventsThereAreNoFeet) {
+  v1::Solve solve = SampleSolve("solves/a", 0.1);
+  solve.mutable_result()->clear_gait_events();
+  EXPECT_EQ(Split(ToSto(solve), '\n')[3], "nColumns=31");
+  *solve.mutable_result()->mutable_gait_events() = SampleGaitEvents(SampleModel());
+  solve.mutable_result()->mutable_gait_events()->mutable_feet(0)->mutable_force_n()->set_rows(101);
+  EXPECT_THROW(ToSto(solve), Failure);
 }
 
 TEST(AccuracyLinesTest, ManoeuvresHaveNoSwing) {

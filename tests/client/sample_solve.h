@@ -17,6 +17,9 @@ constexpr double kSampleSpan_s = 0.55;
 constexpr double kSampleDisplacement_m = 0.715;
 v1::Trajectory SampleTrajectory(const v1::Model& model);
 
+// Its events: right heel strike at 0 %, left toe off at 10, left heel strike at 50, right toe off at 60.
+v1::GaitEvents SampleGaitEvents(const v1::Model& model);
+
 // Position of a joint at time t (any t), the closed form that SampleTrajectory was sampled from.
 double SamplePosition(const v1::Model& model, int joint, double time_s);
 

@@ -34,7 +34,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
       "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 "
       "--warm-start nearest --cost effort --cost muscle-work --cost passive-load "
-      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7");
+      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7 --allow-overlap");
+  EXPECT_TRUE(spec.limits().allow_body_overlap());
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_EQ(spec.model().stature_m(), 1.7);

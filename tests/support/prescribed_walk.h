@@ -20,6 +20,7 @@ struct PrescribedWalk {
   double stride = 1.4;       // m
   double toe_off = 60;       // % of the right leg, 50 … 100; the left leg is half a cycle later
   std::map<std::string, Curve> angles;  // rad, of the right leg by the joint's name without side
+  std::map<std::string, Curve> efforts;  // N m, likewise
   Curve vertical = [](double) { return 0; }, forward = [](double) { return 0; };  // N, on the right foot
 
   // `start`: % of the cycle where the trajectory begins; a multiple of 0.5.
@@ -69,6 +70,12 @@ struct PrescribedWalk {
     phase.point_forces = MatrixX::Zero(3 * static_cast<int>(phase.contacts.size()), 2 * n);
     for (int p = 0; p < 2 * n; ++p) {
       const double percent = begin + 0.5 * (p / 2 + (p % 2 == 0 ? 1.0 / 3 : 1.0));
+      for (size_t a = 0; a < scene.model.actuated().size(); ++a) {
+        const std::string& name = scene.model.joint(scene.model.actuated()[a]).name;
+        const auto curve = efforts.find(name.substr(0, name.size() - 2));
+        if (curve == efforts.end()) continue;
+        phase.point_efforts(static_cast<int>(a), p) = curve->second(Wrapped(percent + (name.ends_with("_l") ? 50 : 0)));
+      }
       for (size_t c = 0; c < phase.contacts.size(); ++c) {
         const double own = percent + (scene.contacts[phase.contacts[c]].name == "left_foot" ? 50 : 0);
         phase.point_forces(3 * static_cast<int>(c), p) = forward(Wrapped(own));

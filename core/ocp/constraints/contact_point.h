@@ -19,6 +19,8 @@ class GapConstraint : public PointConstraint {
   std::string Unit(int) const override { return "m"; }
   double Size(int) const override { return 0.1; }
   void Bounds(double fraction, double* lower, double* upper) const override;
+  // Where the surface touches down there, the next phase fixes its gap.
+  bool FreeAtEndOfPhase() const override { return kind_ == Kind::kClearance; }
   Entries JacobianPattern() const override;
   Entries HessianPattern() const override;
   void Value(const PointContext& at, double* g) override;

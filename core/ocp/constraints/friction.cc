@@ -1,29 +1,27 @@
 #include "core/ocp/constraints/friction.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rollgait {
 
 std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
                                    double coefficient) {
-  const auto normal = [](const ActiveContact& contact) {
-    return contact.offset + static_cast<int>(contact.directions.size()) - 1;
-  };
   std::vector<ForceRow> rows;
   for (const ActiveContact& contact : active) {
     const ContactSurface& surface = contacts[contact.contact];
+    const bool alone = std::none_of(active.begin(), active.end(), [&](const ActiveContact& other) {
+      return other.contact != contact.contact && contacts[other.contact].joint == surface.joint;
+    });
     const double mu = surface.directions.size() > 2 ? coefficient / std::sqrt(2.0) : coefficient;
-    for (size_t d = 0; d + 1 < contact.directions.size(); ++d) {
+    const int normal = contact.offset + static_cast<int>(contact.directions.size()) - 1;
+    for (int d = 0; d + 1 < static_cast<int>(contact.directions.size()); ++d) {
       for (const bool positive : {true, false}) {
-        ForceRow row{"friction " + surface.name, {}, {}, positive};
-        for (const ActiveContact& other : active) {
-          const bool shares = contact.directions[d] == 0 && contacts[other.contact].joint == surface.joint;
-          if (other.contact != contact.contact && !shares) continue;
-          row.terms.emplace_back(normal(other), mu);
-          row.contacts.push_back(other.contact);
-        }
-        row.terms.emplace_back(contact.offset + static_cast<int>(d), positive ? 1 : -1);
-        rows.push_back(std::move(row));
+        rows.push_back({"friction " + surface.name,
+                        {{normal, mu}, {contact.offset + d, positive ? 1 : -1}},
+                        contact.contact,
+                        positive,
+                        !alone && contact.directions[d] == 0});
       }
     }
   }

@@ -9,15 +9,14 @@ namespace rollgait {
 struct ForceRow {
   std::string name;
   std::vector<std::pair<int, double>> terms;  // (offset as in ActiveContact, coefficient)
-  std::vector<int> contacts;                  // whose normal forces limit it
-  bool positive = true;                       // of the two rows of a tangent direction, the one with + f_t
+  int contact = 0;
+  bool positive = true;  // of the two rows of a tangent direction, the one with + f_t
+  bool shared = false;   // along x, where another contact of the link bears a share (ForceSharesConstraint)
 };
 
 // Friction pyramids of the active contacts of a phase: for each tangent direction t of a contact  μ f_n + f_t >= 0  and
 // μ f_n − f_t >= 0, in this order. In the plane the pyramid is the cone; in space it is the inner pyramid, with μ/√2, so that the cone
-// holds as well. Contacts of one rigid link share their force along x (OptimalControlProblem::PhaseContacts), which is limited by the
-// sum of their normal forces: it can be divided among them in proportion to those, so that each lies in its own pyramid.
-// `contacts` are all of the problem; `active` those of the phase.
+// holds as well. `contacts` are all of the problem; `active` those of the phase.
 std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
                                    double coefficient);
 

@@ -29,7 +29,38 @@ TEST(ReportDataTest, CurvesOfTheRightLeg) {
   const double expected = SamplePosition(model, 7, kSampleSpan_s + 0.25 * 2 * kSampleSpan_s) * 180 / M_PI;
   EXPECT_NEAR(stride["angles"][1]["values"][50].get<double>(), expected, 0.01);
   EXPECT_EQ(stride["contacts"][1]["right"], true);
-  EXPECT_EQ(stride["contacts"][1]["normal"][60], 100);  // % of body weight in single support
+}
+
+// Every figure of the page is that of the message, even where the message is wrong.
+TEST(ReportDataTest, EventsAndForcesAreTheServers) {
+  v1::Solve solve = SampleSolve("solves/a", 0.1);
+  v1::GaitEvents& events = *solve.mutable_result()->mutable_gait_events();
+  events.mutable_events(3)->set_percent(61.25);
+  events.mutable_feet(0)->set_stance_fraction(0.6125);
+  events.set_double_support_fraction(0.215);
+  const json stride = ReportData({solve}, "")["solves"][0]["stride"];
+  ASSERT_EQ(stride["events"].size(), 4u);
+  EXPECT_EQ(stride["events"][3], json({{"percent", 61.25}, {"foot", "right"}, {"name", "toe off"}}));
+  ASSERT_EQ(stride["phases"].size(), 4u);
+  EXPECT_EQ(stride["phases"][0]["feet"], 2);
+  EXPECT_EQ(stride["phases"][1]["contacts"], json({"right_foot"}));
+  ASSERT_EQ(stride["feet"].size(), 2u);
+  EXPECT_EQ(stride["feet"][0]["name"], "right foot");
+  EXPECT_EQ(stride["feet"][0]["stance"], 0.6125);
+  EXPECT_EQ(stride["feet"][0]["normal"][60], 100);  // % of body weight in single support
+  EXPECT_NEAR(stride["feet"][0]["pressure"][80].get<double>(), 1e3 * 0.2 * (40 - 0.5) / 60, 1e-3);  // loaded from 0.5 % on
+  EXPECT_TRUE(stride["feet"][0]["pressure"][160].is_null());
+  EXPECT_EQ(stride["double_support"], 0.215);
+}
+
+TEST(ReportDataTest, AnOlderServersResultHasNoEvents) {
+  v1::Solve solve = SampleSolve("solves/a", 0.1);
+  solve.mutable_result()->clear_gait_events();
+  const json stride = ReportData({solve}, "")["solves"][0]["stride"];
+  EXPECT_TRUE(stride["events"].empty());
+  EXPECT_TRUE(stride["feet"].empty());
+  EXPECT_TRUE(stride["double_support"].is_null());
+  EXPECT_EQ(stride["torques"].size(), 3u);
 }
 
 TEST(ReportDataTest, WalkerHasLimbsOnItsSides) {

@@ -161,6 +161,17 @@ TEST(CheckRequest, AccuracyLevelsSetTheBounds) {
   EXPECT_EQ(spec.bounds[Criterion::kSlip], 0.5);
 }
 
+TEST(CheckRequest, BodiesMayOverlapOnlyWhereThatIsAllowed) {
+  GaitRequest request = Planar();
+  EXPECT_FALSE(CheckRequest(request).value().allow_body_overlap);
+  EXPECT_EQ(CheckRequest(request).value().bounds[Criterion::kOverlap], StandardBounds()[Criterion::kOverlap]);
+  request.limits.allow_body_overlap = true;
+  const GaitSpec spec = CheckRequest(request).value();
+  EXPECT_TRUE(spec.allow_body_overlap);
+  EXPECT_EQ(spec.bounds[Criterion::kOverlap], kInfinity);
+  EXPECT_EQ(spec.bounds[Criterion::kGap], StandardBounds()[Criterion::kGap]);
+}
+
 TEST(CheckRequest, CollectsEveryViolation) {
   GaitRequest request;
   request.body.model = "horse";

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "core/contact/pair_separation.h"
 #include "core/gait/build_problem.h"
+#include "core/multibody/body_dynamics.h"
 
 namespace rollgait {
 namespace {
@@ -48,6 +50,31 @@ TEST_P(WalkingGuessTest, PositionsAreContinuousThroughThePhases) {
       EXPECT_NEAR(end(j), start(source) + moved, 1e-12) << joint.name;
     }
   }
+}
+
+// Who starts with legs through each other may come out on the wrong side.
+TEST_P(WalkingGuessTest, LimbsPassBesideEachOther) {
+  const BodyDynamics dynamics(problem_->model);
+  BodyDynamics::State state;
+  const auto pose = [&](const BodySurface& body) -> PosedSurface {
+    const BodyDynamics::Link& link = state[body.joint];
+    return {&body.placed.surface, link.R_WL * body.placed.R_BE, link.p_WL + link.R_WL * body.placed.p_BE};
+  };
+  for (const int variant : {0, 1, 2}) {
+    const MotionGuess guess = WalkingGuess(*spec_, *problem_, variant);
+    for (int p = 0; p < static_cast<int>(problem_->phases.size()); ++p) {
+      for (int i = 0; i <= 20; ++i) {
+        const VectorX q = guess.motion(p, 0.05 * i).position;
+        dynamics.ComputeState(q, VectorX::Zero(q.size()), &state);
+        for (size_t pair = 0; pair < problem_->pairs.size(); ++pair) {
+          const BodySurface &first = problem_->bodies[problem_->pairs[pair].first],
+                            &second = problem_->bodies[problem_->pairs[pair].second];
+          EXPECT_GT(FindSeparation(pose(first), pose(second), nullptr).distance, 1e-3) << first.name << " " << second.name;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(problem_->pairs.empty(), GetParam().model == std::string("planar"));
 }
 
 // A force that starts on its bound cuts the first steps short.

@@ -285,6 +285,12 @@ const BadCase kBadCases[] = {
      "limits.joint_effort[\"base_z\"]", "not actuated"},
     {"Tolerance", [](GaitRequest& r) { r.accuracy.kkt_tolerance = 0; }, "accuracy.kkt_tolerance", "[1e-12, 0.01]"},
     {"Gap", [](GaitRequest& r) { r.accuracy.bounds[Criterion::kGap] = 1; }, "accuracy.max_gap_m", "[1e-09, 0.1] m"},
+    {"OverlapAllowedAndBounded",
+     [](GaitRequest& r) {
+       r.limits.allow_body_overlap = true;
+       r.accuracy.bounds[Criterion::kOverlap] = 1e-3;
+     },
+     "accuracy.max_overlap_m", "leave one of the two out"},
     {"Slip", [](GaitRequest& r) { r.accuracy.bounds[Criterion::kSlip] = 0; }, "accuracy.max_slip_m_s", "[1e-09, 1] m/s"},
     {"Refinements", [](GaitRequest& r) { r.accuracy.max_refinements = 7; }, "accuracy.max_refinements", "[0, 6]"},
     {"Iterations", [](GaitRequest& r) { r.solver_limits.max_iterations = 0; }, "solver_limits.max_iterations",

@@ -44,7 +44,7 @@ TEST(Sharpen, EndsInAMinimumOfTheRequest) {
   const GaitSolution solution = Solve(Draft(std::nullopt));
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
   ASSERT_GE(solution.meshes.size(), 2u);
-  EXPECT_EQ(solution.meshes.front().smoothing, kSmoothingFromAfar);
+  EXPECT_EQ(solution.meshes.front().smoothing, 40);
   EXPECT_EQ(solution.meshes.back().smoothing, 5);
   EXPECT_FALSE(solution.warm_started);
   EXPECT_LE(solution.kkt_error, 1e-6);

@@ -9,6 +9,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/ocp/constraints/contact_point.h"
+#include "core/ocp/constraints/force_shares.h"
 #include "core/ocp/constraints/friction.h"
 
 namespace rollgait {
@@ -164,7 +165,9 @@ TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
     VectorX z = VectorX::Zero(layout.size());
     for (int j = 0; j < layout.n; ++j) z(j) = problem_->model.joint(j).name.starts_with("knee") ? 0.3 : 0.02 * j;
     MatrixX rolling(0, layout.size());
+    int shares = 0;
     for (const auto& constraint : problem_->PointConstraints(phase, false)) {
+      if (constraint->Name(0).starts_with("share")) shares += constraint->rows();
       if (!constraint->Name(0).starts_with("rolling")) continue;
       MatrixX rows = MatrixX::Zero(constraint->rows(), layout.size());
       constraint->Jacobian(evaluator_.At(z), rows);
@@ -172,12 +175,14 @@ TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
       all << rolling, rows;
       rolling = all;
     }
-    ASSERT_EQ(rolling.rows(), layout.forces);
+    // Every force is determined by a rolling row, or by its share of the force of a foot along x.
+    ASSERT_EQ(rolling.rows() + shares, layout.forces);
     const MatrixX velocity = rolling.middleCols(layout.v(), n);
     const Eigen::SelfAdjointEigenSolver<MatrixX> solver(velocity * velocity.transpose());
     EXPECT_GT(solver.eigenvalues()(0), 1e-4) << "phase " << phase;  // 1 cm of lever, squared
     if (TwoSurfaces() && phase == 2) {
-      EXPECT_EQ(layout.forces, GetParam().model == std::string("planar") ? 3 : 5);
+      EXPECT_EQ(layout.forces, GetParam().model == std::string("planar") ? 4 : 6);
+      EXPECT_EQ(shares, 1);
     }
   }
 }
@@ -208,34 +213,47 @@ TEST_P(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
   contacts[1].name = "forefoot";
   PointLayout layout;
   layout.forces = 3;
-  VectorX z(5);
-  z << 30, 0, 100, 0, 0;
-  double g[6];
+  VectorX z(4);
+  z << 30, 0, 100, 0;
+  double g[4];
   FrictionConstraint space(FrictionRows(contacts, {{0, 0, {0, 1, 2}}}, 0.5), layout, 1);
   ASSERT_EQ(space.rows(), 4);
   space.Value({z.data()}, g);
   EXPECT_NEAR(g[0], 50 / std::sqrt(2.0) + 30, 1e-12);
   EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
   EXPECT_NEAR(g[2], 50 / std::sqrt(2.0), 1e-12);
-  // Heel and forefoot of one rigid foot share the force along x; across it each has its own.
-  layout.forces = 5;
-  z << 30, 4, 10, 5, 90;
-  FrictionConstraint shared(FrictionRows(contacts, {{0, 0, {0, 1, 2}}, {1, 3, {1, 2}}}, 0.5), layout, 1);
-  ASSERT_EQ(shared.rows(), 6);
-  shared.Value({z.data()}, g);
-  EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
-  EXPECT_NEAR(g[3], 5 / std::sqrt(2.0) - 4, 1e-12);
-  EXPECT_NEAR(g[5], 45 / std::sqrt(2.0) - 5, 1e-12);
   for (ContactSurface& contact : contacts) contact.directions = {0, 2};
-  contacts[1].joint = 1;  // another link: nothing is shared
   layout.forces = 4;
-  z << 30, 100, 5, 40, 0;
+  z << 30, 100, 5, 40;
   FrictionConstraint plane(FrictionRows(contacts, {{0, 0, {0, 2}}, {1, 2, {0, 2}}}, 0.5), layout, 1);
   ASSERT_EQ(plane.rows(), 4);
   plane.Value({z.data()}, g);
   EXPECT_NEAR(g[0], 80, 1e-12);
   EXPECT_NEAR(g[1], 20, 1e-12);
   EXPECT_NEAR(g[3], 15, 1e-12);
+}
+
+// 30 N along x on normal forces of 60 and 20 N: 22.5 and 7.5 N; a surface without normal force bears nothing.
+TEST_P(PointConstraintsTest, SurfacesOfOneLinkShareTheForceAlongXByTheirNormalForces) {
+  std::vector<ContactSurface> contacts(2);
+  PointLayout layout;
+  layout.forces = 6;
+  const std::vector<ActiveContact> active = {{0, 0, {0, 1, 2}}, {1, 3, {0, 1, 2}}};
+  const auto shares = MakeForceShares(contacts, active, layout, 1);
+  ASSERT_TRUE(shares);
+  ASSERT_EQ(shares->rows(), 1);
+  VectorX z(6);
+  double g;
+  const auto value = [&](double x_1, double n_1, double x_2, double n_2) {
+    z << x_1, 5, n_1, x_2, -3, n_2;
+    shares->Value({z.data()}, &g);
+    return g;
+  };
+  EXPECT_NEAR(value(22.5, 60, 7.5, 20), 0, 1e-12);
+  EXPECT_NEAR(value(0, 0, 30, 80), 0, 1e-12);
+  EXPECT_NEAR(value(30, 60, 0, 20), -600, 1e-12);
+  contacts[1].joint = 1;
+  EXPECT_FALSE(MakeForceShares(contacts, active, layout, 1));
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, PointConstraintsTest,

@@ -107,6 +107,19 @@ TEST_P(SamplingTest, ReusesItsVectors) {
 }
 
 // Radau IIA with 2 and 3 points, and the three points of Hermite–Simpson.
+TEST_P(SamplingTest, FilledPointStatesAreSamples) {
+  FillPointStates(&trajectory_);
+  for (int p = 0; p < 2; ++p) {
+    const TrajectoryPhase& phase = trajectory_.phases[p];
+    ASSERT_EQ(phase.point_positions.cols(), 2 * s_);
+    for (int column = 0; column < 2 * s_; ++column) {
+      const MotionSample sample = Sample(trajectory_, p, column / s_, GetParam()[column % s_]);
+      EXPECT_TRUE(MatrixNear(phase.point_positions.col(column), sample.position, 0));
+      EXPECT_TRUE(MatrixNear(phase.point_velocities.col(column), sample.velocity, 0));
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, SamplingTest,
                          ::testing::Values(std::vector<double>{1.0 / 3, 1.0},
                                            std::vector<double>{(4 - std::sqrt(6)) / 10, (4 + std::sqrt(6)) / 10, 1.0},

@@ -42,7 +42,7 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     }
   }
 
-  // Rows that hold a phase's velocities after its jump and its impulses, both of which they contain linearly.
+  // Rows that hold a phase's velocities after its jump and its impulses. All but the shares of a foot's surfaces are linear in them.
   std::vector<int> RowsOf(int phase) const {
     std::vector<int> rows;
     bool entries = false;
@@ -50,7 +50,10 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
       const RowInfo info = nlp_->Describe(x_.data(), row);
       entries |= info.name.starts_with("touch-down");
       if (!entries || info.phase != phase) continue;
-      if (info.name.starts_with("rolling") || info.name.starts_with("impact, dynamics")) rows.push_back(row);
+      if (info.name.starts_with("rolling") || info.name.starts_with("impact, dynamics") ||
+          info.name.starts_with("impact, share")) {
+        rows.push_back(row);
+      }
     }
     return rows;
   }
@@ -62,6 +65,14 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     for (int i = 0; i < layout.impulse_size(phase); ++i) unknowns.push_back(layout.impulse(phase) + i);
     const std::vector<int> rows = RowsOf(phase);
     ASSERT_EQ(rows.size(), unknowns.size());
+    // The shares are of normal impulses that are not zero.
+    for (const ActiveContact& active : problem_->ActiveContacts(phase)) {
+      x_(layout.impulse(phase) + active.offset + static_cast<int>(active.directions.size()) - 1) = 1;
+    }
+    for (int iteration = 0; iteration < 60; ++iteration) NewtonStep(rows, unknowns);
+  }
+
+  void NewtonStep(const std::vector<int>& rows, const std::vector<int>& unknowns) {
     VectorX values(nlp_->jacobian_pattern().size()), g(nlp_->constraints());
     ASSERT_TRUE(nlp_->Jacobian(x_.data(), values.data()));
     ASSERT_TRUE(nlp_->Constraints(x_.data(), g.data()));

@@ -33,6 +33,13 @@ std::vector<double> Wave(double size, double phase, double center) {
   return values;
 }
 
+// A walk beside people.
+NormativeComparison CompareWalk(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity) {
+  const auto events = MeasureGaitEvents(scene, trajectory, gravity);
+  EXPECT_TRUE(events);
+  return CompareWithPeople(scene, trajectory, *events);
+}
+
 class PeopleTest : public ::testing::TestWithParam<size_t> {
  protected:
   // The walk of a data set with its angles turned by `shift` (deg) and scaled.
@@ -52,9 +59,7 @@ class PeopleTest : public ::testing::TestWithParam<size_t> {
     return walk;
   }
   NormativeComparison Compare(const PrescribedWalk& walk, Cycle cycle, double start) const {
-    const auto people = CompareWithPeople(scene_, walk.Make(scene_, cycle, start), kGravity);
-    EXPECT_TRUE(people);
-    return *people;
+    return CompareWalk(scene_, walk.Make(scene_, cycle, start), kGravity);
   }
 
   Scene scene_ = PlanarHuman(Sex::kFemale, 1.65, 62);
@@ -126,26 +131,36 @@ TEST(NormativeSignsTest, JointsTurnAsPeoplesDo) {
   EXPECT_GT((turned[ankle].R_WL * front).z(), 0.01);
 }
 
-// Standing still on the right foot: by statics the plantarflexor moment is force times lever less the foot's own weight,
-// and hip and knee differ from it by the same force at their own levers.
+// Standing still on the right foot with the efforts that the equations of motion ask for: by statics the plantarflexor moment is
+// force times lever less the foot's own weight, and hip and knee differ from it by the same force at their own levers.
 TEST(NormativeMomentsTest, AreThoseOfStatics) {
   const Scene scene = PlanarHuman(Sex::kFemale, 1.65, 62);
+  const BodyDynamics dynamics(scene.model);
+  BodyDynamics::State state;
+  BodyDynamics::Workspace workspace;
+  VectorX q = VectorX::Zero(scene.model.size()), moments;
+  q[scene.model.Find("ankle_r")] = 0.15;  // the contact point is not below the ankle
+  q[scene.model.Find("base_z")] = scene.leg_length;
+  dynamics.ComputeState(q, VectorX::Zero(q.size()), &state);
+  dynamics.InverseDynamics(state, VectorX::Zero(q.size()), kGravity, &workspace, &moments);
+  const ContactSurface& foot = scene.contacts[scene.FindContact("right_foot")];
+  const Vector3 contact = ComputeRollingContact(foot, state).p_WP;
+  MatrixX jacobian = MatrixX::Zero(6, q.size());
+  dynamics.AddTwistJacobian(state, foot.joint, contact, 1, &jacobian);
+  moments -= jacobian.bottomRows<3>().transpose() * Vector3(0, 0, 600);
+
   PrescribedWalk walk;
-  for (const char* joint : {"hip", "knee", "ankle"}) walk.angles[joint] = [](double) { return 0; };
-  walk.angles["ankle"] = [](double) { return 0.15; };  // the contact point is not below the ankle
+  for (const char* joint : {"hip", "knee", "ankle"}) {
+    const double angle = q[RightJoint(scene.model, joint)], effort = moments[RightJoint(scene.model, joint)];
+    walk.angles[joint] = [angle](double) { return angle; };
+    walk.efforts[joint] = [effort](double) { return effort; };
+  }
   walk.stride = 0;
   walk.vertical = [](double) { return 600; };
   walk.toe_off = 60;
-  const auto people = CompareWithPeople(scene, walk.Make(scene, Cycle::kFull, 0), kGravity);
-  ASSERT_TRUE(people);
+  const NormativeComparison people = CompareWalk(scene, walk.Make(scene, Cycle::kFull, 0), kGravity);
 
-  const BodyDynamics dynamics(scene.model);
-  BodyDynamics::State state;
-  VectorX q = VectorX::Zero(scene.model.size());
-  q[scene.model.Find("ankle_r")] = 0.15;
-  q[scene.model.Find("base_z")] = scene.leg_length;
-  dynamics.ComputeState(q, VectorX::Zero(q.size()), &state);
-  const double point = ComputeRollingContact(scene.contacts[scene.FindContact("right_foot")], state).p_WP.x();
+  const double point = contact.x();
   const auto moment = [&](const char* name) {  // lifting the heel: positive about −y of what hangs on the joint
     const int joint = scene.model.Find(name);
     const double pivot = state[joint].p_WL.x();
@@ -157,13 +172,28 @@ TEST(NormativeMomentsTest, AreThoseOfStatics) {
     }
     return sum / scene.model.total_mass();
   };
-  const DatasetComparison& subject = people->datasets[1];
+  const DatasetComparison& subject = people.datasets[1];
   ASSERT_GT(std::abs(point), 0.005);
   const int mid_stance = 15;  // 30 %
   EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "ankle").ours[mid_stance], moment("ankle_r"), 1e-9);
   // Knee flexion turns the shank the other way than hip flexion and dorsiflexion do.
   EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "knee").ours[mid_stance], -moment("knee_r"), 1e-9);
   EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "hip").ours[mid_stance], moment("hip_r"), 1e-9);
+}
+
+// A spike of the polynomial's acceleration that no effort makes is no moment of the joint.
+TEST(NormativeMomentsTest, NoEffortNoMoment) {
+  const Scene scene = PlanarHuman(Sex::kFemale, 1.65, 62);
+  PrescribedWalk walk;
+  walk.angles["hip"] = [](double) { return 0; };
+  walk.efforts["knee"] = [](double percent) { return 6.2 * percent; };
+  Trajectory trajectory = walk.Make(scene, Cycle::kFull, 0);
+  for (TrajectoryPhase& phase : trajectory.phases) phase.point_accelerations.setConstant(50);
+  const DatasetComparison subject = CompareWalk(scene, trajectory, kGravity).datasets[1];
+  for (int i = 0; i < kNormativeSamples; ++i) {
+    EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "hip").ours[i], 0, 1e-12);
+    EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "knee").ours[i], i == 0 ? 0 : -0.1 * 2 * i, 1e-9);  // N m/kg at 62 kg
+  }
 }
 
 TEST(NormativeSlopeTest, VerticalIsAgainstGravity) {
@@ -174,10 +204,9 @@ TEST(NormativeSlopeTest, VerticalIsAgainstGravity) {
   walk.vertical = [&](double) { return weight * std::cos(slope); };
   walk.forward = [&](double) { return weight * std::sin(slope); };
   const Vector3 gravity = 9.81 * Vector3(-std::sin(slope), 0, -std::cos(slope));
-  const auto people = CompareWithPeople(scene, walk.Make(scene, Cycle::kHalf, 10), gravity);
-  ASSERT_TRUE(people);
-  EXPECT_NEAR(Of(people->datasets[0], NormativeQuantity::kVerticalForce, "foot").ours[10], 100, 1e-9);
-  EXPECT_NEAR(Of(people->datasets[0], NormativeQuantity::kForwardForce, "foot").ours[10], 0, 1e-9);
+  const NormativeComparison people = CompareWalk(scene, walk.Make(scene, Cycle::kHalf, 10), gravity);
+  EXPECT_NEAR(Of(people.datasets[0], NormativeQuantity::kVerticalForce, "foot").ours[10], 100, 1e-9);
+  EXPECT_NEAR(Of(people.datasets[0], NormativeQuantity::kForwardForce, "foot").ours[10], 0, 1e-9);
 }
 
 TEST(NormativeRestingTest, NamesTheJointTheEndAndTheShare) {
@@ -187,12 +216,11 @@ TEST(NormativeRestingTest, NamesTheJointTheEndAndTheShare) {
   walk.angles["hip"] = [](double) { return 0.1; };
   walk.angles["knee"] = [](double) { return 0.2; };
   walk.angles["ankle"] = [&](double percent) { return percent < 15 ? end : 0; };  // a quarter of stance
-  const auto people = CompareWithPeople(scene, walk.Make(scene, Cycle::kFull, 0), kGravity);
-  ASSERT_TRUE(people);
-  ASSERT_EQ(people->resting.size(), 1u);
-  EXPECT_EQ(people->resting[0].joint, "ankle_r");
-  EXPECT_TRUE(people->resting[0].at_max);
-  EXPECT_NEAR(people->resting[0].share, 0.25, 0.02);  // half a per cent of the cycle between nodes
+  const NormativeComparison people = CompareWalk(scene, walk.Make(scene, Cycle::kFull, 0), kGravity);
+  ASSERT_EQ(people.resting.size(), 1u);
+  EXPECT_EQ(people.resting[0].joint, "ankle_r");
+  EXPECT_TRUE(people.resting[0].at_max);
+  EXPECT_NEAR(people.resting[0].share, 0.25, 0.02);  // half a per cent of the cycle between nodes
 }
 
 TEST(CurveDistanceTest, KnownAnswers) {

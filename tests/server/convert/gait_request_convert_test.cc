@@ -65,7 +65,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
                        touch_down_point { min: -0.9 max: -0.8 } lift_off_point { min: 0.7 max: 0.75 }
                        touch_down: TOUCH_DOWN_PLASTIC }
       limits { joint_position { key: 'k' value { min: -1 max: 2 } } joint_velocity { key: 'v' value: 3 }
-               joint_effort { key: 'e' value { min: -4 max: 5 } } }
+               joint_effort { key: 'e' value { min: -4 max: 5 } } allow_body_overlap: true }
       discretization { scheme: SCHEME_HERMITE_SIMPSON single_support_intervals: 21 double_support_intervals: 11 }
       accuracy { level: LEVEL_FINE kkt_tolerance: 1e-7 max_gap_m: 2e-4 max_slip_m_s: 3e-3 max_refinements: 2 }
       solver_limits { max_iterations: 321 max_wall_time_s: 44 }
@@ -97,6 +97,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.limits.joint_position.at("k").max, 2);
   EXPECT_EQ(request.limits.joint_velocity.at("v"), 3);
   EXPECT_EQ(request.limits.joint_effort.at("e").min, -4);
+  EXPECT_TRUE(request.limits.allow_body_overlap);
   EXPECT_EQ(request.discretization.scheme, Scheme::kHermiteSimpson);
   EXPECT_EQ(request.discretization.single_support_intervals, 21);
   EXPECT_EQ(request.discretization.double_support_intervals, 11);

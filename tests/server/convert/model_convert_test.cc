@@ -124,6 +124,33 @@ TEST(EncodeModel, ContactsNameTheirSurfaceAndMirror) {
   EXPECT_EQ(encoded.sources_size(), static_cast<int>(scene.sources.size()));
 }
 
+// Who reads the message alone can place every body and knows which must keep apart.
+TEST(EncodeModel, BodiesAndThePairsThatCanMeet) {
+  BodyRequest body;
+  body.model = "human29";
+  body.toes = true;
+  const Scene scene = BuildScene(body).value();
+  const v1::Model encoded = EncodeModel(scene, 9.81);
+  ASSERT_EQ(encoded.bodies_size(), 12);
+  for (int i = 0; i < encoded.bodies_size(); ++i) {
+    const BodySurface& from = scene.bodies[i];
+    EXPECT_EQ(encoded.bodies(i).name(), from.name);
+    EXPECT_EQ(encoded.bodies(i).joint(), from.joint);
+    EXPECT_EQ(Decode(encoded.bodies(i).surface().ellipsoid().semi_axes_m()), from.placed.surface.ellipsoid()->semi_axes());
+    EXPECT_EQ(Decode(encoded.bodies(i).center_m()), from.placed.p_BE);
+    EXPECT_LT((Decode(encoded.bodies(i).orientation()) - from.placed.R_BE).norm(), 1e-14);
+    EXPECT_EQ(encoded.bodies(i).mirror_body(), scene.bodies[from.mirror_body].name);
+  }
+  ASSERT_EQ(encoded.body_pairs_size(), static_cast<int>(scene.pairs.size()));
+  ASSERT_GT(encoded.body_pairs_size(), 20);
+  for (int i = 0; i < encoded.body_pairs_size(); ++i) {
+    EXPECT_EQ(encoded.body_pairs(i).first() + " / " + encoded.body_pairs(i).second(), scene.PairName(i));
+  }
+  const v1::Model planar = EncodeModel(Planar(), 9.81);
+  EXPECT_EQ(planar.bodies_size(), 8);
+  EXPECT_EQ(planar.body_pairs_size(), 0);
+}
+
 TEST(EncodeSummary, IsTheSameForTheCatalogueAndTheModel) {
   for (const CatalogEntry& entry : ListCatalog()) {
     BodyRequest body;
