@@ -53,7 +53,7 @@ json PairRows(const std::vector<std::pair<std::string, std::string>>& rows) {
   return list;
 }
 
-json RequestRows(const v1::SolveSpec& spec) {
+json RequestData(const v1::SolveSpec& spec) {
   const v1::Motion& motion = spec.motion();
   std::vector<std::pair<std::string, std::string>> rows = {{"model", spec.model().name()},
                                                            {"slope", SlopeLabel(spec.slope_rad())}};
@@ -75,7 +75,7 @@ json RequestRows(const v1::SolveSpec& spec) {
   return PairRows(rows);
 }
 
-json CostRows(const v1::SolveResult& result) {
+json CostData(const v1::SolveResult& result) {
   json rows = json::array();
   for (const v1::CostValue& cost : result.costs()) {
     rows.push_back({{"name", cost.name()},
@@ -88,7 +88,7 @@ json CostRows(const v1::SolveResult& result) {
   return rows;
 }
 
-json MeshRows(const v1::SolveResult& result) {
+json MeshData(const v1::SolveResult& result) {
   json rows = json::array();
   for (const v1::MeshStatistics& mesh : result.meshes()) {
     std::string intervals;
@@ -109,7 +109,7 @@ json MeshRows(const v1::SolveResult& result) {
   return rows;
 }
 
-json AccuracyRows(const v1::Solve& solve) {
+json AccuracyData(const v1::Solve& solve) {
   json rows = json::array();
   for (const AccuracyLine& line : AccuracyLines(solve)) {
     rows.push_back({{"name", line.name},
@@ -123,7 +123,7 @@ json AccuracyRows(const v1::Solve& solve) {
   return rows;
 }
 
-json UnmetRows(const v1::SolveResult& result) {
+json UnmetData(const v1::SolveResult& result) {
   json rows = json::array();
   for (const v1::UnmetConstraint& unmet : result.unmet_constraints()) {
     rows.push_back({{"name", unmet.name()},
@@ -160,7 +160,7 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"accuracy_verdict", AccuracyVerdict(solve)},
           {"created", FormatTime(solve.create_time())},
           {"from_cache", solve.from_cache()},
-          {"request", RequestRows(solve.spec())},
+          {"request", RequestData(solve.spec())},
           {"spec", ToJsonText(solve.spec())},
           {"speed", result.speed_m_s()},
           {"step_length", result.step_length_m()},
@@ -169,10 +169,10 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"wall", FormatDuration(result.wall_time_s())},
           {"build", result.solver_build()},
           {"scheme", SchemeName(result.trajectory().scheme())},
-          {"costs", CostRows(result)},
-          {"accuracy", result.has_accuracy() ? AccuracyRows(solve) : json::array()},
-          {"meshes", MeshRows(result)},
-          {"unmet", UnmetRows(result)},
+          {"costs", CostData(result)},
+          {"accuracy", result.has_accuracy() ? AccuracyData(solve) : json::array()},
+          {"meshes", MeshData(result)},
+          {"unmet", UnmetData(result)},
           {"people", result.has_normative() ? json::parse(ToJsonLine(result.normative())) : json()},
           {"model", ModelData(result.model())},
           {"stride", json()},
