@@ -20,6 +20,7 @@ struct BodySurface {
 struct BodyPair {
   int first = 0, second = 0;  // indices of the bodies
   int mirror_pair = 0;        // index of the left/right mirror image
+  bool usual = false;         // most walks meet here if nothing keeps the two apart
 };
 
 }  // namespace rollgait

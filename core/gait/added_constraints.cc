@@ -58,6 +58,15 @@ class PhaseExcesses {
 
 }  // namespace
 
+AddedConstraints UsualConstraints(const GaitSpec& spec) {
+  AddedConstraints added;
+  if (spec.bounds[Criterion::kOverlap] == kInfinity) return added;
+  for (size_t pair = 0; pair < spec.scene.pairs.size(); ++pair) {
+    if (spec.scene.pairs[pair].usual) added.separated.push_back(static_cast<int>(pair));
+  }
+  return added;
+}
+
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added) {
   if (spec.bounds[Criterion::kOverlap] == kInfinity) return false;
   bool any = false;

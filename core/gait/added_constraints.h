@@ -17,6 +17,9 @@ bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const Accur
 // The same for the distances of pairs of bodies that overlap, unless the request has no bound on overlap.
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added);
 
+// What a solve that starts from a guess begins with: the pairs of bodies that most walks would overlap.
+AddedConstraints UsualConstraints(const GaitSpec& spec);
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_GAIT_ADDED_CONSTRAINTS_H_

@@ -270,14 +270,11 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     if (!Converged(result.termination) || IsDone(solution)) break;
     const bool is_artefact = IsArtefact(spec, solution);
     if (!is_artefact && additions < kMostAdditions && AddOverlapping(spec, *solution.accuracy, &added)) {
-      // Bodies that overlapped move a long way, on the same mesh first. From a guess, which has the legs on their sides, the way is
-      // shorter than from a motion that has them crossed.
+      // Bodies that overlapped move a long way: on the same mesh first, and as from the solution of a neighbour.
       ++additions;
-      if (guess.near_solution) {
-        guess = GuessFromTrajectory(*solution.trajectory);
-        options = OptionsForNeighbour(spec);
-        previous = std::move(current);
-      }
+      guess = GuessFromTrajectory(*solution.trajectory);
+      options = OptionsForNeighbour(spec);
+      previous = std::move(current);
       continue;
     }
     if (spec.max_refinements == 0) break;
@@ -344,7 +341,7 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
                            SolveBudget* budget) {
-  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), {}, budget);
+  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), UsualConstraints(spec), budget);
 }
 
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,

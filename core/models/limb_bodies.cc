@@ -67,6 +67,18 @@ std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces) {
     }
     ROLLGAIT_CHECK(pair.mirror_pair >= 0);
   }
+  const auto half_width = [&](const BodyPair& pair) {
+    const PlacedSurface& placed = surfaces[pair.first].body.placed;
+    return placed.surface.Support(placed.R_BE.transpose() * Vector3::UnitY());
+  };
+  for (const LimbPart part : {LimbPart::kFoot, LimbPart::kShank, LimbPart::kThigh}) {
+    BodyPair* widest = nullptr;
+    for (BodyPair& pair : pairs) {
+      if (surfaces[pair.first].part != part || surfaces[pair.first].body.mirror_body != pair.second) continue;
+      if (widest == nullptr || half_width(pair) > half_width(*widest)) widest = &pair;
+    }
+    if (widest != nullptr) widest->usual = true;
+  }
   return pairs;
 }
 

@@ -32,7 +32,8 @@ struct LimbSurface {
 
 // The pairs that can meet, first the left body where sides differ: every body of one leg with every body of the other, each
 // forearm with both thighs, and the two forearms. Left and right are mirror images of each other. The bodies of one leg are
-// no pairs: the ranges of their joints keep them apart, or they share a joint.
+// no pairs: the ranges of their joints keep them apart, or they share a joint. Usual are, of feet, shanks and thighs, the widest body
+// and its mirror image: legs that swing past each other meet there first (measured on -20 to 20 degrees, docs/walking.md).
 // Contract: `surfaces` with their mirror bodies set.
 std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces);
 

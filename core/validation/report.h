@@ -40,7 +40,7 @@ struct AccuracyReport {
   std::array<Finding, kCriterionCount> findings;
   // For every interval in order of time, its own largest measures; 0 where a criterion judges the whole motion or an impact.
   std::vector<CriterionValues> intervals;
-  // Pairs of bodies (Scene::pairs) that overlap at some instant.
+  // Pairs of bodies (Scene::pairs) that overlap at some instant, at least half as deep as the deepest.
   std::vector<int> overlapping_pairs;
 };
 

@@ -80,7 +80,7 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.jump_impulse_error = jumps.impulse;
   report.min_jump_impulse = impulses.min_normal();
   report.impact_loss = jumps.loss;
-  report.overlapping_pairs = overlap.Deeper(0);
+  report.overlapping_pairs = overlap.Deeper(overlap.worst.value / 2);
   report.integrator_tolerance = options.integrator_tolerance;
   report.findings = log.findings();
   report.intervals = log.intervals();
