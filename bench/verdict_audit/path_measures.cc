@@ -7,6 +7,7 @@
 #include "bench/verdict_audit/measures.h"
 #include "bench/verdict_audit/overlap.h"
 #include "bench/verdict_audit/second_judge.h"
+#include "core/base/check.h"
 
 namespace rollgait::audit {
 namespace {
@@ -54,37 +55,35 @@ void MeasureStatedForces(const GaitSpec& spec, const TrajectoryPhase& phase, con
   MeasureForces(spec, phase.contacts, points, forces, measures);
 }
 
-// Pairs of bodies of the scene, in trees whose scenes have them.
-template <typename SceneWithBodies>
+// The pairs of bodies of a scene, followed from instant to instant.
 class PairMeasures {
  public:
-  explicit PairMeasures(const SceneWithBodies& scene) : scene_(scene) {
-    if constexpr (requires { scene.pairs; }) directions_.assign(scene.pairs.size(), Vector3::UnitY());
-  }
+  explicit PairMeasures(const Scene& scene) : scene_(scene), directions_(scene.pairs.size(), Vector3::UnitY()) {}
+
   void Measure(const std::vector<LinkPose>& poses, Measures* measures) {
-    if constexpr (requires { scene_.pairs; }) {
-      const auto place = [&](int body) {
-        const auto& surface = scene_.bodies[static_cast<size_t>(body)];
-        const LinkPose& pose = poses[static_cast<size_t>(surface.joint)];
-        return WorldEllipsoid{pose.p_WL + pose.R_WL * surface.placed.p_BE, pose.R_WL * surface.placed.R_BE,
-                              surface.placed.surface.ellipsoid()->semi_axes()};
-      };
-      for (size_t i = 0; i < scene_.pairs.size(); ++i) {
-        const WorldEllipsoid first = place(scene_.pairs[i].first), second = place(scene_.pairs[i].second);
-        measures->Raise(Criterion::kOverlap, Overlap(first, second, &directions_[i]));
-      }
+    for (size_t i = 0; i < scene_.pairs.size(); ++i) {
+      const WorldEllipsoid first = Place(scene_.pairs[i].first, poses), second = Place(scene_.pairs[i].second, poses);
+      measures->Raise(Criterion::kOverlap, Overlap(first, second, &directions_[i]));
     }
   }
 
  private:
-  const SceneWithBodies& scene_;
+  WorldEllipsoid Place(int body, const std::vector<LinkPose>& poses) const {
+    const BodySurface& surface = scene_.bodies[static_cast<size_t>(body)];
+    const LinkPose& pose = poses[static_cast<size_t>(surface.joint)];
+    const Ellipsoid* const ellipsoid = surface.placed.surface.ellipsoid();
+    ROLLGAIT_CHECK(ellipsoid != nullptr);
+    return {pose.p_WL + pose.R_WL * surface.placed.p_BE, pose.R_WL * surface.placed.R_BE, ellipsoid->semi_axes()};
+  }
+
+  const Scene& scene_;
   std::vector<Vector3> directions_;
 };
 
 }  // namespace
 
 void MeasurePath(const GaitSpec& spec, const Trajectory& trajectory, Measures* measures) {
-  PairMeasures<Scene> pairs(spec.scene);
+  PairMeasures pairs(spec.scene);
   for (const TrajectoryPhase& phase : trajectory.phases) {
     for (size_t k = 0; k + 1 < phase.node_times.size(); ++k) {
       const IntervalMotion interval(trajectory, phase, static_cast<int>(k));

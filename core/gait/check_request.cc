@@ -52,7 +52,8 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_
   CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
   for (const auto& [criterion, bound] : accuracy.bounds) {
     const CriterionTraits& traits = TraitsOf(criterion);
-    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, traits.unit});
+    const char* const unit = std::string(traits.unit) == "1" ? "" : traits.unit;
+    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, unit});
   }
   if (allow_overlap) {
     if (accuracy.bounds.count(Criterion::kOverlap) > 0) {

@@ -7,6 +7,7 @@
 
 #include <chrono>
 
+#include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
 namespace rollgait::client {

@@ -26,9 +26,6 @@ double SamplePosition(const v1::Model& model, int joint, double time_s);
 // The whole: succeeded, optimal, with costs, accuracy, meshes.
 v1::Solve SampleSolve(const std::string& name, double slope_rad);
 
-// Makes the criterion exceed its bound by this factor, and the verdict of the solve EXCEEDED.
-void Exceed(v1::Solve& solve, const std::string& criterion, double factor);
-
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_TESTS_CLIENT_SAMPLE_SOLVE_H_

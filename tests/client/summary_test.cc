@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
 namespace rollgait::client {
