@@ -22,17 +22,20 @@ class MeshRefinementTest : public ::testing::Test {
     request.motion.speed = 1.3;
     request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
     spec_ = CheckRequest(request).value();
-    trajectory_ = OptimizingGaitSolver().Solve(*spec_, {}).trajectory;
+    const GaitSolution solution = OptimizingGaitSolver().Solve(*spec_, {});
+    trajectory_ = solution.trajectory;
+    report_ = *solution.accuracy;
     mesh_ = RequestedMesh(*spec_);
   }
   Mesh Refined(double max_slip, bool stalled) {
     spec_->bounds[Criterion::kSlip] = max_slip;
     spec_->bounds[Criterion::kGap] = 1;
-    return RefineMesh(mesh_, *spec_, *trajectory_, stalled);
+    return RefineMesh(mesh_, *spec_, *trajectory_, report_, stalled);
   }
 
   std::optional<GaitSpec> spec_;
   std::optional<Trajectory> trajectory_;
+  AccuracyReport report_;
   Mesh mesh_;
 };
 
@@ -47,6 +50,40 @@ TEST_F(MeshRefinementTest, CutsIntervalsThatSlip) {
   }
   EXPECT_GT(cut, 0u);
   EXPECT_GT(kept, 0u);
+}
+
+// One interval misses one bound: it alone is cut, the more the further it is off, whichever of the measures it is.
+TEST_F(MeshRefinementTest, FollowsEveryMeasureOfAnInterval) {
+  using enum Criterion;
+  spec_->bounds = StandardBounds();
+  spec_->bounds[kGap] = 1;  // measured anew, by its drift
+  const size_t place = 2;   // of the second phase
+  const size_t interval = mesh_.fractions[0].size() + place;
+  for (const Criterion criterion : {kSlip, kPenetration, kOverlap, kPositionDefect, kVelocityDefect, kPull, kFriction, kEnergy}) {
+    size_t before = 1;
+    for (const double excess : {0.5, 1.1, 1000.0}) {
+      report_.intervals.assign(report_.intervals.size(), CriterionValues());
+      report_.intervals[interval][criterion] = excess * spec_->bounds[criterion];
+      const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
+      EXPECT_EQ(finer.fractions[0], mesh_.fractions[0]);
+      const size_t parts = finer.fractions[1].size() - mesh_.fractions[1].size() + 1;
+      EXPECT_EQ(parts == 1, excess < 0.8) << TraitsOf(criterion).field << " " << excess;
+      EXPECT_NEAR(finer.fractions[1][place], mesh_.fractions[1][place] / static_cast<double>(parts), 1e-12);
+      EXPECT_GE(parts, before);
+      before = parts;
+    }
+    EXPECT_EQ(before, 4u);
+  }
+}
+
+// An interval that could not be integrated, and all after it, have no measures: nothing is known to be good there.
+TEST_F(MeshRefinementTest, CutsWhatWasNotMeasured) {
+  spec_->bounds = StandardBounds();
+  spec_->bounds[Criterion::kGap] = 1;
+  report_.intervals.assign(mesh_.fractions[0].size(), CriterionValues());
+  const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
+  EXPECT_EQ(finer.fractions[0], mesh_.fractions[0]);
+  EXPECT_EQ(finer.fractions[1].size(), 4 * mesh_.fractions[1].size());
 }
 
 TEST_F(MeshRefinementTest, CutsWholePhasesWhenItHasStalled) {
