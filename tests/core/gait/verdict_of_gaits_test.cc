@@ -2,6 +2,7 @@
 // rose: at standard they keep every bound now, since what they violated is added to the problem.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -45,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"SlowHuman", 0, 1.0, Preset::kHuman, Nothing}, Case{"DownhillHuman", -20, 1.3, Preset::kHuman, Nothing},
                       Case{"FullCycle", 0, 1.3, Preset::kHuman, [](GaitRequest& r) { r.cycle = Cycle::kFull; }},
                       Case{"Transport", -10, 1.3, Preset::kTransport, Nothing}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& each) { return std::string(each.param.name); });
 
 // Draft is not judged, whatever the gait is worth.
 TEST(VerdictOfADraft, IsNone) {
