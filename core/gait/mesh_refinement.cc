@@ -50,7 +50,7 @@ double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajecto
 
 int Parts(double excess, double order) {
   if (excess <= kGoodEnough) return 1;
-  return std::clamp(static_cast<int>(std::ceil(std::pow(excess / kSafety, 1 / order))), 2, kMostParts);
+  return static_cast<int>(std::clamp(std::ceil(std::pow(excess / kSafety, 1 / order)), 2.0, static_cast<double>(kMostParts)));
 }
 
 }  // namespace

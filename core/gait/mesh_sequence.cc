@@ -173,12 +173,11 @@ NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
 
 // The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
 // closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). With a price of rates alone the solution of a mesh with shorter intervals is that of a neighbour. Where no
-// interval is shorter than any before, the solution is closest of all, whatever the cost (docs/optimizer.md).
+// none within 900 with 1e-3). Where no interval is shorter than any before, the solution is closest of all, whatever the cost
+// (docs/optimizer.md).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
   constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5;
   const bool has_powers = LeastSmoothing(spec).has_value(), close = !has_shorter_intervals || has_powers;
-  if (!close && HasRates(spec)) return OptionsForNeighbour(spec);
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
   const bool closest = !has_shorter_intervals && has_powers;
   options.initial_barrier = options.warm_push = closest ? kBarrierClosest : close ? kBarrierClose : kBarrierNearSolution;
@@ -195,10 +194,11 @@ bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
 // Nothing is left for a finer mesh to do.
 bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verdict::Kind::kExceeded; }
 
-// The last refinement did not halve the slip. Where a joint meets its limit the acceleration jumps, and the jump moves on from the
-// intervals that were split to the next coarse one, where slipping pays.
-bool Stalled(const std::vector<MeshStatistics>& meshes) {
-  return meshes.size() > 1 && meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
+// The last refinement did not halve a slip that is still too large. Where a joint meets its limit the acceleration jumps, and the jump
+// moves on from the intervals that were split to the next coarse one, where slipping pays.
+bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& meshes) {
+  return meshes.size() > 1 && meshes.back().max_slip > spec.bounds[Criterion::kSlip] &&
+         meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
 }
 
 // Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the same
@@ -262,7 +262,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       previous = {};
       continue;
     }
-    const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(solution.meshes));
+    const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(spec, solution.meshes));
     const bool is_finer = finer.fractions != mesh.fractions;
     const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
     if (is_finer ? refinements++ == spec.max_refinements : !adds || additions++ == kMostAdditions) break;

@@ -37,6 +37,9 @@ class IntervalPathRows {
   const std::string& Name(int row) const { return rows_[row].name; }
   const std::string& Unit(int row) const { return rows_[row].unit; }
   double Size(int row) const { return rows_[row].size; }
+  // Whether a row is another one in the first, or the last, interval of the phase, since forces vanish there.
+  bool ChangesAtStart(int row) const { return rows_[row].at_start != AtZero::kSame; }
+  bool ChangesAtEnd(int row) const { return rows_[row].at_end != AtZero::kSame; }
   // In units of Size.
   void Bounds(const IntervalPlace& place, double* lower, double* upper) const;
 

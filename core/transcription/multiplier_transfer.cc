@@ -100,6 +100,7 @@ void CollocationNlp::TransferPath(const CollocationNlp& from, const NlpResult& o
     return times;
   };
   const std::vector<double> times = middles(layout_), other_times = middles(from.layout_);
+  const int count = static_cast<int>(other_times.size());
   for (size_t k = 0; k < times.size(); ++k) {
     const Bracket at = Find(other_times, times[k]);
     const int interval = layout_.first_interval(p) + static_cast<int>(k);
@@ -110,8 +111,22 @@ void CollocationNlp::TransferPath(const CollocationNlp& from, const NlpResult& o
       for (int r = 0; r < rows.size(); ++r) {
         const auto place = places.find(rows.Key(r));
         if (place == places.end()) continue;
+        // An equation at an end of the phase is no sample of a function of time: it goes to that end alone, as it is.
+        const bool other_end = (index == 0 && rows.ChangesAtStart(r)) || (index + 1 == count && rows.ChangesAtEnd(r));
+        const bool own_end = (k == 0 && rows.ChangesAtStart(r)) || (k + 1 == times.size() && rows.ChangesAtEnd(r));
+        if (other_end || own_end) continue;
         start->constraint_multipliers(first + r) += factor * of.constraint_multipliers(other_first + place->second);
       }
+    }
+  }
+  for (const bool at_start : {true, false}) {
+    const int to = at_start ? 0 : static_cast<int>(times.size()) - 1, source = at_start ? 0 : count - 1;
+    const int first = FirstRow(layout_.first_interval(p) + to) + blocks_[p]->FirstPathRow();
+    const int other_first = from.FirstRow(from.layout_.first_interval(p) + source);
+    for (int r = 0; r < rows.size(); ++r) {
+      const auto place = places.find(rows.Key(r));
+      if (place == places.end() || !(at_start ? rows.ChangesAtStart(r) : rows.ChangesAtEnd(r))) continue;
+      start->constraint_multipliers(first + r) = of.constraint_multipliers(other_first + place->second);
     }
   }
 }
