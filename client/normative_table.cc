@@ -46,8 +46,8 @@ std::vector<std::vector<std::string>> NormativeRows(const v1::NormativeCompariso
   rows.push_back({"  stance", percent(people.stance_fraction())});
   rows.push_back({"  double support", percent(people.double_support_fraction())});
   rows.push_back({"  cadence", FormatNumber(people.cadence_per_min(), 3) + " /min"});
-  rows.push_back({"  vertical force, hump / trough / hump", HumpsText(people.vertical_force())});
-  rows.push_back({"  at the end of its range for half of stance", RestingJoints(people)});
+  rows.push_back({"  vertical GRF: first peak / valley / second peak", HumpsText(people.vertical_force())});
+  rows.push_back({"  joints at a limit for ≥ 50 % of stance", RestingJoints(people)});
   for (const v1::NormativeDatasetComparison& set : people.datasets()) {
     rows.push_back({"  " + set.name() + ": stance " + percent(set.stance_fraction()) + ", force " +
                     HumpsText(set.vertical_force())});

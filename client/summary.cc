@@ -151,7 +151,7 @@ std::string Summarize(const v1::Solve& solve, bool color) {
   if (result.has_accuracy()) {
     text += Section("Accuracy: " + AccuracyVerdict(solve), AccuracyRows(solve, color), "lr", color);
   }
-  text += Section("Beside people on level ground", NormativeRows(result.normative()), "lrrr", color);
+  text += Section("Comparison with normative gait (level ground)", NormativeRows(result.normative()), "lrrr", color);
   return text + EffortLine(solve);
 }
 

@@ -31,7 +31,7 @@ function peopleCycle(solves) {
   const resting = (people) => (people.restingJoints || []).filter((r) => r.stanceFraction >= 0.5).map((r) => `${r.joint} (${r.atMax ? "upper" : "lower"} end, ${share(r.stanceFraction)})`).join(", ") || "none";
   const ours = solves.map(({ people, ...solve }) => [labelOf(solve), share(people.stanceFraction), share(people.doubleSupportFraction), `${fmt(people.stepLengthM)} m`, `${fmt(people.cadencePerMin, 3)} /min`, humps(people.verticalForce), resting(people)]);
   const theirs = solves[0].people.datasets.map((set) => [`${set.name}, ${fmt(set.speedMS)} m/s`, share(set.stanceFraction), "–", `${fmt((set.speedMS * set.strideTimeS) / 2, 3)} m`, `${fmt(120 / set.strideTimeS, 3)} /min`, humps(set.verticalForce), "–"]);
-  return table(["", "Stance", "Double support", "Step length", "Cadence", "Vertical force: hump / trough / hump, %", "At an end of its range for half of stance"], [...ours, ...theirs], [1, 2, 3, 4, 5]);
+  return table(["", "Stance", "Double support", "Step length", "Cadence", "Vertical GRF: first peak / valley / second peak, %", "At an end of its range for half of stance"], [...ours, ...theirs], [1, 2, 3, 4, 5]);
 }
 
 function peopleFigures(solves) {
@@ -46,7 +46,7 @@ function people() {
   const solves = SOLVES.filter((s) => s.people && s.people.datasets);
   if (!solves.length) return;
   const curvesOf = (quantity) => [...new Set(solves[0].people.datasets.flatMap((set) => set.curves).filter((c) => c.quantity === quantity).map((c) => c.joint))].map((joint) => peopleChart(solves, quantity, joint));
-  section("Beside people", "Right leg, from heel strike to heel strike, over what people do on level ground: bands are mean ± one standard deviation. Moments are net (muscles and passive tissue together: the efforts of the gait, inverse dynamics of the people), per kg of body mass; triangles mark our toe-off. On a slope people walk otherwise; the bands stay those of level ground.",
+  section("Comparison with normative gait", "Right leg, from heel strike to heel strike, over what people do on level ground: bands are mean ± one standard deviation. Moments are net (muscles and passive tissue together: the efforts of the gait, inverse dynamics of the people), per kg of body mass; triangles mark our toe-off. On a slope people walk otherwise; the bands stay those of level ground.",
     el("div", { class: "grid" }, curvesOf("QUANTITY_ANGLE")), el("div", { class: "grid" }, curvesOf("QUANTITY_MOMENT")),
     el("div", { class: "grid" }, curvesOf("QUANTITY_VERTICAL_FORCE"), curvesOf("QUANTITY_FORWARD_FORCE")),
     peopleCycle(solves), peopleFigures(solves),

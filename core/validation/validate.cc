@@ -72,7 +72,12 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   report.max_friction_ratio = std::max(forces.max_friction_ratio(), impulses.max_friction_ratio());
   report.min_swing_clearance = contacts.min_swing_clearance;
   report.periodicity_error = PeriodicityError(scene.model, trajectory, &log);
-  if (options.manoeuvre) report.end_error = EndError(scene, dynamics, trajectory, *options.manoeuvre);
+  if (options.manoeuvre) {
+    // What a manoeuvre prescribes at its ends stands in the place of periodicity.
+    report.end_error = EndError(scene, dynamics, trajectory, *options.manoeuvre);
+    const int last = static_cast<int>(trajectory.phases.size()) - 1;
+    log.Raise(Criterion::kPeriodicity, report.end_error, "ends of the manoeuvre", {last, trajectory.duration});
+  }
   report.energy_balance_error = balance.energy;
   report.energy_balance_error_relative = balance.energy_relative;
   report.momentum_balance_error = balance.momentum;

@@ -37,10 +37,10 @@ v1::NormativeComparison People() {
 
 TEST(NormativeTableTest, SummaryHasTheFigures) {
   v1::Solve solve = SampleSolve("solves/a", 0);
-  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("Beside people")));
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("Comparison with normative gait")));
   *solve.mutable_result()->mutable_normative() = People();
   const std::string text = Summarize(solve, false);
-  EXPECT_THAT(text, HasSubstr("Beside people on level ground"));
+  EXPECT_THAT(text, HasSubstr("Comparison with normative gait (level ground)"));
   EXPECT_THAT(text, HasSubstr("61.2 %"));
   EXPECT_THAT(text, HasSubstr("109 / - / - %"));
   EXPECT_THAT(text, HasSubstr("knee_r (lower, 75 %)"));

@@ -182,7 +182,10 @@ TEST(Ends, ReportTellsHowFarTheEndIsFromWhatWasAsked) {
   const auto error = [&](const Manoeuvre& manoeuvre) {
     ValidationOptions options;
     options.manoeuvre = manoeuvre;
-    return Validate(*solution.scene, *solution.trajectory, options).end_error;
+    const AccuracyReport report = Validate(*solution.scene, *solution.trajectory, options);
+    // It is judged by the criterion that judges the ends of a gait.
+    EXPECT_EQ(report.findings[static_cast<int>(Criterion::kPeriodicity)].value, report.end_error);
+    return report.end_error;
   };
   EXPECT_LT(error(asked), 1e-9);
   Manoeuvre other = asked;
