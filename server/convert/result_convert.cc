@@ -170,6 +170,16 @@ void EncodeMesh(const MeshStatistics& mesh, v1::MeshStatistics* encoded) {
   encoded->set_smoothing_w(mesh.smoothing);
 }
 
+void EncodeAdded(const AddedConstraints& added, v1::Multipliers* multipliers) {
+  for (const BoundedBetween& phase : added.between) {
+    v1::Multipliers::BoundedBetween& encoded = *multipliers->add_between();
+    encoded.mutable_range()->Add(phase.range.begin(), phase.range.end());
+    encoded.mutable_velocity()->Add(phase.velocity.begin(), phase.velocity.end());
+    encoded.mutable_effort()->Add(phase.effort.begin(), phase.effort.end());
+  }
+  multipliers->mutable_separated()->Add(added.separated.begin(), added.separated.end());
+}
+
 }  // namespace
 
 v1::Iteration EncodeIteration(const IterationInfo& iteration) {
@@ -215,6 +225,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
     const auto [rows, bounds] = *solution.multipliers;
     result.mutable_multipliers()->mutable_rows()->Add(rows.begin(), rows.end());
     result.mutable_multipliers()->mutable_bounds()->Add(bounds.begin(), bounds.end());
+    EncodeAdded(solution.added, result.mutable_multipliers());
   }
   if (solution.accuracy) {
     *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model, spec.bounds);

@@ -92,6 +92,31 @@ std::optional<SolutionMultipliers> DecodeMultipliers(const v1::Multipliers& mult
   return decoded;
 }
 
+// Ascending indices below `count`; empty if they are none.
+std::optional<std::vector<int>> DecodeIndices(const google::protobuf::RepeatedField<int32_t>& indices, size_t count) {
+  std::vector<int> decoded(indices.begin(), indices.end());
+  const bool ascending = std::is_sorted(decoded.begin(), decoded.end(), std::less_equal<int>());
+  if (!ascending || (!decoded.empty() && (decoded.front() < 0 || decoded.back() >= static_cast<int>(count)))) return std::nullopt;
+  return decoded;
+}
+
+// The constraints of the program that the multipliers are of; empty if they are none of this scene.
+std::optional<AddedConstraints> DecodeAdded(const v1::Multipliers& multipliers, const Scene& scene, size_t phases) {
+  const size_t joints = static_cast<size_t>(scene.model.size());
+  AddedConstraints added;
+  if (static_cast<size_t>(multipliers.between_size()) > phases) return std::nullopt;
+  for (const v1::Multipliers::BoundedBetween& phase : multipliers.between()) {
+    const auto range = DecodeIndices(phase.range(), joints), velocity = DecodeIndices(phase.velocity(), joints),
+               effort = DecodeIndices(phase.effort(), joints);
+    if (!range || !velocity || !effort) return std::nullopt;
+    added.between.push_back({*range, *velocity, *effort});
+  }
+  const auto separated = DecodeIndices(multipliers.separated(), scene.pairs.size());
+  if (!separated) return std::nullopt;
+  added.separated = *separated;
+  return added;
+}
+
 }  // namespace
 
 Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Multipliers& multipliers, const GaitSpec& spec) {
@@ -121,7 +146,11 @@ Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Mu
   Violations violations = CheckWarmStart(spec, start.trajectory);
   if (!violations.empty()) return violations;
   start.trajectory.point_fractions = PointFractions(start.trajectory.phases.front(), points);
-  start.multipliers = DecodeMultipliers(multipliers);
+  const std::optional<AddedConstraints> added = DecodeAdded(multipliers, spec.scene, start.trajectory.phases.size());
+  if (added) {
+    start.added = *added;
+    start.multipliers = DecodeMultipliers(multipliers);
+  }
   return start;
 }
 

@@ -57,6 +57,9 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
   v1::Multipliers multipliers;
   for (int i = 0; i < 5; ++i) multipliers.add_rows(0.5F * static_cast<float>(i));
   multipliers.add_bounds(-3);
+  multipliers.add_between()->add_range(2);
+  multipliers.mutable_between(0)->add_velocity(3);
+  multipliers.mutable_between(0)->add_velocity(5);
   const Result<WarmStart> decoded = DecodeWarmStart(EncodeTrajectory(trajectory, spec.scene), multipliers, spec);
   ASSERT_TRUE(decoded.ok()) << decoded.violations()[0].message;
   const Trajectory& back = decoded.value().trajectory;
@@ -85,6 +88,36 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
   EXPECT_EQ(decoded.value().multipliers->rows.size(), 5);
   EXPECT_EQ(decoded.value().multipliers->rows(3), 1.5);
   EXPECT_EQ(decoded.value().multipliers->bounds(0), -3);
+  ASSERT_EQ(decoded.value().added.between.size(), 1u);
+  EXPECT_EQ(decoded.value().added.between[0], (BoundedBetween{{2}, {3, 5}, {}}));
+  // Of joints or pairs that this body lacks, or in disorder: multipliers of another problem, which are left out.
+  for (const auto& spoil : std::vector<std::function<void(v1::Multipliers&)>>{
+           [&](v1::Multipliers& m) { m.mutable_between(0)->add_effort(spec.scene.model.size()); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->add_velocity(4); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->set_range(0, -1); },
+           [](v1::Multipliers& m) { m.add_separated(1 << 20); },
+           [](v1::Multipliers& m) { for (int i = 0; i < 50; ++i) m.add_between(); }}) {
+    v1::Multipliers spoiled = multipliers;
+    spoil(spoiled);
+    const Result<WarmStart> other = DecodeWarmStart(EncodeTrajectory(trajectory, spec.scene), spoiled, spec);
+    ASSERT_TRUE(other.ok());
+    EXPECT_FALSE(other.value().multipliers);
+    EXPECT_EQ(other.value().added, AddedConstraints());
+  }
+}
+
+// What a result carries is what a later solve starts from: the constraints that were added, whose rows the multipliers are of.
+TEST(DecodeWarmStart, AddedConstraintsComeBackFromAResult) {
+  const GaitSpec spec = Planar();
+  GaitSolution solution;
+  solution.trajectory = SmallTrajectory(spec);
+  solution.multipliers = SolutionMultipliers{VectorX::Ones(3), VectorX::Ones(2)};
+  solution.added.between = {{{1}, {}, {4, 6}}, {}};
+  const v1::SolveResult result = EncodeResult(solution, spec);
+  const Result<WarmStart> decoded = DecodeWarmStart(result.trajectory(), result.multipliers(), spec);
+  ASSERT_TRUE(decoded.ok());
+  EXPECT_EQ(decoded.value().added, solution.added);
+  EXPECT_TRUE(decoded.value().multipliers);
 }
 
 TEST(DecodeWarmStart, RefusesWhatDoesNotFitTogether) {
