@@ -188,7 +188,7 @@ function accuracy() {
       return el("span", { class: at.bound === null ? null : `verdict ${at.exceeded ? "bad" : "good"}` }, `${fmt(at.value, 3)} ${at.unit}`,
         el("div", { class: "soft" }, [at.bound === null ? "" : `${at.exceeded ? "exceeds" : "≤"} ${fmt(at.bound)} ${at.unit}`.trim(), at.where].filter(Boolean).join("; ")));
     })]);
-  section("Accuracy", "Measured by code that shares nothing with the code that computed the gait. A figure with a bound (≤) is one that the request asks for; it holds at every instant.",
+  section("Accuracy", "Measured by an independent verifier. A figure with a bound (≤) is one that the request asks for; it holds at every instant.",
     el("ul", {}, known.map((solve) => el("li", {}, labelOf(solve), ` ${solve.accuracy_verdict}`))),
     table(["", ...known.map(labelOf)], rows, known.map((_, i) => i + 1)));
 }

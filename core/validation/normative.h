@@ -72,7 +72,7 @@ struct NormativeComparison {
   std::vector<DatasetComparison> datasets;
 };
 
-// The gait cycle of the right leg beside people's on level ground. Events, shares and the ground's force are those of `events`, which
+// Compares the gait cycle of the right leg with normative data (level ground). Events, shares and the ground's force are those of `events`, which
 // MeasureGaitEvents made of the same scene and trajectory; on a slope "vertical" is against gravity. Joint moments are net moments,
 // as a laboratory reports them: what muscles, ligaments and stretched tissue exert on the joint together. In this model that is the
 // effort of the joint, in which the passive torque (core/models/passive_torque.h) is contained: costs of muscles subtract it. A

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
@@ -144,6 +146,46 @@ TEST_P(IntervalPathRowsTest, HaveTheBoundsOfTheRequest) {
   const int unknown = nlp_->layout().forces(nlp_->layout().first_interval(1), last) + active.offset +
                       static_cast<int>(active.directions.size()) - 1;
   EXPECT_NEAR(nlp_->lower_bounds()(unknown) * problem_->force_size(), least, 1e-9);
+}
+
+// What the points and nodes have as bounds of unknowns: efforts at every point, ranges and velocities at every node.
+TEST_P(IntervalPathRowsTest, UnknownsHaveTheBoundsOfTheRequest) {
+  Build(Preset::kHuman);
+  const DecisionLayout& layout = nlp_->layout();
+  const std::vector<int>& actuated = problem_->model.actuated();
+  const int effort = static_cast<int>(std::find(actuated.begin(), actuated.end(), knee_) - actuated.begin());
+  const int n = problem_->model.size();
+  for (int k = 0; k < layout.intervals(); ++k) {
+    for (int i = 0; i < trajectory_.points_per_interval; ++i) {
+      const int unknown = layout.efforts(k, i) + effort;
+      EXPECT_NEAR(nlp_->lower_bounds()(unknown) * problem_->effort_size(), -90, 1e-9);
+      EXPECT_NEAR(nlp_->upper_bounds()(unknown) * problem_->effort_size(), 80, 1e-9);
+    }
+    for (const int node : {layout.node(k), layout.end_node(k)}) {
+      EXPECT_EQ(nlp_->lower_bounds()(node + knee_), 0.01);
+      EXPECT_EQ(nlp_->upper_bounds()(node + knee_), 1.1);
+      EXPECT_EQ(nlp_->lower_bounds()(node + n + knee_), -7);
+      EXPECT_EQ(nlp_->upper_bounds()(node + n + knee_), 7);
+    }
+  }
+}
+
+// A swinging surface is held above the ground at every point but the last of a phase, where the touch-down of the next one says what it is.
+TEST_P(IntervalPathRowsTest, SwingingSurfacesAreFreeAtTheEndOfAPhaseAlone) {
+  Build(Preset::kHuman);
+  int held = 0, free = 0;
+  for (int r = 0; r < nlp_->constraints(); ++r) {
+    const RowInfo info = nlp_->Describe(x_.data(), r);
+    if (!info.name.starts_with("clearance")) continue;
+    const bool at_end = std::abs(info.time - trajectory_.phases[info.phase].node_times.back()) < 1e-12;
+    EXPECT_EQ(nlp_->constraint_lower()(r) == -kInfinity, at_end) << info.name << " at " << info.time;
+    if (!at_end) {
+      EXPECT_GE(nlp_->constraint_lower()(r), 0);
+    }
+    ++(at_end ? free : held);
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_GT(free, 0);
 }
 
 // Where rates of all efforts cost something, a contact that is taken up or given up has no normal force at that instant, and rows of
