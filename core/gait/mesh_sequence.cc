@@ -194,11 +194,12 @@ bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
 // Nothing is left for a finer mesh to do.
 bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verdict::Kind::kExceeded; }
 
-// The last refinement did not halve a slip that is still too large. Where a joint meets its limit the acceleration jumps, and the jump
+// The last refinement was to halve a slip that was too large, and did not. Where a joint meets its limit the acceleration jumps, and the jump
 // moves on from the intervals that were split to the next coarse one, where slipping pays.
 bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& meshes) {
-  return meshes.size() > 1 && meshes.back().max_slip > spec.bounds[Criterion::kSlip] &&
-         meshes.back().max_slip > 0.5 * meshes[meshes.size() - 2].max_slip;
+  if (meshes.size() < 2) return false;
+  const double bound = spec.bounds[Criterion::kSlip], before = meshes[meshes.size() - 2].max_slip, now = meshes.back().max_slip;
+  return before > bound && now > std::max(bound, 0.5 * before);
 }
 
 // Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the same
