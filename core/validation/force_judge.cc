@@ -120,9 +120,9 @@ void ForceJudge::AddRatio(int c, double ratio, const Instant& at, FindingLog* lo
 void ForceJudge::JudgeFriction(const ChebyshevBasis& basis, const MatrixX& coefficients, const MatrixX& samples,
                                int first_row, double start, double length, Instant at, FindingLog* log) const {
   if (contacts() == 0) return;
-  std::array<double, kRows * kMostContacts> rows;
+  std::array<double, kRows * kMostContacts> rows = {};
   const int count = kRows * contacts();
-  std::array<double, kMostSamples> ratios;
+  std::array<double, kMostSamples> ratios = {};
   const std::vector<double>& grid = basis.grid();
   ROLLGAIT_CHECK(grid.size() <= kMostSamples);
   int worst = 0;
@@ -145,7 +145,7 @@ void ForceJudge::JudgeFriction(const ChebyshevBasis& basis, const MatrixX& coeff
 
 void ForceJudge::JudgeNormal(const ChebyshevBasis& basis, const MatrixX& coefficients, const MatrixX& samples,
                              int first_row, double start, double length, Instant at, FindingLog* log) const {
-  std::array<double, kMostSamples> pulls;
+  std::array<double, kMostSamples> pulls = {};
   const std::vector<double>& grid = basis.grid();
   for (int c = 0; c < contacts(); ++c) {
     const int row = first_row + kRows * c + 2;
