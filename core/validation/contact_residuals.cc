@@ -98,7 +98,7 @@ class PhaseContacts {
   template <class Value>
   double Largest(const Pieces& pieces, const Value& value, double start, double length, Instant* at) const {
     const std::vector<double>& grid = pieces.basis().grid();
-    std::array<double, kGapGrid + 1> samples;
+    std::array<double, kGapGrid + 1> samples = {};
     for (int k = 0; k <= kGapGrid; ++k) {
       samples[k] = value([&](int row) { return pieces.samples()(row, k); });
       if (!std::isfinite(samples[k])) {
@@ -138,7 +138,7 @@ class PhaseContacts {
   }
 
   void JudgeNormals(const IntervalPolynomials& interval, int number, FindingLog* log) const {
-    std::array<double, kLargestDegree + 1> coefficients;
+    std::array<double, kLargestDegree + 1> coefficients = {};
     for (int a = 0; a < active(); ++a) {
       const PolynomialRange range = RangeOnUnitInterval(interval.ForcePolynomial(3 * a + 2, coefficients));
       judge_.AddNormal(a, range.min, {phase_, interval.start() + range.min_at * interval.length(), number}, log);

@@ -86,7 +86,7 @@ void ForceJudge::Share(const double* rows, double* tangents) const {
 }
 
 double ForceJudge::FrictionRatio(const double* rows, int* worst) const {
-  std::array<double, 2 * kMostContacts> tangents;
+  std::array<double, 2 * kMostContacts> tangents = {};
   bool finite = true;
   for (int c = 0; c < contacts(); ++c) {
     tangents[2 * c] = rows[kRows * c];

@@ -48,7 +48,7 @@ class IntervalLimits {
 }  // namespace
 
 void MeasureJointLimits(const Model& model, const Trajectory& trajectory, FindingLog* log) {
-  std::array<double, kLargestDegree + 1> room;
+  std::array<double, kLargestDegree + 1> room = {};
   int number = 0;
   for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {
     for (int k = 0; k + 1 < static_cast<int>(trajectory.phases[p].node_times.size()); ++k, ++number) {

@@ -41,7 +41,7 @@ class IntervalSearch {
   }
 
   Deepest Find(int pair) {
-    double distances[kSamples + 1];
+    double distances[kSamples + 1] = {};
     for (int k = 0; k <= kSamples; ++k) distances[k] = Near(pair, k) ? Distance(pair, postures_[k]) : kInfinity;
     Deepest deepest;
     for (int k = 0; k <= kSamples; ++k) {
