@@ -1,13 +1,13 @@
 // A sweep of planar solves by several agents on one PostgreSQL, and what the queue itself takes: the same sweep with a
-// solver that answers at once. All is queued before the first agent starts, so a slot that is free while a solve waits is
-// free because of the queue; with fewer cores than slots, the cores are what the solvers wait for.
+// solver that answers at once. All is queued before the first agent starts, so a slot that is free while a solve waits
+// is free because of the queue; with fewer cores than slots, the cores are what the solvers wait for.
 //   agents [--solves N] [--slots S] [--solver PATH]
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +30,7 @@ namespace {
 class AgentProcess {
  public:
   AgentProcess(const std::string& url, const std::string& work_dir, const std::string& solver, int slots) {
-    std::vector<std::string> arguments = {ROLLGAIT_AGENT, "--store", url, "--work-dir", work_dir, "--slots",
+    std::vector<std::string> arguments = {ROLLGAIT_AGENT,        "--store",  url,    "--work-dir",  work_dir, "--slots",
                                           std::to_string(slots), "--solver", solver, "--log-level", "error"};
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
@@ -74,13 +74,15 @@ std::string Create(v1::GaitService::Stub& stub, const Sweep& sweep, int i) {
 
 // From the first claim on, in s.
 struct Timeline {
-  double span = 0;          // to the last end
-  double queued = 0;        // to the last claim: so long a solve waited
-  double running = 0;       // solves × time of that
+  double span = 0;            // to the last end
+  double queued = 0;          // to the last claim: so long a solve waited
+  double running = 0;         // solves × time of that
   double some_slot_free = 0;  // of that
 };
 
-double Seconds(const google::protobuf::Timestamp& time) { return static_cast<double>(time.seconds()) + 1e-9 * time.nanos(); }
+double Seconds(const google::protobuf::Timestamp& time) {
+  return static_cast<double>(time.seconds()) + 1e-9 * time.nanos();
+}
 
 Timeline TimelineOf(const std::vector<v1::Solve>& solves, int slots) {
   std::vector<std::pair<double, int>> changes;
@@ -139,8 +141,8 @@ void Print(const char* what, const Sweep& sweep, const std::vector<v1::Solve>& s
   }
   const Timeline line = TimelineOf(solves, slots);
   const double cores = std::thread::hardware_concurrency();
-  std::printf("| %s | %d × %d | %d of %d | %.1f | %.2f | %.1f %% | %.1f | %.0f %% |\n", what, sweep.agents, sweep.slots, optimal,
-              sweep.solves, line.span, sweep.solves / line.span, 100 * line.running / (slots * line.queued),
+  std::printf("| %s | %d × %d | %d of %d | %.1f | %.2f | %.1f %% | %.1f | %.0f %% |\n", what, sweep.agents, sweep.slots,
+              optimal, sweep.solves, line.span, sweep.solves / line.span, 100 * line.running / (slots * line.queued),
               1000 * line.some_slot_free / sweep.solves, 100 * cpu / (cores * line.span));
   std::fflush(stdout);
 }

@@ -6,14 +6,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <Eigen/Geometry>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <memory>
 #include <string>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/contact_derivatives.h"
 #include "core/contact/pair_derivatives.h"

@@ -1,4 +1,5 @@
-// Order of convergence under mesh refinement: the planar gait on uniform meshes, all started from one solution on a fine mesh.
+// Order of convergence under mesh refinement: the planar gait on uniform meshes, all started from one solution on a
+// fine mesh.
 //   convergence [--slope 10] [--base 16] [--levels 5] [--rate 0] [--smooth]
 // Prints, per scheme, the error of the objective against the finest mesh of the scheme of highest order, the defects on
 // re-integration, gap and slip, and the orders log2(error/next error) beside the theoretical order of the scheme.
@@ -42,8 +43,9 @@ std::vector<Level> Run(const GaitSpec& spec, Scheme scheme, const Trajectory& st
     judge.gravity = spec.gravity;
     judge.integrator_tolerance = 1e-12;
     const AccuracyReport report = Validate(spec.scene, trajectory, judge);
-    table.push_back({n, result.objective / nlp.objective_scale(), report.max_position_defect, report.max_velocity_defect,
-                     report.max_gap, report.max_slip, result.termination, result.iterations});
+    table.push_back({n, result.objective / nlp.objective_scale(), report.max_position_defect,
+                     report.max_velocity_defect, report.max_gap, report.max_slip, result.termination,
+                     result.iterations});
   }
   return table;
 }
@@ -61,8 +63,8 @@ void Print(const char* name, int order, const std::vector<Level>& table, double 
     std::printf("  %5d %5d %14.7f | %10.2e %5.1f | %10.2e %5.1f | %10.2e %5.1f | %10.2e %5.1f | %10.2e %5.1f%s\n",
                 l.intervals, l.iterations, l.objective, error(l), order_of(error), l.position,
                 order_of([](const Level& x) { return x.position; }), l.velocity,
-                order_of([](const Level& x) { return x.velocity; }), l.gap, order_of([](const Level& x) { return x.gap; }),
-                l.slip, order_of([](const Level& x) { return x.slip; }),
+                order_of([](const Level& x) { return x.velocity; }), l.gap,
+                order_of([](const Level& x) { return x.gap; }), l.slip, order_of([](const Level& x) { return x.slip; }),
                 l.termination == Termination::kOptimal ? "" : "  not optimal");
   }
 }

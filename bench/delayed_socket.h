@@ -8,8 +8,8 @@
 
 namespace rollgait {
 
-// Stands before a Unix socket like a network: whatever is sent to the socket `path` arrives at `target`, and the answers
-// come back, each way so much later. As fast as it is asked, whatever the amount.
+// Stands before a Unix socket like a network: whatever is sent to the socket `path` arrives at `target`, and the
+// answers come back, each way so much later. As fast as it is asked, whatever the amount.
 class DelayedSocket {
  public:
   DelayedSocket(const std::string& path, const std::string& target, std::chrono::microseconds each_way);

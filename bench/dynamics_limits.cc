@@ -3,14 +3,13 @@
 // closed forms.
 //   dynamics_limits > dynamics.csv
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include "core/contact/contact_dynamics.h"
 #include "core/multibody/configuration.h"
@@ -80,8 +79,7 @@ void AddCase(const Extreme& extreme, SeededRandom* random, Errors* errors) {
   const LongMatrix inverse = R * moments.cwiseInverse().asDiagonal() * R.transpose();
   const LongMatrix K = LongMatrix::Identity() / static_cast<Long>(mass) - Cross(r) * inverse * Cross(r);
   const LongVector gyration = inverse * w.cross(LongVector(inertia * w));
-  const LongVector exact =
-      K.inverse() * (-g.cast<Long>() - w.cross(r_dot) + LongVector(gyration.cross(r)));
+  const LongVector exact = K.inverse() * (-g.cast<Long>() - w.cross(r_dot) + LongVector(gyration.cross(r)));
   const LongVector alpha = R.transpose() * (inverse * r.cross(exact) - gyration);
   errors->force = std::max(errors->force, (force.cast<Long>() - exact).norm() / exact.norm());
   errors->angular = std::max(errors->angular, (angular.cast<Long>() - alpha).norm() / alpha.norm());
@@ -133,14 +131,15 @@ void MassRatio() {
   }
 }
 
-// Three feet, the third off the line of the others by δ. In balance each carries a third of the weight. Off balance, the
-// centre of mass 0.3 m from the line, the third holds −W (0.3 − δ/3)/δ; nothing accelerates. Contacts that depend on each
-// other within rounding are reported: `ForcesUnique`.
+// Three feet, the third off the line of the others by δ. In balance each carries a third of the weight. Off balance,
+// the centre of mass 0.3 m from the line, the third holds −W (0.3 − δ/3)/δ; nothing accelerates. Contacts that depend
+// on each other within rounding are reported: `ForcesUnique`.
 void NearlyDependent(const char* plot, double off) {
   const double weight = 3 * 9.81;
   for (int e = 0; e >= -15; --e) {
     const double delta = std::pow(10, e), third = off + 2 * delta / 3;
-    testing::StandingPlate stand({{-1, off - delta / 3, 0}, {1, off - delta / 3, 0}, {0, third, 0}}, Grip::kFrictionless);
+    testing::StandingPlate stand({{-1, off - delta / 3, 0}, {1, off - delta / 3, 0}, {0, third, 0}},
+                                 Grip::kFrictionless);
     const ConstrainedSolution& solution = stand.dynamics.Accelerate(stand.active, VectorX::Zero(6), {0, 0, -9.81}, {});
     const Vector3 feet = solution.forces;
     const double last = -weight * (off - delta / 3) / delta, others = (weight - last) / 2;

@@ -1,8 +1,10 @@
 // Gaits from the built-in guess: iterations, time, objective and accuracy for every slope, scheme and mesh.
-//   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step 0.65]
+//   gait_table [--model planar] [--feet two] [--toes] [--sagittal] [--drop-arms] [--rigid-trunk] [--speed 1.3] [--step
+//   0.65]
 //              [--double 8]
 //              [--intervals 8,16,32,64] [--schemes radau2,radau3,hermite-simpson] [--slopes -10,0,10]
-//              [--costs torque:1,work:1 | --preset human [--extra force-rate:1e-8]] [--touch-down plastic] [--starts 3] [--standard | --fine] [--verbose] [--normative]
+//              [--costs torque:1,work:1 | --preset human [--extra force-rate:1e-8]] [--touch-down plastic] [--starts 3]
+//              [--standard | --fine] [--verbose] [--normative]
 // --normative prints how far each gait is from people's (core/validation/normative.h).
 
 #include <algorithm>
@@ -114,11 +116,11 @@ void PrintHumps(const ForceHumps& humps) {
 }
 
 void PrintNormative(const NormativeComparison& people) {
-  std::printf("    stance %.1f %%, double support %.1f %%, step %.3f m, cadence %.0f /min, opposite toe-off %s, "
-              "opposite heel strike %s, toe-off %s %%, ",
-              100 * people.stance, 100 * people.double_support, people.step_length, people.cadence,
-              Text(people.opposite_toe_off).c_str(), Text(people.opposite_heel_strike).c_str(),
-              Text(people.toe_off).c_str());
+  std::printf(
+      "    stance %.1f %%, double support %.1f %%, step %.3f m, cadence %.0f /min, opposite toe-off %s, "
+      "opposite heel strike %s, toe-off %s %%, ",
+      100 * people.stance, 100 * people.double_support, people.step_length, people.cadence,
+      Text(people.opposite_toe_off).c_str(), Text(people.opposite_heel_strike).c_str(), Text(people.toe_off).c_str());
   PrintHumps(people.humps);
   std::printf("    at a limit through stance:");
   for (const RestingJoint& joint : people.resting) {
@@ -164,8 +166,8 @@ void PrintOverlaps(const Scene& scene, const Trajectory& trajectory) {
   const std::clock_t begin = std::clock();
   const OverlapFindings found = MeasureOverlap(scene, dynamics, trajectory);
   const double elapsed = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  std::printf("    overlap %.4f mm (%s at %.3f s), judged in %.1f ms:", 1e3 * found.worst.value, found.worst.where.c_str(),
-              found.worst.time, 1e3 * elapsed);
+  std::printf("    overlap %.4f mm (%s at %.3f s), judged in %.1f ms:", 1e3 * found.worst.value,
+              found.worst.where.c_str(), found.worst.time, 1e3 * elapsed);
   for (const int pair : found.Deeper(0)) std::printf(" %s %.3f", scene.PairName(pair).c_str(), 1e3 * found.pairs[pair]);
   std::printf("\n");
 }
@@ -230,7 +232,8 @@ int Main(int argc, char** argv) {
         request.accuracy.level = level;
         const Result<GaitSpec> spec = CheckRequest(request);
         if (!spec.ok()) {
-          for (const Violation& v : spec.violations()) std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
+          for (const Violation& v : spec.violations())
+            std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
           return 1;
         }
         SolveControl control;
@@ -240,19 +243,19 @@ int Main(int argc, char** argv) {
         all &= s.termination == Termination::kOptimal;
         const AccuracyReport a = s.accuracy.value_or(AccuracyReport());
         const MeshStatistics& m = s.meshes.back();
-        std::printf("%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.6g %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
-                    scheme.c_str(), slope.c_str(), n.c_str(), Name(s.termination), m.iterations,
-                    static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC,
-                    m.evaluation_time, s.objective, s.kkt_error, s.step_length, a.max_gap, a.max_slip,
-                    a.max_position_defect, a.max_velocity_defect, a.energy_balance_error_relative, a.min_normal_force,
-                    a.max_friction_ratio);
+        std::printf(
+            "%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.6g %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
+            scheme.c_str(), slope.c_str(), n.c_str(), Name(s.termination), m.iterations,
+            static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, m.evaluation_time, s.objective, s.kkt_error,
+            s.step_length, a.max_gap, a.max_slip, a.max_position_defect, a.max_velocity_defect,
+            a.energy_balance_error_relative, a.min_normal_force, a.max_friction_ratio);
         std::fflush(stdout);
         if (s.meshes.size() > 1) {
           for (const auto& mesh : s.meshes) {
             int total = 0;
             for (int count : mesh.intervals) total += count;
-            std::printf("    mesh of %d intervals: %d iterations, %.3f s, objective %.3f, gap %.2e m, slip %.2e m/s\n", total,
-                        mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
+            std::printf("    mesh of %d intervals: %d iterations, %.3f s, objective %.3f, gap %.2e m, slip %.2e m/s\n",
+                        total, mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_gap, mesh.max_slip);
           }
         }
         if (s.trajectory) PrintForces(*s.trajectory, spec.value());
@@ -262,7 +265,8 @@ int Main(int argc, char** argv) {
         }
         if (normative && s.normative) PrintNormative(*s.normative);
         for (const auto& u : s.unmet_constraints) {
-          std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation, u.unit.c_str());
+          std::printf("    unmet: %s phase %d t %.3f by %g %s\n", u.name.c_str(), u.phase, u.time, u.violation,
+                      u.unit.c_str());
         }
       }
     }

@@ -18,7 +18,8 @@ namespace rollgait {
 namespace {
 
 Matrix3 HomogeneousInertia(double mass, const Vector3& a) {
-  return (mass / 5 * Vector3(a.y() * a.y() + a.z() * a.z(), a.x() * a.x() + a.z() * a.z(), a.x() * a.x() + a.y() * a.y()))
+  return (mass / 5 *
+          Vector3(a.y() * a.y() + a.z() * a.z(), a.x() * a.x() + a.z() * a.z(), a.x() * a.x() + a.y() * a.y()))
       .asDiagonal();
 }
 

@@ -1,6 +1,7 @@
-// Time of one evaluation of the NLP per collocation point, of the planar and the spatial human: constraints, Jacobian, Hessian, and
-// beside them one factorisation and one solution of the Newton system at the optimum; and the dynamics kernels. That none of these
-// allocates is held by tests/core/transcription/allocation_test.cc and tests/core/nlp/frontal_ldlt_test.cc.
+// Time of one evaluation of the NLP per collocation point, of the planar and the spatial human: constraints, Jacobian,
+// Hessian, and beside them one factorisation and one solution of the Newton system at the optimum; and the dynamics
+// kernels. That none of these allocates is held by tests/core/transcription/allocation_test.cc and
+// tests/core/nlp/frontal_ldlt_test.cc.
 //   nlp_evaluation [--benchmark_...]   (Google Benchmark; one thread; Release; OPENBLAS_NUM_THREADS=1)
 
 #include <benchmark/benchmark.h>
@@ -49,9 +50,8 @@ struct Problem {
 
 void PerPoint(benchmark::State& state, int points) {
   state.SetLabel(std::string(kModels[state.range(0)]) + " " + kSchemes[state.range(1)]);
-  state.counters["ns_per_point"] = benchmark::Counter(
-      static_cast<double>(state.iterations()) * points * 1e-9,
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_point"] = benchmark::Counter(static_cast<double>(state.iterations()) * points * 1e-9,
+                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void Constraints(benchmark::State& state) {
@@ -74,8 +74,7 @@ void AllThree(benchmark::State& state) {
   Problem p(state);
   for (auto _ : state) {
     benchmark::DoNotOptimize(p.nlp->Constraints(p.x.data(), p.g.data()));
-    benchmark::DoNotOptimize(
-        p.nlp->Derivatives(p.x.data(), 1, p.lambda.data(), p.jacobian.data(), p.hessian.data()));
+    benchmark::DoNotOptimize(p.nlp->Derivatives(p.x.data(), 1, p.lambda.data(), p.jacobian.data(), p.hessian.data()));
   }
   PerPoint(state, p.points);
 }

@@ -1,5 +1,5 @@
-// The same nonlinear program solved by the interior point method of core/nlp and by Ipopt with MUMPS, in turn, so that the ratio does
-// not depend on how busy the machine is. One line a problem, the better of three runs each.
+// The same nonlinear program solved by the interior point method of core/nlp and by Ipopt with MUMPS, in turn, so that
+// the ratio does not depend on how busy the machine is. One line a problem, the better of three runs each.
 //   nlp_solvers [MODEL [INTERVALS]]        planar 16 unless given; set OPENBLAS_NUM_THREADS=1
 #include <algorithm>
 #include <cstdio>
@@ -52,8 +52,8 @@ void Compare(const std::string& model, int intervals, double slope_degrees) {
 int main(int argc, char** argv) {
   const std::string model = argc > 1 ? argv[1] : "planar";
   const int intervals = argc > 2 ? std::atoi(argv[2]) : 16;
-  std::printf("%-8s %5s %4s %7s | %4s %7s %11s | %4s %7s %11s | %5s %5s\n", "model", "slope", "N", "unknown", "iter", "s",
-              "objective", "iter", "s", "objective", "ratio", "/iter");
+  std::printf("%-8s %5s %4s %7s | %4s %7s %11s | %4s %7s %11s | %5s %5s\n", "model", "slope", "N", "unknown", "iter",
+              "s", "objective", "iter", "s", "objective", "ratio", "/iter");
   for (double slope : {-10.0, 0.0, 10.0}) rollgait::Compare(model, intervals, slope);
   return 0;
 }

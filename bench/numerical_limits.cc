@@ -3,13 +3,12 @@
 // docs/numerical_limits.md from it.
 //   numerical_limits > limits.csv
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
 #include <string>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/surface_pair.h"
 

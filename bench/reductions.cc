@@ -1,7 +1,7 @@
 // What each reduction of the human saves, and what it changes in the answer.
 //   reductions [--preset human] [--slope 0] [--speed 1.3] [--intervals 10] [--draft] [--starts 1]
-// Objective, unknowns (first mesh), iterations (all meshes), CPU time of the solve, and the largest difference of the angles of
-// hip, knee and ankle over the gait cycle from those of the first row.
+// Objective, unknowns (first mesh), iterations (all meshes), CPU time of the solve, and the largest difference of the
+// angles of hip, knee and ankle over the gait cycle from those of the first row.
 
 #include <algorithm>
 #include <array>
@@ -85,8 +85,8 @@ int Main(int argc, char** argv) {
     if (flag == "--intervals") request.discretization.single_support_intervals = std::stoi(argv[++i]);
     if (flag == "--starts") request.starts = std::stoi(argv[++i]);
   }
-  std::printf("%-34s | %4s %8s %5s %7s %10s | %6s %6s %6s | %s\n", "body", "DoF", "unknowns", "iter", "CPU s", "objective",
-              "hip", "knee", "ankle", "end");
+  std::printf("%-34s | %4s %8s %5s %7s %10s | %6s %6s %6s | %s\n", "body", "DoF", "unknowns", "iter", "CPU s",
+              "objective", "hip", "knee", "ankle", "end");
   std::optional<Angles> whole;
   bool all = true;
   for (const Reduction& reduction : Reductions()) {
@@ -112,7 +112,8 @@ int Main(int argc, char** argv) {
     for (size_t j = 0; j < kJoints.size(); ++j) {
       std::printf(" %5.1f°", whole && angles ? LargestDifference((*whole)[j], (*angles)[j]) : std::nan(""));
     }
-    std::printf(" | %s\n", optimal ? solution.within_requested_accuracy() ? "optimal" : "optimal, not accurate" : solution.message.c_str());
+    std::printf(" | %s\n", optimal ? solution.within_requested_accuracy() ? "optimal" : "optimal, not accurate"
+                                   : solution.message.c_str());
     std::fflush(stdout);
   }
   return all ? 0 : 1;

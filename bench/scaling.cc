@@ -1,10 +1,9 @@
 // How time and memory of a solve grow with the number of intervals: one process for each mesh, cold, draft accuracy.
 //   scaling [--model human29] [--preset human] [--slope 0] [--intervals 15,30,60,120,240]
-// --intervals are those of single support; double support has half as many. --slope in degrees. Without a preset: squared torque with a
-// little rate.
-// Prints the iterations on that mesh and those with the coarser ones before it, the objective, CPU time in all, of the nonlinear
-// program alone per iteration, and the peak of resident memory of the whole process; then the exponents p of least-squares fits of
-// c N^p.
+// --intervals are those of single support; double support has half as many. --slope in degrees. Without a preset:
+// squared torque with a little rate. Prints the iterations on that mesh and those with the coarser ones before it, the
+// objective, CPU time in all, of the nonlinear program alone per iteration, and the peak of resident memory of the
+// whole process; then the exponents p of least-squares fits of c N^p.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,8 +26,8 @@ namespace {
 struct Sample {
   int intervals = 0, unknowns = 0, optimal = 0;
   int iterations = 0, all_iterations = 0;  // on the mesh asked for; with the coarser ones before it
-  double cpu = 0, program_cpu = 0;  // s
-  double memory = 0;                // MB
+  double cpu = 0, program_cpu = 0;         // s
+  double memory = 0;                       // MB
   double objective = 0;
 };
 

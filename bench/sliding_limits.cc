@@ -1,12 +1,12 @@
-// What the blend of the direction of slip costs: a ball slides on a slope past zero slip, as close as 1 … 1e-8 m/s, and its
-// velocity afterwards is compared with the equations of slip alone, in which nothing is blended. CSV: plot,series,x,y.
+// What the blend of the direction of slip costs: a ball slides on a slope past zero slip, as close as 1 … 1e-8 m/s, and
+// its velocity afterwards is compared with the equations of slip alone, in which nothing is blended. CSV:
+// plot,series,x,y.
 //   sliding_limits > sliding.csv
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-
-#include <Eigen/Geometry>
 
 #include "core/math/integrator.h"
 #include "core/simulation/simulation.h"

@@ -70,8 +70,9 @@ int Main(int argc, char** argv) {
   app.add_option("--threads", load.threads)->check(CLI::Range(1, 64))->capture_default_str();
   app.add_option("--round-trip-ms", round_trip_ms, "to PostgreSQL; 0: no network")->check(CLI::Range(0.0, 1000.0));
   CLI11_PARSE(app, argc, argv);
-  std::printf("| store, %d threads | creates/s | claims/s | results of 100 kB/s | reads of 100 kB/s |\n|---|---|---|---|---|\n",
-              load.threads);
+  std::printf(
+      "| store, %d threads | creates/s | claims/s | results of 100 kB/s | reads of 100 kB/s |\n|---|---|---|---|---|\n",
+      load.threads);
   const SystemClock clock;
   {
     const TemporaryDirectory directory;
@@ -89,7 +90,8 @@ int Main(int argc, char** argv) {
   }
   StoreLocation location = LocateStore(url, "").value();
   location.connections = load.threads;
-  Measure(round_trip_ms > 0 ? "PostgreSQL, network" : "PostgreSQL, Unix socket", *OpenStore(location, clock).value(), load);
+  Measure(round_trip_ms > 0 ? "PostgreSQL, network" : "PostgreSQL, Unix socket", *OpenStore(location, clock).value(),
+          load);
   return 0;
 }
 

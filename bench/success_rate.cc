@@ -79,7 +79,8 @@ int Main(int argc, char** argv) {
           request.slope = slope * std::numbers::pi / 180;
           const Result<GaitSpec> spec = CheckRequest(request);
           if (!spec.ok()) {
-            for (const Violation& v : spec.violations()) std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
+            for (const Violation& v : spec.violations())
+              std::fprintf(stderr, "%s: %s\n", v.field.c_str(), v.message.c_str());
             return 1;
           }
           std::string why;
@@ -89,17 +90,18 @@ int Main(int argc, char** argv) {
           accurate += outcome.accurate ? 1 : 0;
           iterations.push_back(outcome.iterations);
           times.push_back(outcome.cpu);
-          std::printf("%-6s %7.2f %6.1f %6.0f | %-7s %5d %7.2f %s\n", sex == Sex::kFemale ? "female" : "male", stature, mass,
-                      slope, outcome.optimal ? "optimal" : "none", outcome.iterations, outcome.cpu, why.c_str());
+          std::printf("%-6s %7.2f %6.1f %6.0f | %-7s %5d %7.2f %s\n", sex == Sex::kFemale ? "female" : "male", stature,
+                      mass, slope, outcome.optimal ? "optimal" : "none", outcome.iterations, outcome.cpu, why.c_str());
           std::fflush(stdout);
         }
       }
     }
   }
-  std::printf("%d requests: %d optimal, %d within the accuracy; iterations median %.0f, most %.0f; CPU median %.2f s, most "
-              "%.2f s\n",
-              asked, optimal, accurate, Median(iterations), *std::max_element(iterations.begin(), iterations.end()),
-              Median(times), *std::max_element(times.begin(), times.end()));
+  std::printf(
+      "%d requests: %d optimal, %d within the accuracy; iterations median %.0f, most %.0f; CPU median %.2f s, most "
+      "%.2f s\n",
+      asked, optimal, accurate, Median(iterations), *std::max_element(iterations.begin(), iterations.end()),
+      Median(times), *std::max_element(times.begin(), times.end()));
   return optimal == asked ? 0 : 1;
 }
 

@@ -9,7 +9,7 @@ namespace {
 // How a criterion is shown; `field` is CriterionResult.criterion.
 struct Display {
   const char* field;
-  double factor;     // from the report's unit to the one shown
+  double factor;  // from the report's unit to the one shown
   const char* unit;
   const char* explanation;
 };
@@ -21,21 +21,24 @@ constexpr Display kDisplays[] = {
     {"max_penetration_m", 1e3, "mm", "How deep a swinging surface is in the ground."},
     {"max_overlap_m", 1e3, "mm", "How far two bodies, the legs for example, are inside each other."},
     {"max_position_defect", 1, "rad or m",
-     "Each mesh interval is integrated again from its start with the optimal efforts by another method; this is how far the end is "
+     "Each mesh interval is integrated again from its start with the optimal efforts by another method; this is how "
+     "far the end is "
      "from the next node."},
     {"max_velocity_defect", 1, "rad/s or m/s", "The same for the velocities."},
     {"max_range_excess", 180 / kPi, "°", "How far a joint is past its range of motion."},
     {"max_velocity_excess", 100, "%", "How far a joint is faster than its limit, as a share of the limit."},
     {"max_effort_excess", 100, "%", "How far an effort is past its limit, as a share of the limit."},
     {"max_pull_bw", 100, "% of body weight",
-     "How far the normal force of a contact is below the least that the request allows; that is zero by default, since the ground does "
+     "How far the normal force of a contact is below the least that the request allows; that is zero by default, since "
+     "the ground does "
      "not pull."},
     {"max_friction_excess", 100, "%",
      "How far tangential over normal force is past the coefficient of friction, as a share of the coefficient."},
     {"max_separation_speed_m_s", 1e3, "mm/s", "Speed at which a surface rises when it is said to touch down."},
     {"max_periodicity_error", 1, "rad, m, rad/s or m/s",
      "Difference between the end of the cycle and its start, moved forward (and mirrored, for half a cycle)."},
-    {"max_energy_error", 100, "%", "Energy that appears or vanishes, as a share of the work. Rolling contact does no work."},
+    {"max_energy_error", 100, "%",
+     "Energy that appears or vanishes, as a share of the work. Rolling contact does no work."},
     {"max_momentum_error_m_s", 1e3, "mm/s",
      "Change of momentum minus the impulse of gravity and ground forces, over the mass."},
 };
@@ -85,7 +88,8 @@ std::vector<AccuracyLine> LinesWithoutCriteria(const v1::AccuracyReport& report)
        Where(report.max_position_defect_joint(), report.max_position_defect_time_s()), kDisplays[4].explanation},
       {"largest velocity defect", report.max_velocity_defect(), "rad/s or m/s",
        Where(report.max_velocity_defect_joint(), report.max_velocity_defect_time_s()), kDisplays[5].explanation},
-      {"largest gap", report.max_gap_m() * 1e3, "mm", "", "Distance between a rolling foot and the ground, sampled between the nodes."},
+      {"largest gap", report.max_gap_m() * 1e3, "mm", "",
+       "Distance between a rolling foot and the ground, sampled between the nodes."},
       {"largest slip", report.max_slip_m_s() * 1e3, "mm/s", "", kDisplays[1].explanation},
       {"periodicity error", report.periodicity_error(), "rad, m, rad/s or m/s", "", kDisplays[12].explanation},
   };
@@ -95,9 +99,11 @@ std::vector<AccuracyLine> ImpactLines(const v1::AccuracyReport& report) {
   return {
       {"energy lost in impacts", report.impact_loss_j(), "J", "",
        "Kinetic energy that touch-down takes away, in all that the motion spans."},
-      {"least impulse", report.min_jump_impulse_n_s(), "N s", "", "Of a contact in an impact. Positive: the ground pushes."},
+      {"least impulse", report.min_jump_impulse_n_s(), "N s", "",
+       "Of a contact in an impact. Positive: the ground pushes."},
       {"impact, velocity error", report.jump_velocity_error(), "rad/s or m/s", "",
-       "Difference between the velocities after an impact and those that another method computes from those before it."},
+       "Difference between the velocities after an impact and those that another method computes from those before "
+       "it."},
       {"impact, impulse error", report.jump_impulse_error_n_s(), "N s", "",
        "Change of momentum in an impact minus the impulses of the ground."},
   };
@@ -114,17 +120,20 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
   if (lines.empty()) lines = LinesWithoutCriteria(report);
   const v1::GroundContact& ground = solve.spec().ground_contact();
   const double friction = ground.has_friction_coefficient() ? ground.friction_coefficient() : 0.8;
-  lines.push_back({"least normal force", report.min_normal_force_n(), "N", "", "Positive: the ground pushes and never pulls."});
-  lines.push_back({"largest friction ratio", report.max_friction_ratio(), "", "the ground's coefficient is " + FormatNumber(friction),
-                   "Tangential over normal force."});
+  lines.push_back(
+      {"least normal force", report.min_normal_force_n(), "N", "", "Positive: the ground pushes and never pulls."});
+  lines.push_back({"largest friction ratio", report.max_friction_ratio(), "",
+                   "the ground's coefficient is " + FormatNumber(friction), "Tangential over normal force."});
   // The ball of a manoeuvre never swings.
   if (solve.spec().has_manoeuvre()) {
-    lines.push_back({"end error", report.end_error(), "m, rad or rad/s", "",
-                     "Difference between the states that the manoeuvre prescribes at its ends and those of the motion."});
+    lines.push_back(
+        {"end error", report.end_error(), "m, rad or rad/s", "",
+         "Difference between the states that the manoeuvre prescribes at its ends and those of the motion."});
   } else {
-    lines.push_back({"least swing clearance", report.min_swing_clearance_m() * 1e3, "mm", "",
-                     "Height of the swing foot over the ground. It is zero at lift-off and touch-down; negative: the foot is in "
-                     "the ground."});
+    lines.push_back(
+        {"least swing clearance", report.min_swing_clearance_m() * 1e3, "mm", "",
+         "Height of the swing foot over the ground. It is zero at lift-off and touch-down; negative: the foot is in "
+         "the ground."});
   }
   const double kkt = solve.spec().accuracy().has_kkt_tolerance() ? solve.spec().accuracy().kkt_tolerance() : 1e-6;
   const std::vector<AccuracyLine> rest = {
@@ -134,7 +143,8 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
       {"momentum balance error", report.momentum_balance_error_n_s(), "N s", "",
        "Change of momentum minus the impulse of gravity and ground forces."},
       {"KKT error", report.kkt_error(), "", "",
-       "How far the solver is from a stationary point of the discretised problem (scaled).", kkt, !(report.kkt_error() <= kkt)},
+       "How far the solver is from a stationary point of the discretised problem (scaled).", kkt,
+       !(report.kkt_error() <= kkt)},
       {"constraint violation", report.constraint_violation(), "", "",
        "Largest violation of any constraint of the discretised problem (scaled)."},
   };
@@ -153,8 +163,8 @@ std::string AccuracyVerdict(const v1::Solve& solve) {
   if (report.verdict() == v1::VERDICT_EXCEEDED && worst != nullptr) {
     const AccuracyLine line = CriterionLine(*worst, solve.result().model());
     const std::string unit = line.unit.empty() ? "" : " " + line.unit;
-    return "EXCEEDED: " + line.name + ", " + FormatNumber(line.value, 3) + unit + " where " + FormatNumber(*line.bound, 3) + unit +
-           " is allowed" + (line.where.empty() ? "" : " (" + line.where + ")");
+    return "EXCEEDED: " + line.name + ", " + FormatNumber(line.value, 3) + unit + " where " +
+           FormatNumber(*line.bound, 3) + unit + " is allowed" + (line.where.empty() ? "" : " (" + line.where + ")");
   }
   if (report.verdict() == v1::VERDICT_EXCEEDED) return "EXCEEDED";
   if (report.verdict() == v1::VERDICT_UNSPECIFIED) return "not judged (a result of a version before 0.4.0)";

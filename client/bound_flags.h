@@ -12,8 +12,8 @@ namespace rollgait::client {
 // Names of the bounds: the fields of rollgait.v1.Accuracy of type double whose name begins with max_.
 std::vector<std::string> BoundNames();
 
-// Sets the bounds "NAME=NUMBER", the unit being that of the field; later ones win. Throws Failure(kUsage) for a name that is not in
-// BoundNames(), with the list, and for what is not a number. The server checks the ranges.
+// Sets the bounds "NAME=NUMBER", the unit being that of the field; later ones win. Throws Failure(kUsage) for a name
+// that is not in BoundNames(), with the list, and for what is not a number. The server checks the ranges.
 void ApplyBounds(const std::vector<std::string>& bounds, v1::Accuracy& accuracy);
 
 }  // namespace rollgait::client

@@ -27,13 +27,13 @@ struct GlobalOptions {
   double timeout_s = 30.0;
 };
 
-// A channel with keepalive, quick reconnection and no bound on the size of an answer: TLS if the server is beyond loopback or a flag of
-// TLS is given, plain text else. Every call carries the token, if there is one.
-// Cheap to make: nothing is sent before the first call.
+// A channel with keepalive, quick reconnection and no bound on the size of an answer: TLS if the server is beyond
+// loopback or a flag of TLS is given, plain text else. Every call carries the token, if there is one. Cheap to make:
+// nothing is sent before the first call.
 class Connection {
  public:
-  // Throws Failure(kUsage) if the address is not HOST:PORT with a port in [1, 65535] (or unix:PATH), a file cannot be read, or a token
-  // would go over a network in plain text.
+  // Throws Failure(kUsage) if the address is not HOST:PORT with a port in [1, 65535] (or unix:PATH), a file cannot be
+  // read, or a token would go over a network in plain text.
   explicit Connection(const GlobalOptions& options);
 
   v1::GaitService::StubInterface& stub() { return *stub_; }

@@ -38,7 +38,8 @@ std::string Details(const grpc::Status& status) {
 std::string SceneAdvice(grpc::StatusCode code) {
   if (code == grpc::StatusCode::INVALID_ARGUMENT) {
     return "Correct the fields of the scene named above; rollgait.v1.SimulationScene "
-           "(proto/rollgait/v1/simulation.proto) gives every unit and range. --validate-only checks a scene without simulating it.";
+           "(proto/rollgait/v1/simulation.proto) gives every unit and range. --validate-only checks a scene without "
+           "simulating it.";
   }
   return "The run takes longer than it may: raise --max-wall-time (at most 600 s), or ask for less: a shorter "
          "--duration, a looser --tolerance. What came before is valid.";
@@ -48,7 +49,8 @@ std::string SceneAdvice(grpc::StatusCode code) {
 std::string TlsAdvice(const std::string& message) {
   const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
   if (says("certificate verify failed") || says("CERTIFICATE_VERIFY_FAILED")) {
-    return "The server's certificate is not one that --tls-ca (or the system's authorities) signed, or it has expired: give the right "
+    return "The server's certificate is not one that --tls-ca (or the system's authorities) signed, or it has expired: "
+           "give the right "
            "--tls-ca FILE, or renew the server's certificate.";
   }
   if (says("is not in peer certificate") || says("Hostname Verification")) {
@@ -58,7 +60,8 @@ std::string TlsAdvice(const std::string& message) {
     return "The server does not speak TLS: leave --tls-ca and --tls-cert away (beyond loopback with --insecure).";
   }
   if (says("handshake") || says("SSL_ERROR")) return "TLS failed: check --tls-ca, --tls-cert and --tls-key.";
-  if (says("Invalid cert chain file") || says("key values mismatch")) return "--tls-cert and --tls-key do not belong together.";
+  if (says("Invalid cert chain file") || says("key values mismatch"))
+    return "--tls-cert and --tls-key do not belong together.";
   return "";
 }
 
@@ -70,7 +73,8 @@ std::string Advice(grpc::StatusCode code, const std::string& message, const std:
   switch (code) {
     case grpc::StatusCode::UNAVAILABLE:
       if (message.find("Socket closed") != std::string::npos || message.find("onnection reset") != std::string::npos) {
-        return "The server at " + server + " closed the connection. If it speaks TLS, give --tls-ca FILE; if it asks for the client's "
+        return "The server at " + server +
+               " closed the connection. If it speaks TLS, give --tls-ca FILE; if it asks for the client's "
                "certificate, give --tls-cert and --tls-key that it accepts.";
       }
       return "Is a server running at " + server + "? Start one with `rollgaitd --data-dir DIR --listen " + server +
@@ -81,7 +85,8 @@ std::string Advice(grpc::StatusCode code, const std::string& message, const std:
       return "Give a valid token with --token-file FILE or ROLLGAIT_TOKEN; the server's administrator makes one with "
              "`rollgaitd token create`.";
     case grpc::StatusCode::PERMISSION_DENIED:
-      return "The token does not allow this; the server's administrator can make one that does: `rollgaitd token create --scopes ...`.";
+      return "The token does not allow this; the server's administrator can make one that does: `rollgaitd token "
+             "create --scopes ...`.";
     case grpc::StatusCode::INVALID_ARGUMENT:
       return "Correct the values named above; `rollgait solve --help` gives the ranges.";
     case grpc::StatusCode::NOT_FOUND:

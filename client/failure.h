@@ -13,7 +13,8 @@ namespace rollgait::client {
 
 // The process's exit code; a contract with scripts, printed by `rollgait --help`.
 enum class ExitCode {
-  kSuccess = 0,      // Done; a solve that was waited for is optimal or acceptable, and within its accuracy bounds if it has any.
+  kSuccess =
+      0,  // Done; a solve that was waited for is optimal or acceptable, and within its accuracy bounds if it has any.
   kInternal = 1,     // A defect, here or in the server, or an output that could not be written.
   kUsage = 2,        // The command line, or a request that the server refuses.
   kUnreachable = 3,  // No server, no answer in time, or the server is too busy.

@@ -10,8 +10,8 @@ namespace rollgait::client {
 namespace {
 
 // True for what a connection's or a server's death looks like from here. A server killed while it writes can end the
-// stream without a status, which gRPC reports as UNKNOWN "Stream removed"; one that stops ends calls that it has not taken up as
-// CANCELLED, which here is never our own doing.
+// stream without a status, which gRPC reports as UNKNOWN "Stream removed"; one that stops ends calls that it has not
+// taken up as CANCELLED, which here is never our own doing.
 bool IsBroken(const grpc::Status& status) {
   return status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||
          status.error_code() == grpc::StatusCode::CANCELLED ||

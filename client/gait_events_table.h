@@ -17,7 +17,8 @@ std::string SideName(v1::Foot foot);
 // % of the first such event; empty if there is none.
 std::optional<double> FirstEvent(const v1::GaitEvents& events, v1::GaitEvent::Kind kind, v1::Foot foot);
 
-// Name and value: the stride, stance and events of each foot, double support, and flight if there is any. Empty without events.
+// Name and value: the stride, stance and events of each foot, double support, and flight if there is any. Empty without
+// events.
 std::vector<std::vector<std::string>> GaitEventRows(const v1::GaitEvents& events);
 
 }  // namespace rollgait::client

@@ -135,15 +135,17 @@ std::string ToSto(const v1::Solve& solve) {
     for (const char* const column : {"vx", "vy", "vz", "px", "py"}) label(name + column);
   }
 
-  std::string text = (solve.name().empty() ? "rollgait" : solve.name()) +
-                     "\nversion=1\nnRows=" + std::to_string(stride.samples.size()) +
-                     "\nnColumns=" + std::to_string(columns) + "\ninDegrees=no\nRollgait: " +
-                     (solve.spec().has_manoeuvre() ? "a manoeuvre" : "one gait cycle from heel strike of the right foot") +
-                     ". SI units: rad, m, rad/s (_u), N m "
-                     "(_effort), N (_force_v, sums over the surfaces of a foot in _ground_force_v), centre of pressure in m "
-                     "(_ground_force_p, nan below 1 % of body weight). Axes fixed to the ground: x along it in the direction of walking, y left, z its "
-                     "normal; slope " +
-                     FormatNumber(solve.spec().slope_rad() * 180 / kPi) + " deg.\nendheader\n" + labels + "\n";
+  std::string text =
+      (solve.name().empty() ? "rollgait" : solve.name()) +
+      "\nversion=1\nnRows=" + std::to_string(stride.samples.size()) + "\nnColumns=" + std::to_string(columns) +
+      "\ninDegrees=no\nRollgait: " +
+      (solve.spec().has_manoeuvre() ? "a manoeuvre" : "one gait cycle from heel strike of the right foot") +
+      ". SI units: rad, m, rad/s (_u), N m "
+      "(_effort), N (_force_v, sums over the surfaces of a foot in _ground_force_v), centre of pressure in m "
+      "(_ground_force_p, nan below 1 % of body weight). Axes fixed to the ground: x along it in the direction of "
+      "walking, y left, z its "
+      "normal; slope " +
+      FormatNumber(solve.spec().slope_rad() * 180 / kPi) + " deg.\nendheader\n" + labels + "\n";
   for (size_t row = 0; row < stride.samples.size(); ++row) {
     const StrideSample& sample = stride.samples[row];
     text += FormatNumber(sample.time_s, kDigits);

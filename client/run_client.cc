@@ -52,7 +52,8 @@ void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.add_option("--server", global.server, "HOST:PORT of the server")
       ->envname("ROLLGAIT_SERVER")
       ->capture_default_str();
-  app.add_option("--tls-ca", global.tls_ca, "Speak TLS; who signs the server, PEM; default beyond loopback: the system's authorities");
+  app.add_option("--tls-ca", global.tls_ca,
+                 "Speak TLS; who signs the server, PEM; default beyond loopback: the system's authorities");
   app.add_option("--tls-cert", global.tls_cert, "Certificate of this client, PEM");
   app.add_option("--tls-key", global.tls_key, "Private key of --tls-cert, PEM");
   app.add_option("--token-file", global.token_file, "File with the token for the server; default: ROLLGAIT_TOKEN");
@@ -122,14 +123,17 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   report->add_option("SOLVE", arguments.report.solves, "Names on the server, or .json files of --output")->required();
   report->add_option("-o,--output", arguments.report.output, "The page, one file that needs no network")->required();
   report->add_option("--title", arguments.report.title, "Title of the page");
-  report->add_flag("--no-normative", arguments.report.without_people, "Leave out people's curves, which human models get");
+  report->add_flag("--no-normative", arguments.report.without_people,
+                   "Leave out people's curves, which human models get");
 
-  CLI::App* const paper = app.add_subcommand("reproduce-paper", "The paper's three walks and its statements beside ours");
+  CLI::App* const paper =
+      app.add_subcommand("reproduce-paper", "The paper's three walks and its statements beside ours");
   AddSpecFlags(*paper, arguments.paper.spec);
   paper->remove_option(paper->get_option("--slope"));
   paper->add_option("-o,--output", arguments.paper.output, "The page, one file that needs no network");
-  paper->footer("Slopes +10, 0 and -10 degrees; model human29, speed 1.3 and least squared torque if no flag says otherwise.\n"
-                "Example: rollgait reproduce-paper -o paper.html");
+  paper->footer(
+      "Slopes +10, 0 and -10 degrees; model human29, speed 1.3 and least squared torque if no flag says otherwise.\n"
+      "Example: rollgait reproduce-paper -o paper.html");
 
   app.add_subcommand("server-info", "Version, load and store of the server");
   app.add_subcommand("health", "Whether the server serves: exit code 0, else 3; also by unix:DATA_DIR/admin.sock");
@@ -144,18 +148,23 @@ void AddSceneFlags(CLI::App& command, SceneInput& scene, std::optional<double>& 
 }
 
 void AddSceneCommands(CLI::App& app, Arguments& arguments) {
-  CLI::App* const simulate = app.add_subcommand("simulate", "Forward contact dynamics of a scene: samples, events, report");
+  CLI::App* const simulate =
+      app.add_subcommand("simulate", "Forward contact dynamics of a scene: samples, events, report");
   AddSceneFlags(*simulate, arguments.simulate.scene, arguments.simulate.max_wall_time_s);
-  simulate->add_option("--output-step", arguments.simulate.scene.output_step_s, "Overrides the time between samples, s");
+  simulate->add_option("--output-step", arguments.simulate.scene.output_step_s,
+                       "Overrides the time between samples, s");
   simulate->add_option("-o,--output", arguments.simulate.output,
                        "Also write the whole run to FILE.json: scene, samples, events, report");
-  simulate->add_flag("--validate-only", arguments.simulate.validate_only, "Let the server check the scene; simulate nothing");
-  simulate->footer("Samples are comma separated values (with --json: one message a line); events and the report go to\n"
-                   "standard error. Example: rollgait simulate --scene scenes/rattleback.json > rattleback.csv");
+  simulate->add_flag("--validate-only", arguments.simulate.validate_only,
+                     "Let the server check the scene; simulate nothing");
+  simulate->footer(
+      "Samples are comma separated values (with --json: one message a line); events and the report go to\n"
+      "standard error. Example: rollgait simulate --scene scenes/rattleback.json > rattleback.csv");
 
   CLI::App* const poincare = app.add_subcommand("poincare", "Periodic gait of a passive walker and its eigenvalues");
   AddSceneFlags(*poincare, arguments.poincare.scene, arguments.poincare.max_wall_time_s);
-  poincare->add_option("--residual", arguments.poincare.residual, "Largest change of the state over a step, default 1e-12");
+  poincare->add_option("--residual", arguments.poincare.residual,
+                       "Largest change of the state over a step, default 1e-12");
   poincare->add_option("--max-iterations", arguments.poincare.max_iterations, "Of Newton's method, default 40");
 }
 

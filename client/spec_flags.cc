@@ -33,11 +33,16 @@ v1::CostTerm ParseCost(const std::string& cost) {
   }
   const size_t colon = cost.find(':');
   v1::CostTerm term;
-  switch (Lookup<Term>(
-      "--cost", cost.substr(0, colon),
-      {{"torque", Term::kTorque}, {"torque-rate", Term::kTorqueRate}, {"force-rate", Term::kForceRate},
-       {"work", Term::kWork}, {"muscle-work", Term::kMuscleWork}, {"time", Term::kTime}, {"effort", Term::kEffort},
-       {"passive-load", Term::kPassiveLoad}, {"acceleration", Term::kAcceleration}})) {
+  switch (Lookup<Term>("--cost", cost.substr(0, colon),
+                       {{"torque", Term::kTorque},
+                        {"torque-rate", Term::kTorqueRate},
+                        {"force-rate", Term::kForceRate},
+                        {"work", Term::kWork},
+                        {"muscle-work", Term::kMuscleWork},
+                        {"time", Term::kTime},
+                        {"effort", Term::kEffort},
+                        {"passive-load", Term::kPassiveLoad},
+                        {"acceleration", Term::kAcceleration}})) {
     case Term::kTorque:
       term.mutable_squared_torque();
       break;
@@ -82,13 +87,13 @@ void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
   if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
   if (flags.touch_down) {
-    spec.mutable_ground_contact()->set_touch_down(
-        Lookup<v1::TouchDown>("--touch-down", *flags.touch_down,
-                              {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
+    spec.mutable_ground_contact()->set_touch_down(Lookup<v1::TouchDown>(
+        "--touch-down", *flags.touch_down, {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
   }
   if (flags.allow_overlap) spec.mutable_limits()->set_allow_body_overlap(true);
   if (flags.touch_down_point) {
-    ApplyRange("--touch-down-point", *flags.touch_down_point, *spec.mutable_ground_contact()->mutable_touch_down_point());
+    ApplyRange("--touch-down-point", *flags.touch_down_point,
+               *spec.mutable_ground_contact()->mutable_touch_down_point());
   }
   if (flags.lift_off_point) {
     ApplyRange("--lift-off-point", *flags.lift_off_point, *spec.mutable_ground_contact()->mutable_lift_off_point());
@@ -103,8 +108,8 @@ void SetVector(const std::vector<double>& numbers, size_t first, v1::Vector3& ve
 
 // "X,Y" or "X,Y,A,B,C": the place, and the rotation vector (A, B, C) in degrees.
 void ApplyState(const std::string& flag, const std::string& text, v1::Manoeuvre::State& state) {
-  const std::vector<double> numbers = ParseNumbers(
-      flag, text, "X,Y in m, or X,Y,A,B,C with the orientation as a rotation vector in degrees", {2, 5});
+  const std::vector<double> numbers =
+      ParseNumbers(flag, text, "X,Y in m, or X,Y,A,B,C with the orientation as a rotation vector in degrees", {2, 5});
   state.set_x_m(numbers[0]);
   state.set_y_m(numbers[1]);
   if (numbers.size() == 2) return;
@@ -125,12 +130,13 @@ void ApplyManoeuvre(const SpecFlags& flags, v1::SolveSpec& spec) {
 
 bool HasBodyFlags(const SpecFlags& flags) {
   return flags.model || flags.sex || flags.stature_m || flags.mass_kg || flags.feet || flags.ranges || flags.toes ||
-         flags.sagittal ||
-         flags.drop_arms || flags.rigid_trunk || flags.semi_axes || !flags.locks.empty() || !flags.segments.empty();
+         flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes || !flags.locks.empty() ||
+         !flags.segments.empty();
 }
 
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
-  if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed && !flags.duty_factor) return;
+  if (!flags.speed_m_s && !flags.step_length_m && !flags.step_duration_s && !flags.free_speed && !flags.duty_factor)
+    return;
   v1::Motion& motion = *spec.mutable_motion();
   if (flags.free_speed) {
     motion.set_free_speed(true);
@@ -178,9 +184,11 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
   command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
-  command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")->group("Body");
+  command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")
+      ->group("Body");
   command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
-      ->group("Body")->take_all();
+      ->group("Body")
+      ->take_all();
   command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
   command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
@@ -188,7 +196,8 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
   command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
   command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
-      ->group("Body")->take_all();
+      ->group("Body")
+      ->take_all();
 }
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
@@ -207,24 +216,33 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
   add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
   add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");
-  add("--touch-down", flags.touch_down, "Motion", "How feet come down: smooth (at rest) or plastic (an impact stops them)");
-  add("--touch-down-point", flags.touch_down_point, "Motion", "Where a surface touches down: A or A,B from -1 (heel) to 1 (toe)");
+  add("--touch-down", flags.touch_down, "Motion",
+      "How feet come down: smooth (at rest) or plastic (an impact stops them)");
+  add("--touch-down-point", flags.touch_down_point, "Motion",
+      "Where a surface touches down: A or A,B from -1 (heel) to 1 (toe)");
   add("--lift-off-point", flags.lift_off_point, "Motion", "Where a surface lifts off, likewise");
-  command.add_flag("--allow-overlap", flags.allow_overlap, "Legs, feet and arms may pass through each other")->group("Motion");
-  add("--from", flags.from, "Manoeuvre", "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
+  command.add_flag("--allow-overlap", flags.allow_overlap, "Legs, feet and arms may pass through each other")
+      ->group("Motion");
+  add("--from", flags.from, "Manoeuvre",
+      "Where the ball starts: X,Y in m, or X,Y,A,B,C with a rotation vector in degrees");
   add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
   add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
-  add("--cost", flags.costs, "Cost", "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; may be repeated")->take_all();
+  add("--cost", flags.costs, "Cost",
+      "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; "
+      "may be repeated")
+      ->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
-  add("--warm-start", flags.warm_start, "Numerics", "Start from a stored solve, solves/ID, or from the nearest one: nearest");
+  add("--warm-start", flags.warm_start, "Numerics",
+      "Start from a stored solve, solves/ID, or from the nearest one: nearest");
   add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
   add("--accuracy", flags.accuracy, "Numerics", "draft, standard or fine");
   add("--bound", flags.bounds, "Numerics",
-      "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for example max_pull_bw=1e-4; may be repeated")
+      "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for example "
+      "max_pull_bw=1e-4; may be repeated")
       ->take_all();
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 6]");
@@ -250,14 +268,14 @@ void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
     (*selection.mutable_segment_lengths_m())[segment] = length;
   }
   if (flags.feet) {
-    selection.set_feet(Lookup<v1::ModelSelection::Feet>("--feet", *flags.feet,
-                                                        {{"one", v1::ModelSelection::FEET_ONE_ELLIPSOID},
-                                                         {"two", v1::ModelSelection::FEET_TWO_ELLIPSOIDS}}));
+    selection.set_feet(Lookup<v1::ModelSelection::Feet>(
+        "--feet", *flags.feet,
+        {{"one", v1::ModelSelection::FEET_ONE_ELLIPSOID}, {"two", v1::ModelSelection::FEET_TWO_ELLIPSOIDS}}));
   }
   if (flags.ranges) {
-    selection.set_ranges(Lookup<v1::ModelSelection::Ranges>("--ranges", *flags.ranges,
-                                                            {{"anatomical", v1::ModelSelection::RANGES_ANATOMICAL},
-                                                             {"walking", v1::ModelSelection::RANGES_WALKING}}));
+    selection.set_ranges(Lookup<v1::ModelSelection::Ranges>(
+        "--ranges", *flags.ranges,
+        {{"anatomical", v1::ModelSelection::RANGES_ANATOMICAL}, {"walking", v1::ModelSelection::RANGES_WALKING}}));
   }
   if (flags.toes) selection.set_toes(true);
   if (flags.sagittal) selection.set_sagittal(true);
@@ -287,10 +305,9 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   }
   for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
   if (flags.preset) {
-    spec.set_preset(Lookup<v1::Preset>("--preset", *flags.preset,
-                                       {{"torque", v1::PRESET_TORQUE},
-                                        {"transport", v1::PRESET_TRANSPORT},
-                                        {"human", v1::PRESET_HUMAN}}));
+    spec.set_preset(Lookup<v1::Preset>(
+        "--preset", *flags.preset,
+        {{"torque", v1::PRESET_TORQUE}, {"transport", v1::PRESET_TRANSPORT}, {"human", v1::PRESET_HUMAN}}));
   }
   if (flags.starts) spec.set_starts(*flags.starts);
   if (flags.warm_start) spec.set_warm_start(*flags.warm_start);

@@ -24,14 +24,16 @@ struct SpecFlags {
   std::optional<double> stature_m, mass_kg, slope_deg, speed_m_s, step_length_m, step_duration_s;
   std::optional<std::string> from, to, semi_axes;  // "X,Y[,A,B,C]" in m and degrees, "A,B,C" in m
   std::optional<double> duration_s;
-  std::optional<std::string> touch_down, touch_down_point, lift_off_point;  // a word; "A" or "A,B" from heel -1 to toe 1
+  std::optional<std::string> touch_down, touch_down_point,
+      lift_off_point;  // a word; "A" or "A,B" from heel -1 to toe 1
   std::optional<double> friction, clearance_m, tolerance, time_limit_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
   std::optional<std::string> feet, ranges;
-  bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false, rigid_trunk = false;
+  bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false,
+       rigid_trunk = false;
   std::vector<std::string> locks, segments;  // "knee_l=20" in degrees, "thigh=0.45" in m
-  std::vector<std::string> costs;  // "torque", "work:0.5" …
-  std::vector<std::string> bounds;  // "max_pull_bw=1e-4" …
+  std::vector<std::string> costs;            // "torque", "work:0.5" …
+  std::vector<std::string> bounds;           // "max_pull_bw=1e-4" …
 };
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags);

@@ -53,7 +53,8 @@ Rows ManoeuvreRows(const v1::Solve& solve) {
     const RollingPath::Sample& at = path.samples[k];
     couple = std::max(couple, at.couple_n_m);
     if (k == 0) continue;
-    length += std::hypot(at.contact_x_m - path.samples[k - 1].contact_x_m, at.contact_y_m - path.samples[k - 1].contact_y_m);
+    length +=
+        std::hypot(at.contact_x_m - path.samples[k - 1].contact_x_m, at.contact_y_m - path.samples[k - 1].contact_y_m);
   }
   rows.push_back({"  path of the contact point", FormatNumber(length), "m"});
   rows.push_back({"  largest couple", FormatNumber(couple), "N m"});
@@ -78,7 +79,8 @@ Rows AccuracyRows(const v1::Solve& solve, bool color) {
   for (const AccuracyLine& line : AccuracyLines(solve)) {
     std::string bound;
     if (line.bound) {
-      bound = Paint(line.exceeded ? "exceeds " : "≤ ", line.exceeded ? Tone::kBad : Tone::kGood, color) + FormatNumber(*line.bound);
+      bound = Paint(line.exceeded ? "exceeds " : "≤ ", line.exceeded ? Tone::kBad : Tone::kGood, color) +
+              FormatNumber(*line.bound);
     }
     std::string note = bound + (bound.empty() || line.where.empty() ? "" : "; ") + line.where;
     rows.push_back({"  " + line.name, FormatNumber(line.value, 3), line.unit, note});
@@ -112,8 +114,7 @@ std::string EffortLine(const v1::Solve& solve) {
   return "\n" + std::to_string(iterations) + " iterations on " + std::to_string(result.meshes_size()) +
          (result.meshes_size() == 1 ? " mesh, " : " meshes, ") + FormatDuration(result.wall_time_s()) + " wall, " +
          FormatDuration(result.cpu_time_s()) + " CPU, " +
-         FormatNumber(static_cast<double>(result.peak_memory_bytes()) / 1048576.0, 3) + " MiB" +
-         StartNote(result) +
+         FormatNumber(static_cast<double>(result.peak_memory_bytes()) / 1048576.0, 3) + " MiB" + StartNote(result) +
          (solve.from_cache() ? "; answered from an earlier, equal request" : "") + "\n";
 }
 

@@ -12,7 +12,8 @@ namespace rollgait::client {
 // met. Colours only if `color`. Works for every state.
 std::string Summarize(const v1::Solve& solve, bool color);
 
-// One sentence on how the solve stands: "optimal, accuracy within the requested bounds: …", "failed (crash): …", "running".
+// One sentence on how the solve stands: "optimal, accuracy within the requested bounds: …", "failed (crash): …",
+// "running".
 std::string Verdict(const v1::Solve& solve);
 
 }  // namespace rollgait::client

@@ -73,15 +73,20 @@ std::string Sibling(const std::string& name) { return Folder() + "/" + name; }
 
 void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--data-dir", flags.data_dir, "Directory of the store; made if need be")->required();
-  app.add_option("--store", flags.store,
-                 "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir; agents may be elsewhere")
+  app.add_option(
+         "--store", flags.store,
+         "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir; agents may be elsewhere")
       ->envname(kStoreVariable);
-  app.add_option("--store-wait-s", flags.store_wait_s, kStoreWaitHelp)->check(CLI::Range(0, 86400))->capture_default_str();
+  app.add_option("--store-wait-s", flags.store_wait_s, kStoreWaitHelp)
+      ->check(CLI::Range(0, 86400))
+      ->capture_default_str();
   app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
       ->capture_default_str();
   app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
   AddAccessFlags(app, flags.access);
-  app.add_option("--solver-slots", flags.solver_slots, "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
+  app.add_option(
+         "--solver-slots", flags.solver_slots,
+         "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
       ->check(CLI::Range(0, 1024));
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
   auto* solver = app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
@@ -104,7 +109,8 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_flag("--unconfined-solver", flags.unconfined_solver, kUnconfinedHelp);
   app.add_option("--metrics-listen", flags.metrics_listen,
                  "HOST:PORT for GET /metrics (Prometheus), without encryption or authentication; default: off");
-  app.add_option("--agent-metrics-listen", flags.agent_metrics_listen, "The same for the agent that this server starts");
+  app.add_option("--agent-metrics-listen", flags.agent_metrics_listen,
+                 "The same for the agent that this server starts");
   app.add_option("--log-format", flags.log_format, "auto (text on a terminal, else JSON), json or text")
       ->check(CLI::IsMember(LogFormatWishes()))
       ->capture_default_str();
@@ -119,7 +125,8 @@ void AddRetentionFlags(CLI::App& app, Flags& flags) {
     app.add_option(name, value, text)->check(CLI::Range(0.0, 1e9))->capture_default_str();
   };
   add("--keep-solves-days", flags.keep_solves_days, "Days after its end that a solve is deleted; 0: never");
-  add("--keep-solves-mb", flags.keep_solves_mb, "MiB of finished solves above which the oldest are deleted; 0: no limit");
+  add("--keep-solves-mb", flags.keep_solves_mb,
+      "MiB of finished solves above which the oldest are deleted; 0: no limit");
   add("--keep-events-days", flags.keep_events_days,
       "Days after the end of a solve that its event log is reduced to the terminal event; 0: never");
   add("--keep-audit-days", flags.keep_audit_days, "Days that audit rows are kept; 0: for ever");
@@ -183,11 +190,21 @@ int SolverSlots(const Flags& flags, const StoreLocation& location) {
 }
 
 // The agent finds a PostgreSQL URL in its environment: its command line is for everybody to read.
-Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, const std::string& directory, int slots) {
+Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, const std::string& directory,
+                                 int slots) {
   Supervisor::Options options;
   options.name = "rollgait-agent";
-  options.arguments = {flags.agent, flags.store.empty() ? "--data-dir" : "--work-dir", directory, "--slots", std::to_string(slots),
-                       "--solver",  solver, "--log-format", flags.log_format, "--log-level", flags.log_level};
+  options.arguments = {flags.agent,
+                       flags.store.empty() ? "--data-dir" : "--work-dir",
+                       directory,
+                       "--slots",
+                       std::to_string(slots),
+                       "--solver",
+                       solver,
+                       "--log-format",
+                       flags.log_format,
+                       "--log-level",
+                       flags.log_level};
   if (!flags.agent_metrics_listen.empty()) {
     options.arguments.insert(options.arguments.end(), {"--metrics-listen", flags.agent_metrics_listen});
   }
@@ -227,12 +244,12 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   if (location.value().is_postgres()) setenv(kStoreVariable, flags.store.c_str(), 1);
   const int solver_slots = SolverSlots(flags, location.value());
   bool stopped = false;
-  const auto store =
-      AwaitStore(location.value(), clock, std::chrono::seconds(flags.store_wait_s), [&](std::chrono::milliseconds time) {
-        const timespec limit{time.count() / 1000, time.count() % 1000 * 1'000'000};
-        stopped = sigtimedwait(&end_signals, nullptr, &limit) > 0;
-        return !stopped;
-      });
+  const auto store = AwaitStore(location.value(), clock, std::chrono::seconds(flags.store_wait_s),
+                                [&](std::chrono::milliseconds time) {
+                                  const timespec limit{time.count() / 1000, time.count() % 1000 * 1'000'000};
+                                  stopped = sigtimedwait(&end_signals, nullptr, &limit) > 0;
+                                  return !stopped;
+                                });
   if (stopped) return 0;
   if (!store.ok()) return Fail(store.error().message);
   Metrics metrics("rollgaitd", RollgaitVersion(), SolverBuild(solver.value().set));
@@ -299,7 +316,8 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
 int Main(int argc, char** argv) {
   Flags flags;
   if (const std::optional<int> code = RunAccessCommand(argc, argv)) return *code;
-  CLI::App app("Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help.", "rollgaitd");
+  CLI::App app("Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help.",
+               "rollgaitd");
   AddFlags(app, flags);
   AddRetentionFlags(app, flags);
   CLI11_PARSE(app, argc, argv);
@@ -309,9 +327,9 @@ int Main(int argc, char** argv) {
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
   if (!IsLoopback(flags.listen) && flags.access.tls.cert.empty() && !flags.insecure_listen) {
-    return Fail("--listen " + flags.listen +
-                " is not a loopback address and this server speaks plain text: anyone on the " +
-                "network could read and use it. Give --tls-cert and --tls-key, listen on 127.0.0.1, or say --insecure-listen");
+    return Fail(
+        "--listen " + flags.listen + " is not a loopback address and this server speaks plain text: anyone on the " +
+        "network could read and use it. Give --tls-cert and --tls-key, listen on 127.0.0.1, or say --insecure-listen");
   }
   if (!IsLoopback(flags.listen) && !flags.access.asks_who_calls() && flags.access.tls.client_ca.empty()) {
     spdlog::warn("everyone who reaches {} may use this server: give --require-token or --tls-client-ca", flags.listen);

@@ -32,10 +32,12 @@ std::string Guards(const TargetOptions& target) {
 void AddFlags(CLI::App& app, LoadOptions& options) {
   CLI::Option* const target = app.add_option(
       "--target", options.target.address,
-      "HOST:PORT of a running server; default: a rollgaitd of this build in a temporary directory, with a certificate and a "
+      "HOST:PORT of a running server; default: a rollgaitd of this build in a temporary directory, with a certificate "
+      "and a "
       "token of its own. Scenarios that need a server of a certain size (queue, slots) expect it to be so");
   app.add_option("--tls-ca", options.target.tls_ca, "Certificates to trust, PEM: speak TLS to --target")->needs(target);
-  app.add_option("--token-file", options.target.token_file, "File whose first line is a bearer token for --target")->needs(target);
+  app.add_option("--token-file", options.target.token_file, "File whose first line is a bearer token for --target")
+      ->needs(target);
   app.add_flag("--plain-text", options.target.plain_text, "Start the server without TLS and tokens; default: with both")
       ->excludes(target);
   app.add_option("--solver", options.target.solver, "Path of rollgait-solve for the server that is started");

@@ -58,7 +58,8 @@ void Target::Start(const TargetOptions& options) {
   address_ = daemon_->address();
   if (address_.empty()) throw std::runtime_error("rollgaitd did not start; its reason is above");
   if (options.plain_text) return;
-  token_ = server::OutputOfRollgaitd("token create --data-dir " + daemon.data_dir + " --tenant load --scopes read,solve");
+  token_ =
+      server::OutputOfRollgaitd("token create --data-dir " + daemon.data_dir + " --tenant load --scopes read,solve");
 }
 
 std::shared_ptr<grpc::Channel> Target::Open(Windows windows) const {

@@ -19,17 +19,18 @@ namespace rollgait::load {
 using Stub = v1::GaitService::Stub;
 
 struct TargetOptions {
-  std::string address;     // HOST:PORT of a running server; empty: one is started
-  std::string tls_ca;      // file; empty: plain text to a running server
-  std::string token_file;  // first line is the token for a running server; empty: none
+  std::string address;      // HOST:PORT of a running server; empty: one is started
+  std::string tls_ca;       // file; empty: plain text to a running server
+  std::string token_file;   // first line is the token for a running server; empty: none
   bool plain_text = false;  // the server that is started speaks no TLS and asks for no token
   int solver_slots = 2;
   std::string solver;              // path; empty: that of the build
   std::vector<std::string> flags;  // more of them, for the server that is started
 };
 
-// The server that is measured: a running one, or a rollgaitd of this build in a temporary directory, with a certificate and a
-// token of its own, which ends with the target. Throws std::runtime_error with a sentence where there is none to talk to.
+// The server that is measured: a running one, or a rollgaitd of this build in a temporary directory, with a certificate
+// and a token of its own, which ends with the target. Throws std::runtime_error with a sentence where there is none to
+// talk to.
 class Target {
  public:
   explicit Target(const TargetOptions& options);

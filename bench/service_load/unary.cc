@@ -145,7 +145,8 @@ Finished ReadOnce(const Target& target, grpc::GenericStub& stub, const std::stri
   if (!status.ok()) throw std::runtime_error("a solve cannot be read: " + status.error_message());
   std::vector<grpc::Slice> slices;
   if (!call.response.Dump(&slices).ok()) throw std::runtime_error("an answer cannot be read");
-  for (const grpc::Slice& slice : slices) finished.answer.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+  for (const grpc::Slice& slice : slices)
+    finished.answer.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
   v1::Solve solve;
   if (!solve.ParseFromString(finished.answer) || solve.name() != name || !solve.has_result())
     throw std::runtime_error("the answer about " + name + " is not that solve with its result");
@@ -157,7 +158,8 @@ bool IsSame(const grpc::ByteBuffer& answer, const std::string& bytes) {
   if (!answer.Dump(&slices).ok()) return false;
   size_t at = 0;
   for (const grpc::Slice& slice : slices) {
-    if (slice.size() > bytes.size() - at || std::memcmp(slice.begin(), bytes.data() + at, slice.size()) != 0) return false;
+    if (slice.size() > bytes.size() - at || std::memcmp(slice.begin(), bytes.data() + at, slice.size()) != 0)
+      return false;
     at += slice.size();
   }
   return at == bytes.size();
@@ -184,11 +186,12 @@ Row ResultsScenario(const LoadOptions& options) {
     call->context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
     const Finished& solve = solves[static_cast<size_t>(number) % solves.size()];
     grpc::GenericStub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
-    stub.UnaryCall(&call->context, kGetSolve, {}, &solve.request, &call->response, [&, call, done](const grpc::Status& status) {
-      if (status.ok() && !IsSame(call->response, solve.answer)) ++wrong;
-      bytes += static_cast<int64_t>(call->response.Length());
-      done(status.error_code());
-    });
+    stub.UnaryCall(&call->context, kGetSolve, {}, &solve.request, &call->response,
+                   [&, call, done](const grpc::Status& status) {
+                     if (status.ok() && !IsSame(call->response, solve.answer)) ++wrong;
+                     bytes += static_cast<int64_t>(call->response.Length());
+                     done(status.error_code());
+                   });
   });
   Row row{"results from the store", "≥ 2000/s, p99 ≤ 50 ms", "", false, {}};
   Judge(run, grpc::StatusCode::OK, rate, busy == nullptr || busy->StillBusy(), &row);

@@ -14,8 +14,9 @@ namespace {
 
 std::string Text(const Excess& excess) {
   char text[400];
-  std::snprintf(text, sizeof text, "%s = %.3g, %.3g times its bound (%s, phase %d, %.4f s)", TraitsOf(excess.criterion).field,
-                excess.finding.value, excess.ratio(), excess.finding.where.c_str(), excess.finding.phase, excess.finding.time);
+  std::snprintf(text, sizeof text, "%s = %.3g, %.3g times its bound (%s, phase %d, %.4f s)",
+                TraitsOf(excess.criterion).field, excess.finding.value, excess.ratio(), excess.finding.where.c_str(),
+                excess.finding.phase, excess.finding.time);
   return text;
 }
 
@@ -24,7 +25,8 @@ std::string Text(const Excess& excess) {
 double Audit::Ratio(Criterion* worst) const {
   double largest = 0;
   for (const CriterionTraits& traits : Criteria()) {
-    const double ratio = bounds[traits.criterion] == kInfinity ? 0 : second[traits.criterion] / bounds[traits.criterion];
+    const double ratio =
+        bounds[traits.criterion] == kInfinity ? 0 : second[traits.criterion] / bounds[traits.criterion];
     if (ratio <= largest) continue;
     largest = ratio;
     *worst = traits.criterion;
@@ -48,9 +50,9 @@ Audit Judge(const DrawnRequest& drawn) {
     audit.why = solution.message;
     return audit;
   }
-  audit.end = solution.verdict.kind == Verdict::Kind::kWithin      ? Audit::End::kWithin
+  audit.end = solution.verdict.kind == Verdict::Kind::kWithin     ? Audit::End::kWithin
               : solution.verdict.kind == Verdict::Kind::kExceeded ? Audit::End::kExceeded
-                                                                   : Audit::End::kNotJudged;
+                                                                  : Audit::End::kNotJudged;
   for (const Excess& excess : solution.verdict.excesses) audit.why += (audit.why.empty() ? "" : "; ") + Text(excess);
   for (const CriterionTraits& traits : Criteria()) {
     audit.first[traits.criterion] = solution.accuracy->findings[static_cast<size_t>(traits.criterion)].value;

@@ -13,11 +13,11 @@ struct Audit {
   // kNoSolution: refused, infeasible, not converged, or the process died.
   enum class End { kWithin, kExceeded, kNotJudged, kNoSolution };
   End end = End::kNoSolution;
-  std::string why;             // exceeded: criterion, measure, place; no solution: the reason
-  double cpu = 0;              // s
-  CriterionValues first;       // measures of the two judges; zero without a solution
+  std::string why;        // exceeded: criterion, measure, place; no solution: the reason
+  double cpu = 0;         // s
+  CriterionValues first;  // measures of the two judges; zero without a solution
   CriterionValues second;
-  CriterionValues bounds;      // infinite: none
+  CriterionValues bounds;  // infinite: none
   // The second judge's largest measure over its bound, and whose it is. Zero without bounds.
   double Ratio(Criterion* worst) const;
 };

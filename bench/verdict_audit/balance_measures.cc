@@ -11,8 +11,8 @@ namespace {
 
 // What the efforts, each by itself, and the ground do over an interval, by Simpson's rule over the instants.
 struct Work {
-  double positive = 0, negative = 0;     // J
-  Vector3 impulse = Vector3::Zero();     // N s, of the contact forces
+  double positive = 0, negative = 0;  // J
+  Vector3 impulse = Vector3::Zero();  // N s, of the contact forces
 };
 
 void AddInterval(const Model& model, const IntervalMotion& interval, Work* work) {
@@ -47,7 +47,8 @@ void MeasureBalances(const GaitSpec& spec, const Trajectory& trajectory, Measure
   const TrajectoryPhase &first = trajectory.phases.front(), &last = trajectory.phases.back();
   const auto start = Poses(model, first.node_positions.col(0), first.node_velocities.col(0));
   const auto end = Poses(model, last.node_positions.rightCols(1), last.node_velocities.rightCols(1));
-  const double energy = Energy(model, end, spec.gravity) - Energy(model, start, spec.gravity) + loss - work.positive - work.negative;
+  const double energy =
+      Energy(model, end, spec.gravity) - Energy(model, start, spec.gravity) + loss - work.positive - work.negative;
   measures->Raise(Criterion::kEnergy, std::abs(energy) / std::max(work.positive, -work.negative));
   const double duration = last.node_times.back() - first.node_times.front();
   const Vector3 change = Momentum(model, end) - Momentum(model, start);

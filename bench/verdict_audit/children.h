@@ -7,8 +7,8 @@
 
 namespace rollgait::audit {
 
-// Calls work(i) for i in [0, count), each in a child process, `jobs` of them at a time, and done(i, text) in this one with what work
-// returned, or with an empty text if the child died; in the order in which they end.
+// Calls work(i) for i in [0, count), each in a child process, `jobs` of them at a time, and done(i, text) in this one
+// with what work returned, or with an empty text if the child died; in the order in which they end.
 void RunInChildren(int count, int jobs, const std::function<std::string(int)>& work,
                    const std::function<void(int, const std::string&)>& done);
 

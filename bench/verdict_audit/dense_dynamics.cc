@@ -10,11 +10,11 @@
 namespace rollgait::audit {
 namespace {
 
-// rad or m; the change of J along the motion is differenced over twice this: errors of 1e-10 and 1e-11 of it from truncation and
-// rounding.
+// rad or m; the change of J along the motion is differenced over twice this: errors of 1e-10 and 1e-11 of it from
+// truncation and rounding.
 constexpr double kDifference = 1e-5;
-// Rows whose eigenvalues are below this share of the largest depend on each other: rounding leaves 1e-16, two surfaces of one foot
-// that are 1 mm apart 1e-5.
+// Rows whose eigenvalues are below this share of the largest depend on each other: rounding leaves 1e-16, two surfaces
+// of one foot that are 1 mm apart 1e-5.
 constexpr double kRankTolerance = 1e-10;
 
 // Forces or impulses of least norm for accelerations or velocities of the contacts.
@@ -80,7 +80,8 @@ DenseDynamics::Answer DenseDynamics::Evaluate(const VectorX& q, const VectorX& v
   tree_.Update(q.data(), v.data(), at_rest.data(), gravity_);
   tree_.InverseDynamics(force.data());
   force = -force;
-  for (size_t a = 0; a < model.actuated().size(); ++a) force[model.actuated()[a]] += efforts[static_cast<Eigen::Index>(a)];
+  for (size_t a = 0; a < model.actuated().size(); ++a)
+    force[model.actuated()[a]] += efforts[static_cast<Eigen::Index>(a)];
   Answer answer;
   answer.acceleration = factor.solve(force);
   if (contacts_.empty()) return answer;
@@ -94,7 +95,8 @@ DenseDynamics::Answer DenseDynamics::Evaluate(const VectorX& q, const VectorX& v
   int row = 0;
   for (const int c : contacts_) {
     Vector3 contact_force = Vector3::Zero();
-    for (const int direction : scene_.contacts[static_cast<size_t>(c)].directions) contact_force[direction] = rows[row++];
+    for (const int direction : scene_.contacts[static_cast<size_t>(c)].directions)
+      contact_force[direction] = rows[row++];
     answer.forces.push_back(contact_force);
   }
   return answer;
@@ -110,7 +112,8 @@ DenseDynamics::State DenseDynamics::Step(const State& state, const IntervalMotio
   const VectorX a3 = Evaluate(state.q + h / 2 * v2, v3, middle).acceleration;
   const VectorX v4 = state.v + h * a3;
   const VectorX a4 = Evaluate(state.q + h * v3, v4, interval.Efforts(theta + delta)).acceleration;
-  return {state.q + h / 6 * (state.v + 2 * v2 + 2 * v3 + v4), state.v + h / 6 * (first.acceleration + 2 * a2 + 2 * a3 + a4)};
+  return {state.q + h / 6 * (state.v + 2 * v2 + 2 * v3 + v4),
+          state.v + h / 6 * (first.acceleration + 2 * a2 + 2 * a3 + a4)};
 }
 
 }  // namespace rollgait::audit

@@ -1,4 +1,5 @@
-// Forward dynamics of a phase for the audit: the mass matrix and the bias of core/multibody, all else dense and its own.
+// Forward dynamics of a phase for the audit: the mass matrix and the bias of core/multibody, all else dense and its
+// own.
 #ifndef ROLLGAIT_BENCH_VERDICT_AUDIT_DENSE_DYNAMICS_H_
 #define ROLLGAIT_BENCH_VERDICT_AUDIT_DENSE_DYNAMICS_H_
 
@@ -10,8 +11,8 @@
 
 namespace rollgait::audit {
 
-// The efforts move the tree while its active contacts roll: M a + b = S τ + Jᵀ λ, d/dt(J v) = 0. The term of J's own change is a
-// central difference along the motion. Of redundant contacts the forces are those of least norm.
+// The efforts move the tree while its active contacts roll: M a + b = S τ + Jᵀ λ, d/dt(J v) = 0. The term of J's own
+// change is a central difference along the motion. Of redundant contacts the forces are those of least norm.
 class DenseDynamics {
  public:
   DenseDynamics(const Scene& scene, std::vector<int> contacts, const Vector3& gravity);
@@ -33,8 +34,8 @@ class DenseDynamics {
   struct State {
     VectorX q, v;
   };
-  // One step of the classical Runge–Kutta method over the fractions from θ to θ + δ of an interval. `first` is the answer at the
-  // start, which is known already.
+  // One step of the classical Runge–Kutta method over the fractions from θ to θ + δ of an interval. `first` is the
+  // answer at the start, which is known already.
   State Step(const State& state, const IntervalMotion& interval, double theta, double delta, const Answer& first);
 
  private:

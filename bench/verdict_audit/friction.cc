@@ -8,7 +8,9 @@
 namespace rollgait::audit {
 namespace {
 
-double Ratio(const Vector3& force, double floor) { return std::hypot(force.x(), force.y()) / std::max(force.z(), floor); }
+double Ratio(const Vector3& force, double floor) {
+  return std::hypot(force.x(), force.y()) / std::max(force.z(), floor);
+}
 
 // The ratio is a largest of convex functions of the internal force, so a golden-section search finds its least value.
 double LeastRatioOfTwo(const Vector3& line, const Vector3& first, const Vector3& second, double floor) {

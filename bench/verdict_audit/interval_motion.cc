@@ -36,7 +36,8 @@ VectorX IntervalMotion::Velocity(double theta) const {
 
 VectorX IntervalMotion::Position(double theta) const {
   VectorX integral = Powers(theta, acceleration_.cols());
-  for (Eigen::Index i = 0; i < integral.size(); ++i) integral[i] *= theta * theta / static_cast<double>((i + 1) * (i + 2));
+  for (Eigen::Index i = 0; i < integral.size(); ++i)
+    integral[i] *= theta * theta / static_cast<double>((i + 1) * (i + 2));
   return position_ + length_ * theta * velocity_ + length_ * length_ * (acceleration_ * integral);
 }
 

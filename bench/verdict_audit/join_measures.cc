@@ -10,8 +10,8 @@
 namespace rollgait::audit {
 namespace {
 
-
-// A state as the next cycle begins with it: mirrored where the trajectory is half a cycle, and moved back by the displacement.
+// A state as the next cycle begins with it: mirrored where the trajectory is half a cycle, and moved back by the
+// displacement.
 struct End {
   VectorX q, v;
 };
@@ -48,7 +48,8 @@ Before BeforePhase(const Scene& scene, const Trajectory& trajectory, size_t p) {
   return before;
 }
 
-// The impact must be the plastic one of all contacts of the phase, and its impulses must push and lie in the friction cone.
+// The impact must be the plastic one of all contacts of the phase, and its impulses must push and lie in the friction
+// cone.
 void MeasureImpact(const GaitSpec& spec, const TrajectoryPhase& phase, const VectorX& v_before, Measures* measures) {
   const VectorX q = phase.node_positions.col(0), v = phase.node_velocities.col(0);
   const DenseDynamics::Impact impact = DenseDynamics(spec.scene, phase.contacts, spec.gravity).Stop(q, v_before);

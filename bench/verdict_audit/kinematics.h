@@ -12,9 +12,9 @@ namespace rollgait::audit {
 // Where a link is and how it moves, world axes.
 struct LinkPose {
   Matrix3 R_WL;
-  Vector3 p_WL;         // m, origin
-  Vector3 axis;         // of its joint, unit
-  Vector3 w_WL, v_WL;   // rad/s; m/s, of the origin
+  Vector3 p_WL;        // m, origin
+  Vector3 axis;        // of its joint, unit
+  Vector3 w_WL, v_WL;  // rad/s; m/s, of the origin
 };
 
 // Of every link at positions q and velocities v (one number a joint each). Contract: no free joints.

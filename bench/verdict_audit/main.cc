@@ -1,8 +1,9 @@
 // Whether verdicts are true: draws requests, solves each, and judges every trajectory a second time by code of its own.
 //   verdict_audit --requests 300 --seed 1 [--level draft|standard|fine|any] [--jobs 1] [--time-limit 60]
 //   verdict_audit --seed 1 --only 17 [...]      one request, with the measures of both judges
-// Prints a table of verdicts, what was exceeded, and for each criterion the largest measure over its bound that the second judge found
-// among the trajectories that are WITHIN. Above 1.01 is a false WITHIN: exit code 1. A request that cannot be read: 2.
+// Prints a table of verdicts, what was exceeded, and for each criterion the largest measure over its bound that the
+// second judge found among the trajectories that are WITHIN. Above 1.01 is a false WITHIN: exit code 1. A request that
+// cannot be read: 2.
 
 #include <cstdio>
 #include <cstdlib>
@@ -74,7 +75,8 @@ class Report {
     Row& group = groups_[drawn.group];
     ++group.ends[audit.end];
     ++all_.ends[audit.end];
-    std::string line = "#" + std::to_string(number) + " " + Name(audit.end) + (audit.why.empty() ? "" : ": " + audit.why) + "\n  " + drawn.command;
+    std::string line = "#" + std::to_string(number) + " " + Name(audit.end) +
+                       (audit.why.empty() ? "" : ": " + audit.why) + "\n  " + drawn.command;
     std::printf("%s\n", line.c_str());
     if (audit.end == Audit::End::kExceeded) exceeded_.push_back(line);
     if (audit.end == Audit::End::kNoSolution) unsolved_.push_back(line);
@@ -97,7 +99,8 @@ class Report {
 
   // The exit code.
   int Print() const {
-    std::printf("\n| %-36s | number | within | exceeded | not judged | no solution |\n|---|---|---|---|---|---|\n", "group");
+    std::printf("\n| %-36s | number | within | exceeded | not judged | no solution |\n|---|---|---|---|---|---|\n",
+                "group");
     for (const auto& [name, row] : groups_) PrintRow(name, row);
     PrintRow("all", all_);
     PrintList("Exceeded", exceeded_);
@@ -108,7 +111,8 @@ class Report {
                   static_cast<int>(worst_number_[traits.criterion]));
     }
     PrintList("FALSE WITHIN", false_);
-    std::printf("%zu false WITHIN of %d\n", false_.size(), all_.ends.contains(Audit::End::kWithin) ? all_.ends.at(Audit::End::kWithin) : 0);
+    std::printf("%zu false WITHIN of %d\n", false_.size(),
+                all_.ends.contains(Audit::End::kWithin) ? all_.ends.at(Audit::End::kWithin) : 0);
     return false_.empty() ? 0 : 1;
   }
 
@@ -140,13 +144,20 @@ Options Parse(int argc, char** argv) {
     const std::string flag = argv[i];
     if (i + 1 >= argc) Refuse(flag + " takes a value");
     const std::string value = argv[i + 1];
-    if (flag == "--level" && levels.contains(value)) options.draw.level = levels.at(value);
-    else if (flag == "--requests") options.requests = std::stoi(value);
-    else if (flag == "--seed") options.draw.seed = std::stoull(value);
-    else if (flag == "--jobs") options.jobs = std::stoi(value);
-    else if (flag == "--only") options.only = std::stoi(value);
-    else if (flag == "--time-limit") options.draw.time_limit = std::stod(value);
-    else Refuse("cannot read " + flag + " " + value);
+    if (flag == "--level" && levels.contains(value))
+      options.draw.level = levels.at(value);
+    else if (flag == "--requests")
+      options.requests = std::stoi(value);
+    else if (flag == "--seed")
+      options.draw.seed = std::stoull(value);
+    else if (flag == "--jobs")
+      options.jobs = std::stoi(value);
+    else if (flag == "--only")
+      options.only = std::stoi(value);
+    else if (flag == "--time-limit")
+      options.draw.time_limit = std::stod(value);
+    else
+      Refuse("cannot read " + flag + " " + value);
   }
   if (options.requests < 1 || options.jobs < 1) Refuse("--requests and --jobs are at least 1");
   return options;

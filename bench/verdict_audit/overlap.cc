@@ -19,7 +19,8 @@ double Gap(const WorldEllipsoid& first, const WorldEllipsoid& second, const Vect
   return nu.dot(second.center - first.center) - Support(first, nu) - Support(second, nu);
 }
 
-// Compass search on the sphere for the largest gap: tries turns in four directions and halves them where none is better.
+// Compass search on the sphere for the largest gap: tries turns in four directions and halves them where none is
+// better.
 double Climb(const WorldEllipsoid& first, const WorldEllipsoid& second, Vector3* nu) {
   double best = Gap(first, second, *nu);
   for (double turn = 0.2; turn > 1e-9 && best <= 0;) {

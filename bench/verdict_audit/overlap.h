@@ -12,8 +12,8 @@ struct WorldEllipsoid {
   Vector3 semi_axes;  // m
 };
 
-// The depth of the overlap, m: how far one must be moved at least to part from the other; 0 if they do not overlap. `direction` (unit)
-// is where the search starts and gets where it ended: the next instant starts there.
+// The depth of the overlap, m: how far one must be moved at least to part from the other; 0 if they do not overlap.
+// `direction` (unit) is where the search starts and gets where it ended: the next instant starts there.
 double Overlap(const WorldEllipsoid& first, const WorldEllipsoid& second, Vector3* direction);
 
 }  // namespace rollgait::audit

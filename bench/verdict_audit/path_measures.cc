@@ -28,11 +28,13 @@ void MeasureLimits(const Model& model, const VectorX& q, const VectorX& v, const
   }
 }
 
-void MeasureContacts(const Scene& scene, const TrajectoryPhase& phase, const std::vector<LinkPose>& poses, Measures* measures) {
+void MeasureContacts(const Scene& scene, const TrajectoryPhase& phase, const std::vector<LinkPose>& poses,
+                     Measures* measures) {
   for (size_t c = 0; c < scene.contacts.size(); ++c) {
     const ContactSurface& contact = scene.contacts[c];
     const LowestPoint lowest = FindLowestPoint(contact, poses);
-    const bool active = std::find(phase.contacts.begin(), phase.contacts.end(), static_cast<int>(c)) != phase.contacts.end();
+    const bool active =
+        std::find(phase.contacts.begin(), phase.contacts.end(), static_cast<int>(c)) != phase.contacts.end();
     if (!active) {
       measures->Raise(Criterion::kPenetration, -lowest.point.z());
       continue;

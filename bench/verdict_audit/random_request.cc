@@ -21,7 +21,9 @@ class Generator {
   double Share() { return static_cast<double>(Next() >> 11) * 0x1p-53; }  // [0, 1)
   bool Chance(double probability) { return Share() < probability; }
   // Within the range, rounded to a multiple of `step` so that the command can be repeated exactly.
-  double Between(double low, double high, double step) { return std::round((low + (high - low) * Share()) / step) * step; }
+  double Between(double low, double high, double step) {
+    return std::round((low + (high - low) * Share()) / step) * step;
+  }
 
  private:
   uint64_t state_;
@@ -106,11 +108,15 @@ void DrawMotion(Draft* draft) {
 void DrawNumerics(const DrawOptions& options, Draft* draft) {
   GaitRequest& request = draft->request;
   const double scheme = draft->random.Share();
-  request.discretization.scheme = scheme < 0.6 ? Scheme::kRadau2 : scheme < 0.8 ? Scheme::kRadau3 : Scheme::kHermiteSimpson;
+  request.discretization.scheme = scheme < 0.6   ? Scheme::kRadau2
+                                  : scheme < 0.8 ? Scheme::kRadau3
+                                                 : Scheme::kHermiteSimpson;
   draft->Flag(scheme < 0.6 ? "--scheme radau2" : scheme < 0.8 ? "--scheme radau3" : "--scheme hermite-simpson");
   using Level = GaitRequest::AccuracyLevel;
   const double level = draft->random.Share();  // drawn also where it is given, so that all else is the same
-  request.accuracy.level = options.level.value_or(level < 0.15 ? Level::kDraft : level < 0.8 ? Level::kStandard : Level::kFine);
+  request.accuracy.level = options.level.value_or(level < 0.15  ? Level::kDraft
+                                                  : level < 0.8 ? Level::kStandard
+                                                                : Level::kFine);
   draft->Flag(request.accuracy.level == Level::kDraft      ? "--accuracy draft"
               : request.accuracy.level == Level::kStandard ? "--accuracy standard"
                                                            : "--accuracy fine");
@@ -122,7 +128,8 @@ void DrawNumerics(const DrawOptions& options, Draft* draft) {
 
 DrawnRequest Draw(const DrawOptions& options, int number) {
   Generator seeds(options.seed);
-  const uint64_t stream = seeds.Next() + static_cast<uint64_t>(number) * 0xd1342543de82ef95u;  // an odd constant: all differ
+  const uint64_t stream =
+      seeds.Next() + static_cast<uint64_t>(number) * 0xd1342543de82ef95u;  // an odd constant: all differ
   Draft draft{Generator(stream)};
   draft.command = "rollgait solve";
   DrawModel(&draft);

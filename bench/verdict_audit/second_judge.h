@@ -11,8 +11,8 @@ namespace rollgait::audit {
 // Instants of an interval besides its start at which everything is measured, and steps of its re-integration.
 inline constexpr int kInstants = 40;
 
-// The largest measure of each criterion at these instants: a measure of the first judge, who looks at every instant, may be larger,
-// but not smaller. Contract: a gait of `spec`.
+// The largest measure of each criterion at these instants: a measure of the first judge, who looks at every instant,
+// may be larger, but not smaller. Contract: a gait of `spec`.
 CriterionValues MeasureTrajectory(const GaitSpec& spec, const Trajectory& trajectory);
 
 }  // namespace rollgait::audit

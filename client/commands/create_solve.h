@@ -10,8 +10,8 @@ namespace rollgait::client {
 // An id that no other request has, so that a creation whose answer was lost can be repeated.
 std::string RandomRequestId();
 
-// Creates the solve, or validates the request if it asks for that. A connection that breaks after the request was sent is
-// tried once more: the request id makes that safe. Throws Failure.
+// Creates the solve, or validates the request if it asks for that. A connection that breaks after the request was sent
+// is tried once more: the request id makes that safe. Throws Failure.
 v1::Solve CreateSolve(Connection& connection, const v1::CreateSolveRequest& request);
 
 }  // namespace rollgait::client

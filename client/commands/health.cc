@@ -43,7 +43,8 @@ std::string Check(const Connection& connection) {
 ExitCode RunHealth(const GlobalOptions& global, const Terminal& terminal) {
   const Connection connection(global);
   if (Check(connection) != kServing) {
-    throw Failure(ExitCode::kUnreachable, "the server at " + global.server + " answers, but is not serving (it starts or stops)");
+    throw Failure(ExitCode::kUnreachable,
+                  "the server at " + global.server + " answers, but is not serving (it starts or stops)");
   }
   if (!global.quiet) terminal.out << "serving" << std::endl;
   return ExitCode::kSuccess;

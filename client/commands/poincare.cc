@@ -19,8 +19,7 @@ std::string GaitText(const v1::PeriodicGait& gait, const v1::SimulationScene& sc
                                             " iterations follows\n\n";
   std::vector<std::vector<std::string>> rows = {{"JOINT", "POSITION rad, m", "VELOCITY rad/s, m/s"}};
   for (int i = 0; i < scene.joints_size() && i < gait.positions_size(); ++i) {
-    rows.push_back(
-        {scene.joints(i).name(), FormatNumber(gait.positions(i), 16), FormatNumber(gait.velocities(i), 16)});
+    rows.push_back({scene.joints(i).name(), FormatNumber(gait.positions(i), 16), FormatNumber(gait.velocities(i), 16)});
   }
   text += FormatTable(rows, "lrr") + "\n";
   text += FormatTable({{"residual", FormatNumber(gait.residual(), 3), ""},

@@ -21,7 +21,8 @@ v1::SolveSpec PaperSpec(SpecFlags flags, double slope_deg) {
   const bool own_cost = !spec.costs().empty() || spec.preset() != v1::PRESET_UNSPECIFIED;
   if (!own_cost) spec.add_costs()->mutable_squared_torque();
   const v1::Motion& motion = spec.motion();
-  const bool free = motion.has_speed_m_s() || motion.free_speed() || motion.has_step_length_m() || motion.has_step_duration_s();
+  const bool free =
+      motion.has_speed_m_s() || motion.free_speed() || motion.has_step_length_m() || motion.has_step_duration_s();
   if (!free) spec.mutable_motion()->set_speed_m_s(kSpeed_m_s);
   return spec;
 }
@@ -37,9 +38,11 @@ std::string Table(const nlohmann::json& data) {
 
 }  // namespace
 
-ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOptions& global,
+                           const Terminal& terminal) {
   if (options.output.empty() && !global.json) {
-    throw Failure(ExitCode::kUsage, "reproduce-paper: name the page with --output FILE, or ask for the data with --json");
+    throw Failure(ExitCode::kUsage,
+                  "reproduce-paper: name the page with --output FILE, or ask for the data with --json");
   }
   const bool silent = global.json || global.quiet;
   Progress progress(terminal, silent ? Progress::Style::kSilent : ProgressStyle(global, terminal));
@@ -59,8 +62,10 @@ ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOpt
     if (code == ExitCode::kSuccess) code = ended;
   }
   const nlohmann::json data = PaperData(solves);
-  if (global.json) terminal.out << data.dump() << std::endl;
-  else if (!global.quiet) terminal.out << Table(data) << std::flush;
+  if (global.json)
+    terminal.out << data.dump() << std::endl;
+  else if (!global.quiet)
+    terminal.out << Table(data) << std::flush;
   if (!options.output.empty()) {
     WriteFile(options.output, PaperHtml(solves));
     progress.Note("written: " + options.output);

@@ -166,23 +166,25 @@ ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal) {
   std::string scopes;
   for (const std::string& scope : caller.scopes()) scopes += (scopes.empty() ? "" : ", ") + scope;
   const auto limit = [](double value) { return value > 0 ? FormatNumber(value, 6) : std::string("none"); };
-  std::vector<std::vector<std::string>> rows = {{"server", global.server},
-                               {"version", info.version()},
-                               {"solver", info.solver_build()},
-                               {"solver slots", std::to_string(info.solver_slots())},
-                               {"running", std::to_string(info.running())},
-                               {"queued", std::to_string(info.queued())},
-                               {"largest request", std::to_string(info.max_request_bytes()) + " bytes"},
-                               {"up for", FormatDuration(info.uptime_s())},
-                               {"store", info.store()},
-                               {"authenticated by", AuthenticationName(caller)}};
+  std::vector<std::vector<std::string>> rows = {
+      {"server", global.server},
+      {"version", info.version()},
+      {"solver", info.solver_build()},
+      {"solver slots", std::to_string(info.solver_slots())},
+      {"running", std::to_string(info.running())},
+      {"queued", std::to_string(info.queued())},
+      {"largest request", std::to_string(info.max_request_bytes()) + " bytes"},
+      {"up for", FormatDuration(info.uptime_s())},
+      {"store", info.store()},
+      {"authenticated by", AuthenticationName(caller)}};
   if (!caller.tenant().empty()) {
     rows.insert(rows.end(), {{"tenant", caller.tenant()},
                              {"scopes", scopes},
                              {"queued at most", limit(caller.limits().max_queued())},
                              {"running at most", limit(caller.limits().max_running())},
                              {"streams at most", limit(caller.limits().max_watches())},
-                             {"created at most", limit(caller.limits().creates_per_s()) + (caller.limits().creates_per_s() > 0 ? " /s" : "")}});
+                             {"created at most", limit(caller.limits().creates_per_s()) +
+                                                     (caller.limits().creates_per_s() > 0 ? " /s" : "")}});
   }
   terminal.out << FormatTable(rows, "l") << std::flush;
   return ExitCode::kSuccess;

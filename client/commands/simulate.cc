@@ -131,18 +131,22 @@ std::string EndText(v1::SimulationReport::End end) {
 std::string ReportText(const v1::SimulationReport& report) {
   std::vector<std::vector<std::string>> rows = {
       {"end", FormatNumber(report.end_time_s(), 12), "s", EndText(report.end())},
-      {"steps", std::to_string(report.steps()), "", std::to_string(report.rejected_steps()) + " rejected, " +
-                                                        std::to_string(report.evaluations()) + " evaluations"},
+      {"steps", std::to_string(report.steps()), "",
+       std::to_string(report.rejected_steps()) + " rejected, " + std::to_string(report.evaluations()) + " evaluations"},
       {"impacts", std::to_string(report.impacts()), "", ""},
-      {"energy", FormatNumber(report.energy_initial_j(), 8), "J", "at the end " + FormatNumber(report.energy_final_j(), 8)},
-      {"energy error", FormatNumber(report.max_energy_error_j(), 3), "J", "largest |energy - work - energy at the start|"},
+      {"energy", FormatNumber(report.energy_initial_j(), 8), "J",
+       "at the end " + FormatNumber(report.energy_final_j(), 8)},
+      {"energy error", FormatNumber(report.max_energy_error_j(), 3), "J",
+       "largest |energy - work - energy at the start|"},
       {"gap", FormatNumber(report.max_gap_m(), 3), "m", "largest of active contacts"},
       {"slip", FormatNumber(report.max_slip_m_s(), 3), "m/s", "largest of active contacts"}};
   if (report.has_min_normal_force_n()) {
-    rows.push_back({"least normal force", FormatNumber(report.min_normal_force_n()), "N",
-                    report.min_normal_force_contact() + " at " + FormatNumber(report.min_normal_force_time_s()) + " s"});
-    rows.push_back({"friction needed", FormatNumber(report.max_friction_ratio()), "",
-                    report.max_friction_ratio_contact() + " at " + FormatNumber(report.max_friction_ratio_time_s()) + " s"});
+    rows.push_back(
+        {"least normal force", FormatNumber(report.min_normal_force_n()), "N",
+         report.min_normal_force_contact() + " at " + FormatNumber(report.min_normal_force_time_s()) + " s"});
+    rows.push_back(
+        {"friction needed", FormatNumber(report.max_friction_ratio()), "",
+         report.max_friction_ratio_contact() + " at " + FormatNumber(report.max_friction_ratio_time_s()) + " s"});
   }
   if (report.redundant()) rows.push_back({"contacts", "redundant", "", "the forces are not unique"});
   return FormatTable(rows, "lr");
@@ -188,7 +192,8 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
       terminal.err << "\r" << FormatNumber(time, 6) << " of " << FormatNumber(request.scene().duration_s(), 6)
                    << " s\x1b[K" << std::flush;
     }
-    if (message.has_event() && !global.quiet) terminal.err << (live ? "\r\x1b[K" : "") << EventText(message.event()) << std::endl;
+    if (message.has_event() && !global.quiet)
+      terminal.err << (live ? "\r\x1b[K" : "") << EventText(message.event()) << std::endl;
     if (message.has_report()) report = message.report();
   }
   if (live) terminal.err << "\r\x1b[K";

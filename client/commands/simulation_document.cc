@@ -15,8 +15,9 @@ namespace rollgait::client {
 SimulationDocument::SimulationDocument(std::string path, const v1::SimulationScene& scene)
     : path_(std::move(path)), temporary_(path_ + ".part-" + std::to_string(getpid())) {
   if (!path_.ends_with(".json")) {
-    throw Failure(ExitCode::kUsage, "--output " + path_ + ": the name must end in .json; the table of samples goes to "
-                                                          "standard output");
+    throw Failure(ExitCode::kUsage, "--output " + path_ +
+                                        ": the name must end in .json; the table of samples goes to "
+                                        "standard output");
   }
   file_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!file_) throw Failure(ExitCode::kUsage, "--output " + path_ + ": cannot be written: " + std::strerror(errno));

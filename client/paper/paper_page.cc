@@ -25,7 +25,8 @@ json Optional(const std::optional<double>& value) { return value ? json(*value) 
 // Of hip, knee and ankle of the right leg, where the model has them.
 json TorqueData(const v1::Solve& solve) {
   const v1::Model& model = solve.result().model();
-  const Stride stride = BuildStride(solve.result().trajectory(), model, solve.result().gait_events().start_s(), kTorqueIntervals);
+  const Stride stride =
+      BuildStride(solve.result().trajectory(), model, solve.result().gait_events().start_s(), kTorqueIntervals);
   json torques = json::object();
   for (const StrideSample& sample : stride.samples) torques["percent"].push_back(sample.percent);
   for (const char* const name : {"hip", "knee", "ankle"}) {
@@ -38,7 +39,9 @@ json TorqueData(const v1::Solve& solve) {
 }
 
 json SlopeData(const v1::Solve& solve, const SlopeFigures& figures) {
-  json data = {{"slope_deg", figures.slope_deg}, {"solve", figures.solve}, {"solved", figures.solved},
+  json data = {{"slope_deg", figures.slope_deg},
+               {"solve", figures.solve},
+               {"solved", figures.solved},
                {"wall_time_s", figures.wall_time_s}};
   if (figures.phases.empty()) return data;
   data["stride_time_s"] = figures.stride_time_s;

@@ -10,10 +10,11 @@
 
 namespace rollgait::client {
 
-// {slopes: [{slope_deg, solve, solved, stride_time_s, stride_length_m, events_percent, phases, joints, total, torques}],
+// {slopes: [{slope_deg, solve, solved, stride_time_s, stride_length_m, events_percent, phases, joints, total,
+// torques}],
 //  statements: [{where, paper, ours, verdict, why}]}
-// torques: {percent, hip, knee, ankle} of the right leg, N m, at 101 instants. Contract: the solves of +10°, 0° and −10°,
-// in this order. Throws Failure(kUsage) if a trajectory does not fit its model.
+// torques: {percent, hip, knee, ankle} of the right leg, N m, at 101 instants. Contract: the solves of +10°, 0° and
+// −10°, in this order. Throws Failure(kUsage) if a trajectory does not fit its model.
 nlohmann::json PaperData(const std::vector<v1::Solve>& solves);
 
 // One page without references to the network: the paper's Figure 2 from these solves, and the statements.

@@ -56,8 +56,10 @@ SlopeFigures MeasureSlope(const v1::Solve& solve) {
                     FirstEvent(events, v1::GaitEvent::KIND_HEEL_STRIKE, v1::FOOT_LEFT),
                     FirstEvent(events, v1::GaitEvent::KIND_TOE_OFF, v1::FOOT_RIGHT)};
   for (const v1::SupportPhase& phase : events.phases()) {
-    figures.phases.push_back({phase.start_percent(), phase.end_percent(),
-                              (phase.end_percent() - phase.start_percent()) / 100 * events.duration_s(), phase.feet_size(),
+    figures.phases.push_back({phase.start_percent(),
+                              phase.end_percent(),
+                              (phase.end_percent() - phase.start_percent()) / 100 * events.duration_s(),
+                              phase.feet_size(),
                               {phase.contacts().begin(), phase.contacts().end()}});
   }
   figures.total.joint = "all joints";

@@ -14,10 +14,10 @@ namespace rollgait::client {
 // Over one stride, of one joint.
 struct JointEffort {
   std::string joint;
-  double squared;   // ∫ τ² dt, N² m² s
-  double absolute;  // ∫ |τ| dt, N m s
+  double squared;                       // ∫ τ² dt, N² m² s
+  double absolute;                      // ∫ |τ| dt, N m s
   double positive_work, negative_work;  // J, both ≥ 0
-  double peak;      // largest |τ|, N m
+  double peak;                          // largest |τ|, N m
 };
 
 // A phase of the cycle by its share.

@@ -73,9 +73,11 @@ Statement Cost(const Gaits& gaits) {
     s.ours += (s.ours.empty() ? "" : ", ") + cost.name();
   }
   s.agreement = Judge(torque);
-  s.why = torque ? "The paper fits the weights to torques of people and does not print them; ours are in the request, 1 if it "
-                   "names none."
-                 : "Another cost was asked for.";
+  s.why =
+      torque
+          ? "The paper fits the weights to torques of people and does not print them; ours are in the request, 1 if it "
+            "names none."
+          : "Another cost was asked for.";
   return s;
 }
 
@@ -84,7 +86,9 @@ Statement TwoPhases(const Gaits& gaits) {
   const auto counts = [&](int i) {
     std::string text;
     for (const PhaseShare& phase : gaits.figures[i].phases) {
-      text += (text.empty() ? "" : ", ") + std::string(phase.feet == 1 ? "single" : phase.feet == 2 ? "double" : "flight");
+      text += (text.empty() ? "" : ", ") + std::string(phase.feet == 1   ? "single"
+                                                       : phase.feet == 2 ? "double"
+                                                                         : "flight");
     }
     return text;
   };
@@ -100,8 +104,8 @@ Statement TwoPhases(const Gaits& gaits) {
 
 Statement Durations(const Gaits& gaits) {
   constexpr double kSame = 1;  // % of the cycle
-  Statement s{"4.2", "The relative durations of the phases on the complete cycle are not the same on the three slopes.", "",
-              Agreement::kOpen, ""};
+  Statement s{"4.2", "The relative durations of the phases on the complete cycle are not the same on the three slopes.",
+              "", Agreement::kOpen, ""};
   const auto both = [&](int i) {
     double sum = 0;
     for (const PhaseShare& phase : gaits.figures[i].phases) {
@@ -131,9 +135,11 @@ Statement HeelStrike(const Gaits& gaits) {
            " (of the left foot; toe-off of the right foot " +
            gaits.Each([&](int i) { return Percent(gaits.figures[i].events.toe_off); }) + ")";
   s.agreement = Judge(near);
-  s.why = mirrored ? "Our left and right steps are mirror images, as in healthy walking, so the heel strike halves the cycle. "
-                     "The paper closes the whole cycle only, and asks for no symmetry."
-                   : "Within " + FormatNumber(kNear) + " % of the cycle counts as agreement.";
+  s.why =
+      mirrored
+          ? "Our left and right steps are mirror images, as in healthy walking, so the heel strike halves the cycle. "
+            "The paper closes the whole cycle only, and asks for no symmetry."
+          : "Within " + FormatNumber(kNear) + " % of the cycle counts as agreement.";
   return s;
 }
 
@@ -161,21 +167,25 @@ Statement SlowingDown(const Gaits& gaits) {
   };
   s.ours = gaits.Each([&](int i) { return "net joint work " + FormatNumber(work(i), 3) + " J per metre"; });
   s.agreement = Judge(work(kDownhill) < 0 && work(kUphill) > 0);
-  s.why = "Net work of the joints is negative where they brake. By conservation of energy it is weight × sin(slope) per metre, "
-          "less what passive joints and impacts take.";
+  s.why =
+      "Net work of the joints is negative where they brake. By conservation of energy it is weight × sin(slope) per "
+      "metre, "
+      "less what passive joints and impacts take.";
   return s;
 }
 
 Statement TorqueAxes(const Gaits& gaits) {
   constexpr double kAxis = 100;  // N m
-  Statement s{"Figure 2", "Torques of hip, knee and ankle are drawn between −100 and 100 N m.", "", Agreement::kOpen, ""};
+  Statement s{"Figure 2", "Torques of hip, knee and ankle are drawn between −100 and 100 N m.", "", Agreement::kOpen,
+              ""};
   const auto peak = [&](int i) { return gaits.figures[i].total.peak; };
   s.ours = gaits.Each([&](int i) { return "largest " + FormatNumber(peak(i), 3) + " N m"; });
   const double largest = gaits.Largest(peak);
   s.agreement = Judge(largest <= kAxis);
-  s.why = largest <= kAxis ? "Every peak is inside the paper's axes."
-                           : "Our largest peak, " + FormatNumber(largest, 3) +
-                                 " N m, is outside. The paper gives neither body mass nor speed, and no values of its curves.";
+  s.why = largest <= kAxis
+              ? "Every peak is inside the paper's axes."
+              : "Our largest peak, " + FormatNumber(largest, 3) +
+                    " N m, is outside. The paper gives neither body mass nor speed, and no values of its curves.";
   return s;
 }
 
@@ -200,26 +210,30 @@ Statement Periodic(const Gaits& gaits) {
   const auto error = [&](int i) { return gaits.solves[i].result().accuracy().periodicity_error(); };
   s.ours = gaits.Each([&](int i) { return "error " + FormatNumber(error(i), 2); });
   s.agreement = Judge(gaits.Largest(error) <= kClosed);
-  s.why = "Up to the way walked, which the equation taken literally forbids; largest difference in rad, m, rad/s, m/s, "
-          "against 1e-6.";
+  s.why =
+      "Up to the way walked, which the equation taken literally forbids; largest difference in rad, m, rad/s, m/s, "
+      "against 1e-6.";
   return s;
 }
 
 Statement EntryPoints(const Gaits& gaits) {
-  Statement s{"4.2, eq. 4.3", "The points of the ellipsoid that touch the ground at the beginning of each phase are imposed.", "",
+  Statement s{"4.2, eq. 4.3",
+              "The points of the ellipsoid that touch the ground at the beginning of each phase are imposed.", "",
               Agreement::kOpen, ""};
   const v1::GroundContact& contact = gaits.solves[0].spec().ground_contact();
-  const bool imposed = contact.has_touch_down_point() &&
-                       contact.touch_down_point().min() == contact.touch_down_point().max();
+  const bool imposed =
+      contact.has_touch_down_point() && contact.touch_down_point().min() == contact.touch_down_point().max();
   s.agreement = Judge(imposed);
-  s.ours = imposed ? "imposed at " + FormatNumber(contact.touch_down_point().min(), 3) + " of the semi-axis" : "left free";
+  s.ours =
+      imposed ? "imposed at " + FormatNumber(contact.touch_down_point().min(), 3) + " of the semi-axis" : "left free";
   s.why = imposed ? "As the request asks." : "The paper does not say which points; --touch-down-point imposes them.";
   return s;
 }
 
 Statement Time(const Gaits& gaits) {
   constexpr double kMinutes = 20;
-  Statement s{"4.2", "Each scenario was computed in less than 20 minutes on a modern computer.", "", Agreement::kOpen, ""};
+  Statement s{"4.2", "Each scenario was computed in less than 20 minutes on a modern computer.", "", Agreement::kOpen,
+              ""};
   const auto seconds = [&](int i) { return gaits.figures[i].wall_time_s; };
   s.ours = gaits.Each([&](int i) { return FormatDuration(seconds(i)); });
   s.agreement = Judge(gaits.Largest(seconds) < 60 * kMinutes);
@@ -229,7 +243,8 @@ Statement Time(const Gaits& gaits) {
 
 Statement Polyhedra(const Gaits&) {
   return {"5", "With ellipsoids in place of polyhedra the algorithms run faster and give better results.",
-          "no polyhedral feet here", Agreement::kOpen, "There is nothing to compare with: this library has smooth feet only."};
+          "no polyhedral feet here", Agreement::kOpen,
+          "There is nothing to compare with: this library has smooth feet only."};
 }
 
 }  // namespace

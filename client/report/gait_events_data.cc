@@ -11,7 +11,9 @@ namespace {
 using nlohmann::json;
 
 void RequireShape(const v1::Matrix& matrix, int columns, const std::string& name) {
-  if (matrix.rows() == kCycleSteps + 1 && matrix.columns() == columns && matrix.values_size() == matrix.rows() * columns) return;
+  if (matrix.rows() == kCycleSteps + 1 && matrix.columns() == columns &&
+      matrix.values_size() == matrix.rows() * columns)
+    return;
   throw Failure(ExitCode::kUsage, "gait_events.feet." + name + " must be " + std::to_string(kCycleSteps + 1) + " × " +
                                       std::to_string(columns) + ", is " + std::to_string(matrix.rows()) + " × " +
                                       std::to_string(matrix.columns()));
@@ -22,7 +24,8 @@ json Rounded(double value) { return std::isfinite(value) ? json(std::round(value
 
 json Column(const v1::Matrix& matrix, int column, double factor) {
   json values = json::array();
-  for (int i = 0; i < matrix.rows(); ++i) values.push_back(Rounded(factor * matrix.values(i * matrix.columns() + column)));
+  for (int i = 0; i < matrix.rows(); ++i)
+    values.push_back(Rounded(factor * matrix.values(i * matrix.columns() + column)));
   return values;
 }
 
@@ -47,7 +50,8 @@ void RequireInstants(const v1::FootOnGround& foot) {
 }
 
 json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model) {
-  json data = {{"phases", json::array()}, {"events", json::array()}, {"feet", json::array()}, {"double_support", json()}};
+  json data = {
+      {"phases", json::array()}, {"events", json::array()}, {"feet", json::array()}, {"double_support", json()}};
   if (events.feet_size() == 0) return data;
   for (const v1::SupportPhase& phase : events.phases()) {
     data["phases"].push_back({{"start", phase.start_percent()},
@@ -56,7 +60,8 @@ json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model) {
                               {"feet", phase.feet_size()}});
   }
   for (const v1::GaitEvent& event : events.events()) {
-    data["events"].push_back({{"percent", event.percent()}, {"foot", SideName(event.foot())}, {"name", EventName(event.kind())}});
+    data["events"].push_back(
+        {{"percent", event.percent()}, {"foot", SideName(event.foot())}, {"name", EventName(event.kind())}});
   }
   const double percent = 100 / (model.total_mass_kg() * model.gravity_m_s2());
   for (const v1::FootOnGround& foot : events.feet()) {

@@ -17,8 +17,10 @@ void RequireInstants(const v1::FootOnGround& foot);
 
 // {phases: [{start, end, contacts, feet}],                                    contacts by name, feet: how many
 //  events: [{percent, foot, name}],                                           foot "right" or "left", name as EventName
-//  feet: [{name, right, stance, normal: [...], tangential: [...], pressure: [...]}],   stance 0 … 1; % of body weight, tangential
-//          along +x; pressure: centre of pressure along x after its first place in the stance of this instant, mm, null where it is none
+//  feet: [{name, right, stance, normal: [...], tangential: [...], pressure: [...]}],   stance 0 … 1; % of body weight,
+//  tangential
+//          along +x; pressure: centre of pressure along x after its first place in the stance of this instant, mm, null
+//          where it is none
 //  double_support}                                                            0 … 1
 // Lists are empty and double_support null without events (of an older server).
 nlohmann::json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model);

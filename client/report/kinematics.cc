@@ -16,8 +16,8 @@ Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
   return quaternion.normalized().toRotationMatrix();
 }
 
-// The ellipsoid { c + R diag(axes) u : |u| ≤ 1 }, with the shape matrix R diag(axes²) Rᵀ; a projection has that of the kept
-// rows.
+// The ellipsoid { c + R diag(axes) u : |u| ≤ 1 }, with the shape matrix R diag(axes²) Rᵀ; a projection has that of the
+// kept rows.
 struct PlacedEllipsoid {
   Eigen::Vector3d center;
   Eigen::Matrix3d shape;

@@ -40,7 +40,8 @@ std::string Page(const nlohmann::json& data, const char* script) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return Fill(kReportHtml, {{"title", EscapeHtml(data.at("title"))},
                             {"style", kReportCss},
-                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportSectionsJs + kReportPeopleJs + script},
+                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportSectionsJs +
+                                           kReportPeopleJs + script},
                             {"data", EscapeScript(text)}});
 }
 

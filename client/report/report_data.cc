@@ -200,7 +200,8 @@ json ReportData(const std::vector<v1::Solve>& solves, const std::string& title) 
     }
     list.push_back(std::move(solve));
   }
-  const bool gaits = std::none_of(solves.begin(), solves.end(), [](const v1::Solve& s) { return s.spec().has_manoeuvre(); });
+  const bool gaits =
+      std::none_of(solves.begin(), solves.end(), [](const v1::Solve& s) { return s.spec().has_manoeuvre(); });
   const std::string standard = !gaits ? "Optimal motions" : solves.size() == 1 ? "Optimal gait" : "Optimal gaits";
   return {{"title", title.empty() ? standard : title}, {"program", "rollgait " ROLLGAIT_VERSION}, {"solves", list}};
 }

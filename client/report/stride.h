@@ -1,4 +1,5 @@
-// The whole gait cycle as a function of time, made from a half or a full cycle. What happens in it is in rollgait.v1.GaitEvents.
+// The whole gait cycle as a function of time, made from a half or a full cycle. What happens in it is in
+// rollgait.v1.GaitEvents.
 #ifndef ROLLGAIT_CLIENT_REPORT_STRIDE_H_
 #define ROLLGAIT_CLIENT_REPORT_STRIDE_H_
 
@@ -22,9 +23,10 @@ struct Stride {
   std::vector<StrideSample> samples;
 };
 
-// The cycle at `intervals` + 1 instants from `start_s` (GaitEvents.start_s; 0 where there are no events) after the start of the
-// trajectory on. A half cycle is completed by its mirror image (Joint.mirror_joint, mirror_sign, ContactSurface.mirror_contact).
-// Throws Failure(kUsage) if trajectory, model, mirror data or start_s (less than the length of the cycle) do not fit.
+// The cycle at `intervals` + 1 instants from `start_s` (GaitEvents.start_s; 0 where there are no events) after the
+// start of the trajectory on. A half cycle is completed by its mirror image (Joint.mirror_joint, mirror_sign,
+// ContactSurface.mirror_contact). Throws Failure(kUsage) if trajectory, model, mirror data or start_s (less than the
+// length of the cycle) do not fit.
 Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, double start_s, int intervals);
 
 // The left/right mirror image of an instant, without the forward shift.

@@ -40,7 +40,15 @@ struct NumTraits<rollgait::Dual> : NumTraits<double> {
   using Real = rollgait::Dual;
   using NonInteger = rollgait::Dual;
   using Nested = rollgait::Dual;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 2, MulCost = 4 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 2,
+    MulCost = 4
+  };
 };
 }  // namespace Eigen
 

@@ -1,9 +1,8 @@
 #ifndef ROLLGAIT_CORE_BASE_TYPES_H_
 #define ROLLGAIT_CORE_BASE_TYPES_H_
 
-#include <limits>
-
 #include <Eigen/Core>
+#include <limits>
 
 namespace rollgait {
 

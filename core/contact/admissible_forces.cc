@@ -1,10 +1,9 @@
 #include "core/contact/admissible_forces.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "core/base/check.h"
 
@@ -19,8 +18,8 @@ bool IsAdmissible(const Vector3& force, double friction) {
   return force.head<2>().norm() <= friction * force.z() * (1 + 1e-12) && force.z() >= 0;
 }
 
-// The shifts s for which f + s d is in the cone, intersected with [*low, *high]; an empty set leaves *low > *high. Contract: d is
-// less steep than the cone, |d_t| > friction · |d_z|, so that the set is an interval.
+// The shifts s for which f + s d is in the cone, intersected with [*low, *high]; an empty set leaves *low > *high.
+// Contract: d is less steep than the cone, |d_t| > friction · |d_z|, so that the set is an interval.
 void CutByCone(const Vector3& f, const Vector3& d, double friction, double* low, double* high) {
   // |t + s d_t|² <= μ² (n + s d_z)²:  A s² + 2 B s + C <= 0 with A > 0.
   const double mu2 = friction * friction;
@@ -69,7 +68,8 @@ bool PairForces(double friction, LinkContact* first, LinkContact* second, const 
     first->force += s * d;
     second->force -= s * d;
   } else if (first->force.z() > 0 && second->force.z() > 0) {
-    s = LeastRatioShift(first->force.head<2>(), first->force.z(), second->force.head<2>(), second->force.z(), d.head<2>());
+    s = LeastRatioShift(first->force.head<2>(), first->force.z(), second->force.head<2>(), second->force.z(),
+                        d.head<2>());
     first->force.head<2>() += s * d.head<2>();
     second->force.head<2>() -= s * d.head<2>();
   }
@@ -191,7 +191,8 @@ double LeastRatioShift(const Eigen::Vector2d& t_1, double n_1, const Eigen::Vect
   const double m_1 = n_1 * n_1, m_2 = n_2 * n_2, apart = x_2 - x_1;
   if ((apart * apart + h_2) * m_1 <= h_1 * m_2) return x_1 / length;
   if ((apart * apart + h_1) * m_2 <= h_2 * m_1) return x_2 / length;
-  // Between the two bottoms one rises and the other falls. With z = x − x_1:  m_2 (z² + h_1) − m_1 ((z − apart)² + h_2) = 0.
+  // Between the two bottoms one rises and the other falls. With z = x − x_1:  m_2 (z² + h_1) − m_1 ((z − apart)² + h_2)
+  // = 0.
   const double a = m_2 - m_1, b = m_1 * apart, c = m_2 * h_1 - m_1 * (apart * apart + h_2);
   const double root = std::sqrt(std::max(0.0, b * b - a * c));
   const double q = -(b + std::copysign(root, b));

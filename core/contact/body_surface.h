@@ -11,9 +11,9 @@ namespace rollgait {
 // must not overlap others. See rollgait.v1.BodySurface.
 struct BodySurface {
   std::string name;
-  int joint = 0;           // whose link carries it
-  PlacedSurface placed;    // in the link frame
-  int mirror_body = 0;     // index of the left/right mirror image
+  int joint = 0;         // whose link carries it
+  PlacedSurface placed;  // in the link frame
+  int mirror_body = 0;   // index of the left/right mirror image
 };
 
 // Two bodies that can meet: a joint between them moves one relative to the other. See rollgait.v1.BodyPair.

@@ -231,8 +231,8 @@ void ConstrainedSolver::Differentiate(RowMajorMatrix* acceleration, RowMajorMatr
   }
   for (int i = m - 1; i >= 0; --i) {
     // −λ in chosen_, unscaled.
-    SubtractProducts(chosen_.data() + static_cast<ptrdiff_t>(i + 1) * k, k, r_.data() + i + (i + 1) * m, m, m - 1 - i, k,
-                     chosen_.row(i).data());
+    SubtractProducts(chosen_.data() + static_cast<ptrdiff_t>(i + 1) * k, k, r_.data() + i + (i + 1) * m, m, m - 1 - i,
+                     k, chosen_.row(i).data());
     chosen_.row(i) *= 1 / r_(i, i);
     forces->row(pivots_[i]) = -scale_[pivots_[i]] * chosen_.row(i);
   }
@@ -267,10 +267,9 @@ const ConstrainedSolution& ConstrainedDynamics::Evaluate(const VectorX& q, const
     RollingJacobian(dynamics_, surface, state_, contact.p_WP, first_row_[k], &jacobian_);
     for (size_t i = 0; i < surface.directions.size(); ++i) {
       const int axis = surface.directions[i];
-      const double correction =
-          axis == 2 ? 2 * baumgarte_.damping * baumgarte_.frequency * contact.slip.z() +
-                          baumgarte_.frequency * baumgarte_.frequency * contact.gap
-                    : baumgarte_.slip_rate * contact.slip[axis];
+      const double correction = axis == 2 ? 2 * baumgarte_.damping * baumgarte_.frequency * contact.slip.z() +
+                                                baumgarte_.frequency * baumgarte_.frequency * contact.gap
+                                          : baumgarte_.slip_rate * contact.slip[axis];
       right_side_[first_row_[k] + static_cast<int>(i)] = -contact.drift[axis] - correction;
     }
   }

@@ -1,9 +1,8 @@
 #ifndef ROLLGAIT_CORE_CONTACT_CONSTRAINED_DYNAMICS_H_
 #define ROLLGAIT_CORE_CONTACT_CONSTRAINED_DYNAMICS_H_
 
-#include <vector>
-
 #include <Eigen/Cholesky>
+#include <vector>
 
 #include "core/base/types.h"
 #include "core/contact/contact_surface.h"
@@ -15,9 +14,9 @@ namespace rollgait {
 
 // The solution of   M a − Jᵀ λ = f,   J a = r   (docs/notation.md; source: eqs (3.8)–(3.10) with the factor ½).
 struct ConstrainedSolution {
-  VectorX acceleration;       // n
-  VectorX forces;             // rows of J; on the body that carries the surface
-  int rank = 0;               // of J, in the metric of M⁻¹
+  VectorX acceleration;  // n
+  VectorX forces;        // rows of J; on the body that carries the surface
+  int rank = 0;          // of J, in the metric of M⁻¹
   // True if rank < rows. The acceleration is still the right one. The forces are not unique: of all that give this
   // acceleration, those of least norm are returned (each row scaled to unit effective mobility).
   bool redundant = false;
@@ -51,9 +50,9 @@ class ConstrainedSolver {
   // tree differently.
   void SolveSliding(const MatrixX& mass, const VectorX& force, const MatrixX& jacobian, const MatrixX& force_jacobian,
                     const VectorX& right_side, ConstrainedSolution* solution);
-  // What the last Solve's a and λ change by if f and r do: replaces changes df (n × k) by da and dr (rows × k) by dλ. If
-  // rows are redundant, r acts through the rows that were chosen as independent, and λ is the one of least norm. Fastest
-  // if k is a multiple of four.
+  // What the last Solve's a and λ change by if f and r do: replaces changes df (n × k) by da and dr (rows × k) by dλ.
+  // If rows are redundant, r acts through the rows that were chosen as independent, and λ is the one of least norm.
+  // Fastest if k is a multiple of four.
   void Differentiate(RowMajorMatrix* acceleration, RowMajorMatrix* forces);
 
  private:
@@ -62,11 +61,11 @@ class ConstrainedSolver {
   void Factorise();
 
   bool tree_ = false;
-  TreeFactor factor_;        // M = Lᵀ L
-  RowMajorMatrix columns_;   // n × (rows, f, and zeros up to a multiple of four)
-  MatrixX a_;                // n × rows, columns scaled to unit norm; as q_ and free_ filled to a multiple of four
-  MatrixX q_;                // n × rank
-  MatrixX r_;                // rank × rows, columns in the order of pivots_
+  TreeFactor factor_;       // M = Lᵀ L
+  RowMajorMatrix columns_;  // n × (rows, f, and zeros up to a multiple of four)
+  MatrixX a_;               // n × rows, columns scaled to unit norm; as q_ and free_ filled to a multiple of four
+  MatrixX q_;               // n × rank
+  MatrixX r_;               // rank × rows, columns in the order of pivots_
   MatrixX gram_;
   Eigen::LLT<MatrixX> least_norm_;  // of R Rᵀ, if rows are redundant
   RowMajorMatrix chosen_;           // of Differentiate

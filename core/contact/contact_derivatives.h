@@ -25,8 +25,8 @@ class ContactDerivatives {
 
   // β's dependence on one field of joint velocities u.
   struct Field {
-    std::vector<Vec6> from;       // ΔU_k: twist of the link relative to the parent of joint k
-    std::vector<Vec3> gradient;   // ∂(J u)/∂q_k
+    std::vector<Vec6> from;      // ΔU_k: twist of the link relative to the parent of joint k
+    std::vector<Vec3> gradient;  // ∂(J u)/∂q_k
   };
 
   ContactDerivatives(const Model& model, const ContactSurface& contact);
@@ -39,10 +39,10 @@ class ContactDerivatives {
   // Adds what second derivatives need, after Update.
   void UpdateSecond();
 
-  const Vec3& point() const { return point_; }                    // m, world
-  const Vec3& nu() const { return nu_; }                          // outward normal at p in surface axes
-  Vec3 JacobianColumn(int k) const { return At(axis_[k]); }       // column k of J
-  const Vec3& PointDerivative(int k) const { return dp_[k]; }     // ∂p/∂q_k
+  const Vec3& point() const { return point_; }                 // m, world
+  const Vec3& nu() const { return nu_; }                       // outward normal at p in surface axes
+  Vec3 JacobianColumn(int k) const { return At(axis_[k]); }    // column k of J
+  const Vec3& PointDerivative(int k) const { return dp_[k]; }  // ∂p/∂q_k
   const Vec3& PointSecond(int m, int k) const { return ddp_[m <= k ? k * path_size() + m : m * path_size() + k]; }
   // ∂(J_k)/∂q_m, after Update.
   Vec3 JacobianDerivative(int m, int k) const;

@@ -1,8 +1,7 @@
 #include "core/contact/contact_dynamics.h"
 
-#include <utility>
-
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "core/base/check.h"
 
@@ -177,7 +176,8 @@ void ContactDynamics::AccelerationRows(const std::vector<int>& active, const Bau
       next += 3;
     } else {
       if (GripNow(k) == Grip::kRollingAlong) {
-        // The tangent turns with body 2: d(t·w)/dt = t·ẇ + ṫ·w, and ṫ·w = (ω₂ × t)·w to the order in which w is held at 0.
+        // The tangent turns with body 2: d(t·w)/dt = t·ẇ + ṫ·w, and ṫ·w = (ω₂ × t)·w to the order in which w is held at
+        // 0.
         const Vector3 t = Tangent(k);
         (*right)[next++] = t.dot(wanted) - Body2(k).w_WB.cross(t).dot(pair.slip);
       }

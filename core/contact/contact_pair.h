@@ -10,9 +10,9 @@ namespace rollgait {
 // whatever part of them the caller passes: the bias at zero joint accelerations, or all of it.
 struct FrameMotion {
   Matrix3 R_WB = Matrix3::Identity();
-  Vector3 p_WB = Vector3::Zero();                                  // m
-  Vector3 w_WB = Vector3::Zero(), v_WB = Vector3::Zero();          // rad/s, m/s
-  Vector3 alpha_WB = Vector3::Zero(), a_WB = Vector3::Zero();      // rad/s², m/s²
+  Vector3 p_WB = Vector3::Zero();                              // m
+  Vector3 w_WB = Vector3::Zero(), v_WB = Vector3::Zero();      // rad/s, m/s
+  Vector3 alpha_WB = Vector3::Zero(), a_WB = Vector3::Zero();  // rad/s², m/s²
 };
 
 // A surface fixed to a body frame B: its origin and its axes.

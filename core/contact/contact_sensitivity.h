@@ -45,8 +45,8 @@ class ContactSensitivitySolver {
   ContactDynamics& dynamics_;
   MotionDerivatives* motion_ = nullptr;  // of the dynamics, at the solution
   ContactSensitivity result_;
-  // Columns q, v, τ, zeros up to a multiple of four: of the residual, of its first nv rows and the contacts'; then of the
-  // solution, with the other sign.
+  // Columns q, v, τ, zeros up to a multiple of four: of the residual, of its first nv rows and the contacts'; then of
+  // the solution, with the other sign.
   RowMajorMatrix dynamics_by_, rows_by_;
 };
 

@@ -12,11 +12,11 @@ namespace rollgait {
 // rollgait.v1.ContactSurface.
 struct ContactSurface {
   std::string name;
-  int joint = 0;                            // whose link carries it
+  int joint = 0;  // whose link carries it
   Surface surface = Sphere(1);
-  Vector3 p_LE = Vector3::Zero();           // m, origin of the surface in the link frame
-  Matrix3 R_LE = Matrix3::Identity();       // surface axes -> link frame
-  int mirror_contact = 0;                   // index of the left/right mirror image
+  Vector3 p_LE = Vector3::Zero();      // m, origin of the surface in the link frame
+  Matrix3 R_LE = Matrix3::Identity();  // surface axes -> link frame
+  int mirror_contact = 0;              // index of the left/right mirror image
   // World axes (0 = x, 1 = y, 2 = z) in which force is transmitted and velocity forbidden; the normal z is always the
   // last. {0, 2} in the sagittal plane, {0, 1, 2} in space.
   std::vector<int> directions = {0, 1, 2};

@@ -10,14 +10,14 @@ namespace rollgait {
 
 // What a plastic impact did. Indices of contacts are those of ContactDynamics.
 struct Impact {
-  VectorX velocity;                    // v⁺ (nv)
-  std::vector<int> held;               // contacts that hold after it, ascending
-  std::vector<int> released;           // contacts that touched and do not hold
-  std::vector<Vector3> impulses;       // N s on body 1, world; one per contact of the dynamics, zero if not held
-  std::vector<double> spin_impulses;   // N m s about the normal
-  std::vector<double> gap_rates;       // m/s, n·w⁺ of every contact (only of `held` and `released`)
-  double energy_loss = 0;              // J, kinetic energy before − after (in the world's axes)
-  bool redundant = false;              // impulses are not unique (ConstrainedSolution::ForcesUnique)
+  VectorX velocity;                   // v⁺ (nv)
+  std::vector<int> held;              // contacts that hold after it, ascending
+  std::vector<int> released;          // contacts that touched and do not hold
+  std::vector<Vector3> impulses;      // N s on body 1, world; one per contact of the dynamics, zero if not held
+  std::vector<double> spin_impulses;  // N m s about the normal
+  std::vector<double> gap_rates;      // m/s, n·w⁺ of every contact (only of `held` and `released`)
+  double energy_loss = 0;             // J, kinetic energy before − after (in the world's axes)
+  bool redundant = false;             // impulses are not unique (ConstrainedSolution::ForcesUnique)
   // False if no set of held contacts is free of pulling impulses and of released contacts that move into each other.
   // Then `held` is what had to be held (the newly touching and the bilateral ones).
   bool consistent = true;

@@ -15,9 +15,9 @@ using RowVector12 = Eigen::Matrix<double, 1, 12>;
 // Derivatives of contact points, normal and gap of PairKinematics with respect to the configuration of the two frames,
 //   ζ = (δp_1, δθ_1, δp_2, δθ_2):  p_WB += δp,  R_WB ← exp([δθ]) R_WB,  world axes (m, rad).
 // Velocities are linear in the twists with the same matrices: with ξ = (v_1, w_1, v_2, w_2), p_dot_1 = p_1 ξ and so on.
-// d(p_1 ξ)/dt along constant twists is p_1_second[ξ, ξ]. Slip, drift and rates: below to first, pair_hessians.h to second
-// order.
-// Source: contact-math 6, 8: the linear system for the normal is differentiated, never the iterations that found it.
+// d(p_1 ξ)/dt along constant twists is p_1_second[ξ, ξ]. Slip, drift and rates: below to first, pair_hessians.h to
+// second order. Source: contact-math 6, 8: the linear system for the normal is differentiated, never the iterations
+// that found it.
 struct PairDerivatives {
   Matrix3x12 normal, p_1, p_2;
   RowVector12 gap;
@@ -51,10 +51,10 @@ PairRateDerivatives ComputeSurfacePairRateDerivatives(const PlacedSurface& surfa
 PairRateDerivatives ComputePlaneRateDerivatives(const PlacedSurface& surface, const FrameMotion& body,
                                                 const PlacedPlane& plane, const FrameMotion& plane_frame);
 
-// Derivatives of slip and drift (PairKinematics) by ζ at constant twists and accelerations, and by the twists ξ. r_i goes
-// from the origin of frame i to its material point at the contact (plane: the one at p_1).
+// Derivatives of slip and drift (PairKinematics) by ζ at constant twists and accelerations, and by the twists ξ. r_i
+// goes from the origin of frame i to its material point at the contact (plane: the one at p_1).
 struct SlipDerivatives {
-  Matrix3x12 lever_1, lever_2;  // ∂r_i/∂ζ, which are ∂ṙ_i/∂ξ, too
+  Matrix3x12 lever_1, lever_2;             // ∂r_i/∂ζ, which are ∂ṙ_i/∂ξ, too
   Matrix3x12 slip_by_pose, slip_by_twist;  // the latter is also ∂(drift)/∂(accelerations a_1, alpha_1, a_2, alpha_2)
   Matrix3x12 drift_by_pose, drift_by_twist;
 };

@@ -1,9 +1,8 @@
 #include "core/contact/pair_expansion.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <type_traits>
-
-#include <Eigen/Geometry>
 
 #include "core/math/assign_dual.h"
 #include "core/multibody/spatial.h"
@@ -154,8 +153,8 @@ void SurfaceExpansion<T>::First(const Vector12& twist, Change<T>* change) const 
   Variation<T>&a = change->one, &b = change->two;
   const Vec3 slip = a.v + a.omega.cross(one_.r) - b.v - b.omega.cross(two_.r);
   // M ν̇ = S₁(ω₁×ν) + S₂(ω₂×ν) − P w
-  a.nu_dot = b.nu_dot = basis_ * Solve(S_1_ * Components(a.omega.cross(nu_)) +
-                                       S_2_ * Components(b.omega.cross(nu_)) - Components(slip));
+  a.nu_dot = b.nu_dot =
+      basis_ * Solve(S_1_ * Components(a.omega.cross(nu_)) + S_2_ * Components(b.omega.cross(nu_)) - Components(slip));
   one_.Complete(nu_, order_, &a);
   two_.Complete(nu_, order_, &b);
   change->normal = -a.nu_dot;
@@ -185,7 +184,8 @@ PlaneExpansion<T>::PlaneExpansion(const PlacedSurface& surface, const FrameMotio
         return Side<T>(surface, body, nu, plane_frame.w_WB.cross(nu), 1, order);
       }()),
       lever_(Carried<T>(plane_frame, plane_frame.R_WB * plane.p_BO)),
-      height_(Place<T>(body) + one_.r - Place<T>(plane_frame) - lever_), gap_(-nu_.dot(height_)),
+      height_(Place<T>(body) + one_.r - Place<T>(plane_frame) - lever_),
+      gap_(-nu_.dot(height_)),
       order_(std::min(one_.jet_order, order + 1) - 1) {}
 
 template <typename T>

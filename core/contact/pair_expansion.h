@@ -22,10 +22,10 @@ struct Variation {
   Vec3 nu_dot;    // of the normal that leaves body 1, world
   Vec3 r_dot;     // frame origin -> contact point
   // With y = ν̇ − ω × ν, the rate of that normal as seen from this body:
-  Vec3 y_E;                         // y in surface axes
-  Eigen::Matrix<T, 3, 3> third_E;   // T[y], surface axes
-  Vec3 carried;                     // ṙ ± S y
-  Vec3 turned;                      // ν̇ + y
+  Vec3 y_E;                        // y in surface axes
+  Eigen::Matrix<T, 3, 3> third_E;  // T[y], surface axes
+  Vec3 carried;                    // ṙ ± S y
+  Vec3 turned;                     // ν̇ + y
 };
 
 // A change of the configuration at first order, with everything that moves along.
@@ -60,9 +60,9 @@ class Side {
   // ω_a × (ṙ_b ± S y_b) ∓ S (ω_a × (ν̇_b + y_b)).
   Vec3 Bend(const Variation<T>& a, const Variation<T>& b) const;
 
-  Mat3 S;          // world axes
-  Vec3 r;          // frame origin -> contact point, world
-  int jet_order;   // SupportJet::order, less one for T = Dual: what exists together with its change
+  Mat3 S;         // world axes
+  Vec3 r;         // frame origin -> contact point, world
+  int jet_order;  // SupportJet::order, less one for T = Dual: what exists together with its change
 
  private:
   Mat3 R_WE_;

@@ -68,8 +68,7 @@ PairHessians PairHessians::OnPlane(const PlacedSurface& surface, const FrameMoti
   result.kinematics_ = ComputePlaneContact(surface, body, plane, plane_frame);
   result.configuration_ = ComputePlaneDerivatives(surface, body, plane, plane_frame, 2);
   result.rates_ = ComputePlaneRateDerivatives(surface, body, plane, plane_frame);
-  result.Complete(true, body, plane_frame,
-                  [&] { return PlaneExpansion<Dual>(surface, body, plane, plane_frame, 2); });
+  result.Complete(true, body, plane_frame, [&] { return PlaneExpansion<Dual>(surface, body, plane, plane_frame, 2); });
   return result;
 }
 
@@ -80,9 +79,8 @@ PairHessians PairHessians::OfSurfaces(const PlacedSurface& surface_1, const Fram
   result.kinematics_ = ComputeSurfaceContact(surface_1, body_1, surface_2, body_2, separation);
   result.configuration_ = ComputeSurfacePairDerivatives(surface_1, body_1, surface_2, body_2, separation, 2);
   result.rates_ = ComputeSurfacePairRateDerivatives(surface_1, body_1, surface_2, body_2, separation);
-  result.Complete(false, body_1, body_2, [&] {
-    return SurfaceExpansion<Dual>(surface_1, body_1, surface_2, body_2, separation, 2);
-  });
+  result.Complete(false, body_1, body_2,
+                  [&] { return SurfaceExpansion<Dual>(surface_1, body_1, surface_2, body_2, separation, 2); });
   return result;
 }
 
@@ -119,8 +117,8 @@ Matrix12 PairHessians::Turning(const Vector3& y) const {
 }
 
 Matrix24 PairHessians::Slip(const Vector3& y) const {
-  Matrix24 hessian = OfConfiguration(point_1_.second, y.cross(one_.w_WB)) -
-                     OfConfiguration(Arm2().second, y.cross(two_.w_WB));
+  Matrix24 hessian =
+      OfConfiguration(point_1_.second, y.cross(one_.w_WB)) - OfConfiguration(Arm2().second, y.cross(two_.w_WB));
   const Matrix12 turning = Turning(y);
   hessian.topRightCorner<12, 12>() = turning;
   hessian.bottomLeftCorner<12, 12>() = turning.transpose();

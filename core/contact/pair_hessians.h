@@ -11,11 +11,11 @@ using Matrix3x24 = Eigen::Matrix<double, 3, 24>;
 using RowVector24 = Eigen::Matrix<double, 1, 24>;
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
-// First and second derivatives of everything in PairKinematics by the 24 variables (ζ, ξ): poses along exp(ζ) and twists
-// of the two frames, as in PairDerivatives. Twists in world axes keep their values while the poses change, and so do the
-// accelerations of the frames; by the latter the drift has the derivative slip_by_twist. Second derivatives of vectors
-// are contracted: y, a constant world vector, times the quantity. Multipliers λ on γ: Drift(λ). Exact, nothing by
-// differences. Immutable. Source: contact-math 4 to 6, 8; docs/derivatives.md.
+// First and second derivatives of everything in PairKinematics by the 24 variables (ζ, ξ): poses along exp(ζ) and
+// twists of the two frames, as in PairDerivatives. Twists in world axes keep their values while the poses change, and
+// so do the accelerations of the frames; by the latter the drift has the derivative slip_by_twist. Second derivatives
+// of vectors are contracted: y, a constant world vector, times the quantity. Multipliers λ on γ: Drift(λ). Exact,
+// nothing by differences. Immutable. Source: contact-math 4 to 6, 8; docs/derivatives.md.
 class PairHessians {
  public:
   // Contract: as ComputePlaneContact, ComputeSurfaceContact.
@@ -25,8 +25,8 @@ class PairHessians {
                                  const PlacedSurface& surface_2, const FrameMotion& body_2,
                                  const Separation& separation);
 
-  // False where the surfaces have no fourth derivative of the support function at the contact point (SupportJet::order).
-  // Everything below but the kinematics is a contract: exist().
+  // False where the surfaces have no fourth derivative of the support function at the contact point
+  // (SupportJet::order). Everything below but the kinematics is a contract: exist().
   bool exist() const { return exist_; }
   const PairKinematics& kinematics() const { return kinematics_; }
 

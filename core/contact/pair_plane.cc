@@ -39,9 +39,9 @@ PairKinematics ComputePlaneContact(const PlacedSurface& placed, const FrameMotio
   const Vector3 r_dot = omega.cross(r) + over_surface;
   result.p_dot_1 = body.v_WB + r_dot;
   result.p_dot_2 = result.p_dot_1 - result.gap_rate * n - result.gap * result.normal_dot;
-  result.drift = body.a_WB + body.alpha_WB.cross(r) + omega.cross(r_dot) -
-                 (plane_frame.a_WB + plane_frame.alpha_WB.cross(lever_2) +
-                  omega_2.cross(result.p_dot_1 - plane_frame.v_WB));
+  result.drift =
+      body.a_WB + body.alpha_WB.cross(r) + omega.cross(r_dot) -
+      (plane_frame.a_WB + plane_frame.alpha_WB.cross(lever_2) + omega_2.cross(result.p_dot_1 - plane_frame.v_WB));
   result.gap_acceleration = n.dot(result.drift) + result.normal_dot.dot(result.slip);
   return result;
 }

@@ -1,10 +1,9 @@
 #include "core/contact/pair_separation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_tangent.h"
 #include "core/contact/separating_plane.h"
@@ -91,9 +90,7 @@ class NewtonOnTheSphere {
   }
 
   // Rounding of g and of the points, m.
-  double Noise(const Separation& at) const {
-    return kEpsilon * (offset_.norm() + at.r_1.norm() + at.r_2.norm());
-  }
+  double Noise(const Separation& at) const { return kEpsilon * (offset_.norm() + at.r_1.norm() + at.r_2.norm()); }
 
   // Near a flat face S can be so large that rounding of ν seems to explain any slope. Moves by a few roundings of ν and
   // returns true if the slope is still there.
@@ -165,9 +162,9 @@ Separation FindSeparation(const PosedSurface& body_1, const PosedSurface& body_2
       iterations += other.iterations;
       if (other.distance > best.distance) best = other;
     }
-    best.state = best.distance > 0                                          ? Separation::State::kSeparated
-                 : plane.state == SeparatingPlane::State::kNone             ? Separation::State::kOverlap
-                                                                            : Separation::State::kTouching;
+    best.state = best.distance > 0                              ? Separation::State::kSeparated
+                 : plane.state == SeparatingPlane::State::kNone ? Separation::State::kOverlap
+                                                                : Separation::State::kTouching;
     best.iterations = 0;
   }
   best.iterations += iterations;

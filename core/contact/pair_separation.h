@@ -16,11 +16,11 @@ struct PosedSurface {
 //   g(ν) = ν · (c₂ − c₁) − h₁(ν) − h₂(−ν),
 // with ν from body 1 to body 2. Source: contact-math 8.
 struct Separation {
-  Vector3 nu;                    // unit, world
-  double distance = 0;           // m, g(ν); negative: overlap along ν
-  Vector3 r_1, r_2;              // m, world: from the origins of the surfaces to the contact points
-  int iterations = 0;            // Newton steps, all starts together
-  int support_evaluations = 0;   // of the search for a separating plane
+  Vector3 nu;                   // unit, world
+  double distance = 0;          // m, g(ν); negative: overlap along ν
+  Vector3 r_1, r_2;             // m, world: from the origins of the surfaces to the contact points
+  int iterations = 0;           // Newton steps, all starts together
+  int support_evaluations = 0;  // of the search for a separating plane
   // True if the last Newton step was at rounding level. False only if the budget of steps ran out, which takes surfaces
   // that bend over less than rounding can resolve; ν, distance and points are then the best found.
   bool converged = false;

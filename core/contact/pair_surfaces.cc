@@ -36,15 +36,13 @@ PairKinematics ComputeSurfaceContact(const PlacedSurface& surface_1, const Frame
   const Eigen::Vector2d turn_1 = tangent.Components(omega_1.cross(nu));
   const Eigen::Vector2d turn_2 = tangent.Components(omega_2.cross(nu));
   const Eigen::Vector2d slip = tangent.Components(result.slip);
-  const Eigen::Vector2d nu_dot =
-      tangent.Solve(tangent.S_1 * turn_1 + tangent.S_2 * turn_2 - slip);
+  const Eigen::Vector2d nu_dot = tangent.Solve(tangent.S_1 * turn_1 + tangent.S_2 * turn_2 - slip);
   const Vector3 r_1_dot = omega_1.cross(r_1) + tangent.basis * (tangent.S_1 * (nu_dot - turn_1));
   const Vector3 r_2_dot = omega_2.cross(r_2) - tangent.basis * (tangent.S_2 * (nu_dot - turn_2));
   result.normal_dot = -(tangent.basis * nu_dot);
   result.p_dot_1 = body_1.v_WB + r_1_dot;
   result.p_dot_2 = body_2.v_WB + r_2_dot;
-  result.drift = (body_1.a_WB - body_2.a_WB) +
-                 (body_1.alpha_WB.cross(r_1) - body_2.alpha_WB.cross(r_2)) +
+  result.drift = (body_1.a_WB - body_2.a_WB) + (body_1.alpha_WB.cross(r_1) - body_2.alpha_WB.cross(r_2)) +
                  (omega_1.cross(r_1_dot) - omega_2.cross(r_2_dot));
   result.gap_acceleration = result.normal_dot.dot(result.slip) + result.normal.dot(result.drift);
   return result;

@@ -1,9 +1,8 @@
 #include "core/contact/pair_tangent.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 
 namespace rollgait {
 namespace {

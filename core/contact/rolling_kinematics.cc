@@ -28,8 +28,7 @@ RollingContact ComputeRollingContact(const ContactSurface& surface, const BodyDy
   const Vector3 alpha = link.R_WL * link.bias.angular;
   const Vector3 acceleration = link.R_WL * link.bias.linear + omega.cross(v_WL);
   const Vector3 lever = p_LE_W + r;
-  contact.drift =
-      acceleration + alpha.cross(lever) + omega.cross(omega.cross(lever)) + omega.cross(over_surface);
+  contact.drift = acceleration + alpha.cross(lever) + omega.cross(omega.cross(lever)) + omega.cross(over_surface);
   return contact;
 }
 

@@ -1,8 +1,7 @@
 #include "core/contact/row_derivatives.h"
 
-#include <variant>
-
 #include <Eigen/Geometry>
+#include <variant>
 
 #include "core/base/check.h"
 #include "core/multibody/spatial.h"
@@ -23,7 +22,11 @@ class RowLinearisation {
  public:
   RowLinearisation(const TreeContact& contact, const PairKinematics& pair, const FrameMotion& body_1,
                    const FrameMotion& body_2, const Baumgarte& baumgarte)
-      : contact_(contact), pair_(pair), one_(body_1), two_(body_2), baumgarte_(baumgarte),
+      : contact_(contact),
+        pair_(pair),
+        one_(body_1),
+        two_(body_2),
+        baumgarte_(baumgarte),
         on_plane_(std::holds_alternative<PlacedPlane>(contact.other)) {
     const Vector3& p_2 = on_plane_ ? pair.p_1 : pair.p_2;
     const Vector3& p_dot_2 = on_plane_ ? pair.p_dot_1 : pair.p_dot_2;
@@ -97,8 +100,8 @@ class RowLinearisation {
     int row = 0;
     if (contact_.grip == Grip::kRolling) {
       const double along_normal = pair_.normal_dot.dot(w) + (damping - kappa) * pair_.gap_rate + stiffness * pair_.gap;
-      rows.topRows<3>() = c.slip_dot + kappa * c.slip + n * (carried + (damping - kappa) * gap_rate) +
-                          along_normal * c.normal;
+      rows.topRows<3>() =
+          c.slip_dot + kappa * c.slip + n * (carried + (damping - kappa) * gap_rate) + along_normal * c.normal;
       row = 3;
     } else {
       if (contact_.grip == Grip::kRollingAlong) {
@@ -112,9 +115,8 @@ class RowLinearisation {
     }
     if (contact_.no_spin) {
       const Vector3 omega = one_.w_WB - two_.w_WB, alpha = one_.alpha_WB - two_.alpha_WB;
-      rows.row(row++) = n.transpose() * (c.alpha + kappa * c.omega) +
-                        (alpha + kappa * omega).transpose() * c.normal + pair_.normal_dot.transpose() * c.omega +
-                        omega.transpose() * c.normal_dot;
+      rows.row(row++) = n.transpose() * (c.alpha + kappa * c.omega) + (alpha + kappa * omega).transpose() * c.normal +
+                        pair_.normal_dot.transpose() * c.omega + omega.transpose() * c.normal_dot;
     }
     ROLLGAIT_CHECK(row == rows.rows());
     return rows;

@@ -1,8 +1,7 @@
 #include "core/contact/separating_plane.h"
 
-#include <limits>
-
 #include <Eigen/Cholesky>
+#include <limits>
 
 namespace rollgait {
 namespace {
@@ -56,8 +55,7 @@ SeparatingPlane FindSeparatingPlane(const PosedSurface& body_1, const PosedSurfa
   SeparatingPlane plane;
   const auto support = [&](const Vector3& nu) -> Vector3 {
     ++plane.support_evaluations;
-    return (body_2.p_WE - body_1.p_WE) +
-           body_2.R_WE * body_2.surface->SupportPoint(-(body_2.R_WE.transpose() * nu)) -
+    return (body_2.p_WE - body_1.p_WE) + body_2.R_WE * body_2.surface->SupportPoint(-(body_2.R_WE.transpose() * nu)) -
            body_1.R_WE * body_1.surface->SupportPoint(body_1.R_WE.transpose() * nu);
   };
   Simplex simplex;

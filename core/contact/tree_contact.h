@@ -19,10 +19,10 @@ enum class Grip {
 // another link or the ground.
 struct TreeContact {
   std::string name;
-  int link = 0;             // of body 1
+  int link = 0;  // of body 1
   PlacedSurface surface;
-  int other_link = -1;      // of body 2; -1: the ground
-  int ground = 0;           // which of the ground's frames, if other_link is -1
+  int other_link = -1;  // of body 2; -1: the ground
+  int ground = 0;       // which of the ground's frames, if other_link is -1
   std::variant<PlacedPlane, PlacedSurface> other = PlacedPlane{};
   Grip grip = Grip::kRolling;
   Vector3 along = Vector3::UnitX();  // for kRollingAlong: a direction in body 2's axes, not along the normal

@@ -31,14 +31,15 @@ class PhaseExcesses {
     for (int j = 0; j < model.size(); ++j) {
       const Joint& joint = model.joint(j);
       Judge(Criterion::kJointRange, ExcessOf(sample.position[j], joint.position_min, joint.position_max), j);
-      Judge(Criterion::kJointVelocity, ExcessOf(sample.velocity[j], -joint.velocity_max, joint.velocity_max) / joint.velocity_max,
-            j);
+      Judge(Criterion::kJointVelocity,
+            ExcessOf(sample.velocity[j], -joint.velocity_max, joint.velocity_max) / joint.velocity_max, j);
     }
     for (size_t a = 0; a < model.actuated().size(); ++a) {
       const Joint& joint = model.joint(model.actuated()[a]);
       const double strength = std::max(-joint.effort_min, joint.effort_max);
       Judge(Criterion::kJointEffort,
-            ExcessOf(sample.efforts[static_cast<int>(a)], joint.effort_min, joint.effort_max) / strength, model.actuated()[a]);
+            ExcessOf(sample.efforts[static_cast<int>(a)], joint.effort_min, joint.effort_max) / strength,
+            model.actuated()[a]);
     }
   }
   bool any() const { return any_; }
@@ -74,7 +75,8 @@ bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedCon
   return any;
 }
 
-bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added) {
+bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,
+                 AddedConstraints* added) {
   added->between.resize(trajectory.phases.size());
   bool any = false;
   for (size_t p = 0; p < trajectory.phases.size(); ++p) {

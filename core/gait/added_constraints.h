@@ -9,10 +9,11 @@
 
 namespace rollgait {
 
-// Adds to `added` what a judged motion violates and a problem with more constraints would keep: range, velocity and effort of joints
-// between the points of a phase. Returns whether anything is new. The problem is solved without these constraints first,
-// since most of them never matter and each costs time.
-bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report, AddedConstraints* added);
+// Adds to `added` what a judged motion violates and a problem with more constraints would keep: range, velocity and
+// effort of joints between the points of a phase. Returns whether anything is new. The problem is solved without these
+// constraints first, since most of them never matter and each costs time.
+bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,
+                 AddedConstraints* added);
 
 // The same for the distances of pairs of bodies that overlap, unless the request has no bound on overlap.
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added);

@@ -30,12 +30,14 @@ TrackingCost DescribeTracking(const GaitRequest::Tracking& tracking, const Model
   return cost;
 }
 
-std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale, const std::map<std::string, double>& weights) {
+std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale,
+                                        const std::map<std::string, double>& weights) {
   std::vector<MuscledJoint> joints;
   for (int index : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(index);
     const double strength = std::max(-joint.effort_min, joint.effort_max);
-    joints.push_back({index, strength, weights.at(joint.name), PassiveTorque(joint, passive_scale * scene.selection.mass)});
+    joints.push_back(
+        {index, strength, weights.at(joint.name), PassiveTorque(joint, passive_scale * scene.selection.mass)});
   }
   return joints;
 }
@@ -67,11 +69,13 @@ struct TermDescription {
   Term operator()(const GaitRequest::Time&) const { return std::make_unique<TimeCost>(); }
   Term operator()(const GaitRequest::Tracking& term) const { return DescribeTracking(term, problem.model); }
   Term operator()(const GaitRequest::MuscleEffort& term) const {
-    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, passive_scale, term.joint_weights), term.exponent.value(), layout);
+    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, passive_scale, term.joint_weights),
+                                              term.exponent.value(), layout);
   }
   Term operator()(const GaitRequest::MuscleWork& term) const {
-    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, passive_scale, term.joint_weights), term.positive_efficiency.value(),
-                                            term.negative_efficiency.value(), term.smoothing.value(), layout, power());
+    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, passive_scale, term.joint_weights),
+                                            term.positive_efficiency.value(), term.negative_efficiency.value(),
+                                            term.smoothing.value(), layout, power());
   }
   Term operator()(const GaitRequest::PassiveLoad& term) const {
     return std::make_unique<PassiveLoadCost>(MuscledJoints(scene, passive_scale, term.joint_weights), layout);
@@ -105,12 +109,11 @@ int ForwardJoint(const Model& model) {
   ROLLGAIT_CHECK(false);
 }
 
-// Root mean square of the couple that turns the body in the time that the request gives (1 s where it is free), and of that
-// which holds it on the slope.
+// Root mean square of the couple that turns the body in the time that the request gives (1 s where it is free), and of
+// that which holds it on the slope.
 double TypicalCouple(const GaitSpec& spec) {
-  const double duration = spec.phases.front().max_duration > 10 * spec.phases.front().min_duration
-                              ? 1
-                              : spec.phases.front().max_duration;
+  const double duration =
+      spec.phases.front().max_duration > 10 * spec.phases.front().min_duration ? 1 : spec.phases.front().max_duration;
   const double turning = std::sqrt(12.0) * TurningMoment(spec) / (duration * duration);
   const double holding = spec.scene.model.total_mass() * spec.gravity.head<2>().norm() *
                          spec.scene.selection.rolling_body->semi_axes.mean();

@@ -42,7 +42,8 @@ struct TermCheck {
   }
 
   void operator()(GaitRequest::MechanicalWork& term) const {
-    term.smoothing = check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
+    term.smoothing =
+        check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
   }
 
   void operator()(GaitRequest::SquaredForceRate&) const {}

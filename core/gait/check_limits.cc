@@ -6,7 +6,8 @@
 
 namespace rollgait {
 
-std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity, RequestCheck& check) {
+std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                               RequestCheck& check) {
   std::vector<Joint> joints;
   if (scene != nullptr) joints = scene->model.joints();
   if (request.preset) ScaleLimits(similarity, &joints);

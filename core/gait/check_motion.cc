@@ -9,7 +9,8 @@ namespace rollgait {
 namespace {
 
 // Refuses contradictions between the prescribed quantities; returns the mean speed that they imply, if any.
-std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, const Similarity& similarity, RequestCheck& check) {
+std::optional<double> ImpliedSpeed(const GaitRequest::Motion& motion, const Similarity& similarity,
+                                   RequestCheck& check) {
   const bool both = motion.step_length && motion.step_duration;
   if (motion.free_speed && motion.speed) {
     check.Add("motion.free_speed", "contradicts speed_m_s " + FormatNumber(*motion.speed) + "; give one of the two");
@@ -63,8 +64,8 @@ void CheckStepDuration(double step, const char* field, Cycle cycle, const std::v
 }
 
 // Everything but the durations of the phases. Stops at the first contradiction: what follows would repeat it.
-CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene, double gravity, const Similarity& similarity,
-                          RequestCheck& check) {
+CheckedMotion CheckTravel(const GaitRequest::Motion& motion, const Scene* scene, double gravity,
+                          const Similarity& similarity, RequestCheck& check) {
   check.Number("motion.speed_m_s", motion.speed, 0, {0, 4, "m/s", true});
   check.Number("motion.step_length_m", motion.step_length, 0, {0, 2, "m", true});
   check.Number("motion.step_duration_s", motion.step_duration, 0, {0.1, 5, "s"});

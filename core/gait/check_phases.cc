@@ -11,8 +11,8 @@ constexpr const char* kPath = "phases.phases";
 
 std::string PhasePath(size_t index) { return Indexed(kPath, index); }
 
-// The standard phases: the left foot has just touched down, the right one is about to leave. Feet of two surfaces come down
-// on the heel and leave from the forefoot; the intervals of each support are shared by its two phases.
+// The standard phases: the left foot has just touched down, the right one is about to leave. Feet of two surfaces come
+// down on the heel and leave from the forefoot; the intervals of each support are shared by its two phases.
 std::vector<GaitRequest::Phase> StandardPhases(Cycle cycle, const Scene* scene, int single, int both) {
   const bool two = scene != nullptr && scene->FindContact("left_heel") >= 0;
   const auto step = [&](const std::string& stance, const std::string& other) -> std::vector<GaitRequest::Phase> {
@@ -87,8 +87,10 @@ GaitSpec::Phase CheckPhase(const std::string& path, const GaitRequest::Phase& ph
   }
   checked.intervals = check.Integer(path + ".intervals", phase.intervals, default_intervals, 1, 1000);
   const NumberLimits limits{0, 10, "s", true};
-  checked.min_duration = check.Number(path + ".min_duration_s", phase.min_duration, similarity.time() * kDefaultMinDuration, limits);
-  checked.max_duration = check.Number(path + ".max_duration_s", phase.max_duration, similarity.time() * kDefaultMaxDuration, limits);
+  checked.min_duration =
+      check.Number(path + ".min_duration_s", phase.min_duration, similarity.time() * kDefaultMinDuration, limits);
+  checked.max_duration =
+      check.Number(path + ".max_duration_s", phase.max_duration, similarity.time() * kDefaultMaxDuration, limits);
   if (checked.min_duration > checked.max_duration) {
     check.Add(path + ".min_duration_s", FormatNumber(checked.min_duration) + " s is longer than max_duration_s " +
                                             FormatNumber(checked.max_duration) + " s" +
@@ -121,13 +123,13 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
     check.Add("phases", "model " + Quoted(scene->name) + " has no standard phases; give the sequence");
     return {};
   }
-  const std::vector<GaitRequest::Phase> phases = request.phases ? *request.phases
-                                                               : StandardPhases(request.cycle, scene, single, both);
+  const std::vector<GaitRequest::Phase> phases =
+      request.phases ? *request.phases : StandardPhases(request.cycle, scene, single, both);
   std::vector<GaitSpec::Phase> checked;
   long total = 0;
   for (size_t i = 0; i < phases.size(); ++i) {
-    checked.push_back(CheckPhase(PhasePath(i), phases[i], phases[i].contacts.size() > 1 ? both : single, scene, similarity,
-                                 check));
+    checked.push_back(
+        CheckPhase(PhasePath(i), phases[i], phases[i].contacts.size() > 1 ? both : single, scene, similarity, check));
     total += checked.back().intervals;
   }
   if (total > kMaxTotalIntervals) {

@@ -53,7 +53,8 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_
   for (const auto& [criterion, bound] : accuracy.bounds) {
     const CriterionTraits& traits = TraitsOf(criterion);
     const char* const unit = std::string(traits.unit) == "1" ? "" : traits.unit;
-    bounds[criterion] = check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, unit});
+    bounds[criterion] =
+        check.Number(std::string("accuracy.") + traits.field, bound, 0, {traits.least, traits.most, unit});
   }
   if (allow_overlap) {
     if (accuracy.bounds.count(Criterion::kOverlap) > 0) {
@@ -70,15 +71,17 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_
 CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double gravity, const Similarity& similarity,
                         std::vector<GaitSpec::Phase>* phases, RequestCheck& check) {
   if (scene != nullptr && scene->selection.rolling_body) {
-    check.Add("manoeuvre", "is not set; model " + Quoted(scene->name) + " does not walk: give the state that it is to reach");
+    check.Add("manoeuvre",
+              "is not set; model " + Quoted(scene->name) + " does not walk: give the state that it is to reach");
     return {};
   }
   if (request.cycle == Cycle::kOnce) {
     check.Add("cycle", "CYCLE_ONCE is the cycle of a manoeuvre, which is not set; give CYCLE_HALF or CYCLE_FULL");
   }
   if (scene != nullptr && !scene->symmetric && request.cycle == Cycle::kHalf) {
-    check.Add("cycle", "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
-                       "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
+    check.Add("cycle",
+              "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
+              "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
   }
   *phases = CheckPhases(request, scene, similarity, check);
   return CheckMotion(request, scene, gravity, similarity, *phases, check);
@@ -114,13 +117,14 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   const CheckedGround ground = CheckGround(request.ground_contact, check);
   std::vector<Joint> joints = CheckLimits(request, known, similarity, check);
   const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, request.limits.allow_body_overlap, check);
-  const int max_iterations =
-      check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations, once ? 5000 : 1000, 1, 100000);
+  const int max_iterations = check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations,
+                                           once ? 5000 : 1000, 1, 100000);
   const double max_wall_time =
       check.Number("solver_limits.max_wall_time_s", request.solver_limits.max_wall_time, 600, {0.01, 86400, "s"});
   const int starts = check.Integer("starts", request.starts, 1, 1, 32);
   if (request.warm_start && given.starts.value_or(1) > 1) {
-    check.Add("starts", "is " + std::to_string(*given.starts) + "; a warm start is the only one: leave one of the two out");
+    check.Add("starts",
+              "is " + std::to_string(*given.starts) + "; a warm start is the only one: leave one of the two out");
   }
   if (!check.ok()) return check.Take();
 

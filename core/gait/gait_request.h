@@ -17,8 +17,8 @@ namespace rollgait {
 // What a request leaves open, by name; see rollgait.v1.Preset.
 enum class Preset { kTorque, kTransport, kHuman };
 
-// A gait request as it comes in: any numbers. Field for field rollgait.v1.SolveSpec, which documents meaning, unit, default
-// and range. An empty optional asks for the default.
+// A gait request as it comes in: any numbers. Field for field rollgait.v1.SolveSpec, which documents meaning, unit,
+// default and range. An empty optional asks for the default.
 struct GaitRequest {
   struct Range {
     double min = 0, max = 0;
@@ -28,8 +28,12 @@ struct GaitRequest {
     std::optional<int> intervals;
     std::optional<double> min_duration, max_duration;  // s
   };
-  struct SquaredTorque { std::map<std::string, double> joint_weights; };
-  struct SquaredTorqueRate { std::map<std::string, double> joint_weights; };
+  struct SquaredTorque {
+    std::map<std::string, double> joint_weights;
+  };
+  struct SquaredTorqueRate {
+    std::map<std::string, double> joint_weights;
+  };
   struct SquaredForceRate {};
   struct MechanicalWork {
     std::optional<double> smoothing;  // W
@@ -44,8 +48,12 @@ struct GaitRequest {
     std::optional<double> smoothing;  // W
     std::map<std::string, double> joint_weights;
   };
-  struct PassiveLoad { std::map<std::string, double> joint_weights; };
-  struct SquaredAcceleration { std::map<std::string, double> joint_weights; };
+  struct PassiveLoad {
+    std::map<std::string, double> joint_weights;
+  };
+  struct SquaredAcceleration {
+    std::map<std::string, double> joint_weights;
+  };
   struct Tracking {
     struct Channel {
       std::string joint;
@@ -55,8 +63,8 @@ struct GaitRequest {
     std::vector<Channel> channels;
   };
   struct CostTerm {
-    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking, MuscleEffort, MuscleWork, PassiveLoad,
-                 SquaredAcceleration, SquaredForceRate>
+    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking, MuscleEffort, MuscleWork,
+                 PassiveLoad, SquaredAcceleration, SquaredForceRate>
         term;
     std::optional<double> weight;
   };
@@ -103,7 +111,7 @@ struct GaitRequest {
     std::optional<double> max_wall_time;  // s
   } solver_limits;
   std::optional<int> starts;
-  bool warm_start = false;  // that one is wanted; GaitSpec::warm_start is filled where solutions are stored
+  bool warm_start = false;        // that one is wanted; GaitSpec::warm_start is filled where solutions are stored
   std::optional<double> gravity;  // m/s²
 };
 

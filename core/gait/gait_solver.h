@@ -45,25 +45,25 @@ struct GaitSolution {
 
   Termination termination = Termination::kNumericalDifficulty;
   std::string message;
-  std::string note;                          // how it was reached, where not at once; the end of the message of a whole solve
-  std::optional<Trajectory> trajectory;      // present if the last iterate is finite
-  std::optional<AccuracyReport> accuracy;    // present with the trajectory
-  std::optional<GaitEvents> events;          // present with a trajectory of a human that walks
+  std::string note;  // how it was reached, where not at once; the end of the message of a whole solve
+  std::optional<Trajectory> trajectory;          // present if the last iterate is finite
+  std::optional<AccuracyReport> accuracy;        // present with the trajectory
+  std::optional<GaitEvents> events;              // present with a trajectory of a human that walks
   std::optional<NormativeComparison> normative;  // present with events
-  Verdict verdict;                           // of a converged solution; not judged otherwise
+  Verdict verdict;                               // of a converged solution; not judged otherwise
   double objective = 0;
   double kkt_error = 0;
   double constraint_violation = 0;
   std::vector<CostValue> costs;
   std::vector<UnmetConstraint> unmet_constraints;
   std::vector<MeshStatistics> meshes;
-  double speed = 0, step_length = 0;  // m/s, m; of a manoeuvre along x
+  double speed = 0, step_length = 0;               // m/s, m; of a manoeuvre along x
   std::optional<SolutionMultipliers> multipliers;  // present with a trajectory of a gait
-  AddedConstraints added;          // of the last NLP, whose multipliers these are
-  bool warm_started = false;       // reached from the warm start of the spec
-  bool used_multipliers = false;   // whose multipliers fitted
-  std::optional<Scene> scene;         // in whose joints the trajectory is, if not those of the request's scene
-  double wall_time = 0;               // s
+  AddedConstraints added;                          // of the last NLP, whose multipliers these are
+  bool warm_started = false;                       // reached from the warm start of the spec
+  bool used_multipliers = false;                   // whose multipliers fitted
+  std::optional<Scene> scene;  // in whose joints the trajectory is, if not those of the request's scene
+  double wall_time = 0;        // s
 };
 
 // Turns a checked request into a trajectory with an accuracy report. Blocks; one solve at a time in a process (MUMPS).

@@ -26,17 +26,18 @@ struct GaitSpec {
     decltype(GaitRequest::CostTerm::term) term;  // optionals inside are filled
     double weight;
   };
-  Scene scene;  // limits of the request already applied to its joints
+  Scene scene;            // limits of the request already applied to its joints
   Similarity similarity;  // of the body and the gravity, which defaults and presets followed
   double time_unit = 1;   // s for each that the numbers here count (InTimeUnit)
   double passive_scale;   // factor on measured passive torques: a preset takes them to the gravity of the request
   double slope;
-  Vector3 gravity;  // world axes, m/s²
+  Vector3 gravity;                                          // world axes, m/s²
   std::optional<double> speed, step_length, step_duration;  // prescribed ones
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
   std::optional<GaitRequest::Range> duty_factor;
   Cycle cycle;
-  std::optional<Manoeuvre> manoeuvre;  // of a rolling body, in one phase; the prescribed motion above then means nothing
+  std::optional<Manoeuvre>
+      manoeuvre;  // of a rolling body, in one phase; the prescribed motion above then means nothing
   std::vector<Phase> phases;
   std::vector<CostTerm> costs;
   GaitRequest::Normalization normalization;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Flexion of hip, knee and dorsiflexion of the ankle, degrees, hand-set, against the fraction of the leg's own cycle: stance
-// from 0 (touch-down) to 0.6 (lift-off), swing from 0.6 to 1.
+// Flexion of hip, knee and dorsiflexion of the ankle, degrees, hand-set, against the fraction of the leg's own cycle:
+// stance from 0 (touch-down) to 0.6 (lift-off), swing from 0.6 to 1.
 struct LegPose {
   double fraction, hip, knee, ankle;
 };
@@ -177,8 +177,9 @@ class Walk {
     const double step = 1e-3;
     MotionSample sample;
     sample.position = Position(phase, fraction);
-    sample.velocity = (Position(phase, std::min(1.0, fraction + step)) - Position(phase, std::max(0.0, fraction - step))) /
-                      ((std::min(1.0, fraction + step) - std::max(0.0, fraction - step)) * durations_[phase]);
+    sample.velocity =
+        (Position(phase, std::min(1.0, fraction + step)) - Position(phase, std::max(0.0, fraction - step))) /
+        ((std::min(1.0, fraction + step) - std::max(0.0, fraction - step)) * durations_[phase]);
     sample.acceleration = VectorX::Zero(problem_.model.size());
     sample.efforts = VectorX::Zero(static_cast<int>(problem_.model.actuated().size()));
     const std::vector<int>& active = problem_.phases[phase].active;
@@ -209,8 +210,8 @@ class Walk {
     if (elbow >= 0) (*q)(elbow) = kElbow;
   }
 
-  // Moves the vertical base joint so that the lowest surfaces touch the ground: the soft minimum of all gaps is zero, whatever the
-  // phase, so that the body's height has no step and no kink where contacts change.
+  // Moves the vertical base joint so that the lowest surfaces touch the ground: the soft minimum of all gaps is zero,
+  // whatever the phase, so that the body's height has no step and no kink where contacts change.
   void LowerOntoGround(VectorX* q) const {
     constexpr double kSoftness = 0.005;  // m
     const int vertical = problem_.model.Find("base_z");
@@ -266,7 +267,9 @@ MotionGuess WalkingGuess(const GaitSpec& spec, const OptimalControlProblem& prob
   const Legs legs(problem);
   const auto part = [&legs](const PhaseDescription& phase) {
     const int first = legs.of_contact[phase.active.front()];
-    return std::all_of(phase.active.begin(), phase.active.end(), [&](int c) { return legs.of_contact[c] == first; }) ? 4 : 1;
+    return std::all_of(phase.active.begin(), phase.active.end(), [&](int c) { return legs.of_contact[c] == first; })
+               ? 4
+               : 1;
   };
   double weight = 0;
   for (const PhaseDescription& phase : problem.phases) weight += part(phase);

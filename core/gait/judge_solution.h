@@ -7,7 +7,8 @@ namespace rollgait {
 
 bool Converged(Termination termination);
 
-// Fills accuracy and verdict of a solution with a trajectory, by the bounds of the spec; one that did not converge has no verdict.
+// Fills accuracy and verdict of a solution with a trajectory, by the bounds of the spec; one that did not converge has
+// no verdict.
 void Judge(const GaitSpec& spec, GaitSolution* solution);
 
 }  // namespace rollgait

@@ -59,9 +59,10 @@ GaitSpec OnTheWay(GaitSpec spec) {
   return spec;
 }
 
-// How many of the requested intervals are put together in the group that has `place` others between itself and the end of its phase.
-// With a price of rates alone the outermost ones are the requested intervals themselves, and the sizes double from there: what happens
-// at touch-down and lift-off is learned while intervals are few. With a price of power that is too much at once (docs/accuracy.md).
+// How many of the requested intervals are put together in the group that has `place` others between itself and the end
+// of its phase. With a price of rates alone the outermost ones are the requested intervals themselves, and the sizes
+// double from there: what happens at touch-down and lift-off is learned while intervals are few. With a price of power
+// that is too much at once (docs/accuracy.md).
 int GroupSize(const GaitSpec& spec, int place, int inner) {
   if (!HasRates(spec) || LeastSmoothing(spec)) return place < kOuterGroups ? inner / 2 : inner;
   int size = 1;
@@ -69,8 +70,8 @@ int GroupSize(const GaitSpec& spec, int place, int inner) {
   return std::min(size, inner);
 }
 
-// The requested intervals put together by `inner`, a power of 2, and fewer towards the ends of each phase; what is left over in the
-// middle of a phase is a group, too.
+// The requested intervals put together by `inner`, a power of 2, and fewer towards the ends of each phase; what is left
+// over in the middle of a phase is a group, too.
 Mesh Grouped(const GaitSpec& spec, int inner) {
   Mesh mesh;
   for (const GaitSpec::Phase& phase : spec.phases) {
@@ -100,7 +101,8 @@ std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
   return coarse;
 }
 
-GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start, SolveBudget* budget) {
+GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start,
+                    SolveBudget* budget) {
   GaitSpec rough = OnTheWay(spec);
   rough.kkt_tolerance = std::max(spec.kkt_tolerance, kRoughTolerance);
   rough.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
@@ -116,8 +118,8 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
     Mesh mesh = arrives ? RequestedMesh(spec) : Grouped(spec, 1 << halvings);
     const bool leads_on = Intervals(mesh) > Intervals(*last.trajectory) && Intervals(mesh) < Intervals(spec);
     if (!arrives && !leads_on) continue;
-    GaitSolution solution =
-        SolveFromCoarser(arrives ? spec : rough, problem, {*last.trajectory, last.multipliers, last.added}, std::move(mesh), budget);
+    GaitSolution solution = SolveFromCoarser(arrives ? spec : rough, problem,
+                                             {*last.trajectory, last.multipliers, last.added}, std::move(mesh), budget);
     solution.note = last.note;
     PutBefore(last.meshes, &solution);
     if (!arrives && !Converged(solution.termination) && budget->Left()) {

@@ -15,22 +15,24 @@ constexpr double kSafety = 0.35;
 // Intervals that are within this share of every bound stay as they are.
 constexpr double kGoodEnough = 0.8;
 
-// Order in h of a measure of one interval, for the scheme of order 3 and for those of order 4 and 5. Source: orders of the polynomials
-// (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one where a joint may meet its limit
-// or a force its bound inside of the interval, since the higher order is lost there. 0: a finer mesh is not what it takes.
+// Order in h of a measure of one interval, for the scheme of order 3 and for those of order 4 and 5. Source: orders of
+// the polynomials (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one
+// where a joint may meet its limit or a force its bound inside of the interval, since the higher order is lost there.
+// 0: a finer mesh is not what it takes.
 struct MeasureOrder {
   Criterion criterion;
   double radau2, higher;
 };
 constexpr MeasureOrder kOrders[] = {
-    {Criterion::kSlip, 2, 3},           {Criterion::kPenetration, 2, 3}, {Criterion::kOverlap, 2, 3},
+    {Criterion::kSlip, 2, 3},           {Criterion::kPenetration, 2, 3},    {Criterion::kOverlap, 2, 3},
     {Criterion::kPositionDefect, 3, 4}, {Criterion::kVelocityDefect, 2, 3}, {Criterion::kPull, 2, 2},
     {Criterion::kFriction, 2, 2},       {Criterion::kEnergy, 3, 4},
 };
 
-// Largest change of the gap of an active contact over an interval, m. The gap is the sum of these, so each may have its share of the
-// bound.
-double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase, int interval) {
+// Largest change of the gap of an active contact over an interval, m. The gap is the sum of these, so each may have its
+// share of the bound.
+double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase,
+                int interval) {
   constexpr int kGapSamples = 8;
   double drift = 0;
   BodyDynamics::State state;
@@ -50,7 +52,8 @@ double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajecto
 
 int Parts(double excess, double order) {
   if (excess <= kGoodEnough) return 1;
-  return static_cast<int>(std::clamp(std::ceil(std::pow(excess / kSafety, 1 / order)), 2.0, static_cast<double>(kMostParts)));
+  return static_cast<int>(
+      std::clamp(std::ceil(std::pow(excess / kSafety, 1 / order)), 2.0, static_cast<double>(kMostParts)));
 }
 
 }  // namespace
@@ -79,7 +82,8 @@ Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajec
       int count = Parts(drift / share, is_radau2 ? 3 : 4);
       for (const MeasureOrder& order : kOrders) {
         // An interval that could not be integrated has no measures.
-        const double measure = interval < report.intervals.size() ? report.intervals[interval][order.criterion] : kInfinity;
+        const double measure =
+            interval < report.intervals.size() ? report.intervals[interval][order.criterion] : kInfinity;
         count = std::max(count, Parts(measure / spec.bounds[order.criterion], is_radau2 ? order.radau2 : order.higher));
       }
       parts.push_back(count);

@@ -140,8 +140,8 @@ NlpOptions OptionsFromAfar(const GaitSpec& spec) {
   return options;
 }
 
-// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier loosely.
-// Chosen by trial on human29 (docs/optimizer.md).
+// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier
+// loosely. Chosen by trial on human29 (docs/optimizer.md).
 NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
   NlpOptions options = OptionsFromAfar(spec);
   options.initial_barrier = 1e-2;
@@ -155,9 +155,9 @@ NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
 
 constexpr double kBarrierClose = 1e-4;
 
-// From the solution of another request, as a rule one with the same costs. With a price of power, as the presets but one have it, close
-// to the bounds and with a barrier that falls at once: pushed further off, human29's neighbours take twice the iterations
-// (docs/optimizer.md).
+// From the solution of another request, as a rule one with the same costs. With a price of power, as the presets but
+// one have it, close to the bounds and with a barrier that falls at once: pushed further off, human29's neighbours take
+// twice the iterations (docs/optimizer.md).
 NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
   NlpOptions options = OptionsForNeighbour(spec);
   options.first_shift = 1e-2;
@@ -171,16 +171,18 @@ NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
   return options;
 }
 
-// The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side by side: the
-// closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport, level: 19 iterations with 1e-4,
-// none within 900 with 1e-3). Where no interval is shorter than any before, the solution is closest of all, whatever the cost
-// (docs/optimizer.md).
+// The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side
+// by side: the closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport,
+// level: 19 iterations with 1e-4, none within 900 with 1e-3). Where no interval is shorter than any before, the
+// solution is closest of all, whatever the cost (docs/optimizer.md).
 NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
   constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5;
   const bool has_powers = LeastSmoothing(spec).has_value(), close = !has_shorter_intervals || has_powers;
   NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
   const bool closest = !has_shorter_intervals && has_powers;
-  options.initial_barrier = options.warm_push = closest ? kBarrierClosest : close ? kBarrierClose : kBarrierNearSolution;
+  options.initial_barrier = options.warm_push = closest ? kBarrierClosest
+                                                : close ? kBarrierClose
+                                                        : kBarrierNearSolution;
   return options;
 }
 
@@ -194,18 +196,20 @@ bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
 // Nothing is left for a finer mesh to do.
 bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verdict::Kind::kExceeded; }
 
-// The last refinement was to halve a slip that was too large, and did not. Where a joint meets its limit the acceleration jumps, and the jump
-// moves on from the intervals that were split to the next coarse one, where slipping pays.
+// The last refinement was to halve a slip that was too large, and did not. Where a joint meets its limit the
+// acceleration jumps, and the jump moves on from the intervals that were split to the next coarse one, where slipping
+// pays.
 bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& meshes) {
   if (meshes.size() < 2) return false;
-  const double bound = spec.bounds[Criterion::kSlip], before = meshes[meshes.size() - 2].max_slip, now = meshes.back().max_slip;
+  const double bound = spec.bounds[Criterion::kSlip], before = meshes.end()[-2].max_slip, now = meshes.back().max_slip;
   return before > bound && now > std::max(bound, 0.5 * before);
 }
 
-// Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the same
-// constraints it is the same NLP.
-Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh, const AddedConstraints& added,
-                         const MotionGuess& guess, Predecessor previous, const NlpOptions& options, SolveBudget* budget) {
+// Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the
+// same constraints it is the same NLP.
+Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh,
+                         const AddedConstraints& added, const MotionGuess& guess, Predecessor previous,
+                         const NlpOptions& options, SolveBudget* budget) {
   Predecessor solved;
   NlpStart start;
   if (previous.nlp && previous.nlp->mesh().fractions == mesh.fractions && previous.nlp->added() == added) {
@@ -221,8 +225,9 @@ Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& prob
   return solved;
 }
 
-GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess, NlpOptions options,
-                       Predecessor previous, Mesh mesh, AddedConstraints added, SolveBudget* budget) {
+GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess,
+                       NlpOptions options, Predecessor previous, Mesh mesh, AddedConstraints added,
+                       SolveBudget* budget) {
   constexpr int kMostAdditions = 4;  // rounds that add constraints on the mesh as it is
   GaitSolution solution;
   int refinements = 0, additions = 0;
@@ -232,7 +237,8 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     const NlpResult& result = current.result;
     MeshStatistics statistics = Describe(spec, nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
-    const bool keep_previous = !solution.meshes.empty() && !Converged(result.termination) && !IsArtefact(spec, solution);
+    const bool keep_previous =
+        !solution.meshes.empty() && !Converged(result.termination) && !IsArtefact(spec, solution);
     if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
@@ -282,9 +288,10 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   return solution;
 }
 
-// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the same. None
-// without multipliers, and where their numbers tell that it had other rows.
-Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution, const Mesh& mesh) {
+// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the
+// same. None without multipliers, and where their numbers tell that it had other rows.
+Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution,
+                          const Mesh& mesh) {
   Predecessor previous;
   if (!solution.multipliers) return previous;
   const SolutionMultipliers& multipliers = *solution.multipliers;
@@ -298,8 +305,8 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
 }
 
 // From the spec's warm start.
-GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options, int max_iterations,
-                             SolveBudget* budget) {
+GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options,
+                             int max_iterations, SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
   if (IsSameMesh(mesh, other)) other = mesh;
@@ -317,13 +324,13 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
 
 }  // namespace
 
-GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
-                           SolveBudget* budget) {
+GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess,
+                           Mesh mesh, SolveBudget* budget) {
   return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), UsualConstraints(spec), budget);
 }
 
-GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
-                              SolveBudget* budget) {
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+                              Mesh mesh, SolveBudget* budget) {
   const Mesh other = MeshOf(coarser.trajectory);
   const NlpOptions options = OptionsForNextMesh(spec, HasShorterIntervals(mesh, other));
   return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), options,

@@ -8,8 +8,8 @@
 
 namespace rollgait {
 
-// True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion that
-// exists on its mesh only.
+// True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion
+// that exists on its mesh only.
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
 // True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
@@ -18,13 +18,13 @@ bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
 // The meshes of a solve that went before this one.
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);
 
-// Solves the problem of the spec from a guess on `mesh`, and on finer meshes started from its solution until gap and slip
-// between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
-GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess, Mesh mesh,
-                           SolveBudget* budget);
+// Solves the problem of the spec from a guess on `mesh`, and on finer meshes started from its solution until gap and
+// slip between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
+GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess,
+                           Mesh mesh, SolveBudget* budget);
 
-// The same from the warm start of the spec. The first mesh is that of its trajectory, where gap and slip are bounded and it is
-// nowhere coarser than what the request asks for, and has to converge within max_iterations.
+// The same from the warm start of the spec. The first mesh is that of its trajectory, where gap and slip are bounded
+// and it is nowhere coarser than what the request asks for, and has to converge within max_iterations.
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
@@ -33,8 +33,8 @@ GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem
                                SolveBudget* budget);
 
 // The same from the solution of a coarser mesh.
-GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser, Mesh mesh,
-                              SolveBudget* budget);
+GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
+                              Mesh mesh, SolveBudget* budget);
 
 }  // namespace rollgait
 

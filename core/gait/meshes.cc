@@ -35,7 +35,8 @@ Mesh MeshOf(const Trajectory& trajectory) {
 }
 
 bool IsSameMesh(const Mesh& mesh, const Mesh& other) {
-  return std::equal(mesh.fractions.begin(), mesh.fractions.end(), other.fractions.begin(), other.fractions.end(), IsSamePhase);
+  return std::equal(mesh.fractions.begin(), mesh.fractions.end(), other.fractions.begin(), other.fractions.end(),
+                    IsSamePhase);
 }
 
 bool HasShorterIntervals(const Mesh& mesh, const Mesh& other) {

@@ -18,9 +18,9 @@
 namespace rollgait {
 namespace {
 
-// A gait that is periodic leaves its momentum as it was: over a cycle the ground's mean force is the weight, which on a slope
-// leans by the slope. Within the friction cone at every instant, the mean is within it too. So it is for a manoeuvre from
-// rest to rest.
+// A gait that is periodic leaves its momentum as it was: over a cycle the ground's mean force is the weight, which on a
+// slope leans by the slope. Within the friction cone at every instant, the mean is within it too. So it is for a
+// manoeuvre from rest to rest.
 std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   if (spec.manoeuvre) {
     const Manoeuvre& manoeuvre = *spec.manoeuvre;
@@ -34,9 +34,9 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
 // From the requested starts, and on a slope that these do not reach by continuation.
 GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
   const auto problem = BuildProblem(spec);
-  GaitSolution solution = spec.starts > 1
-                              ? SolveFromStarts(spec, *problem, budget)
-                              : SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), budget);
+  GaitSolution solution =
+      spec.starts > 1 ? SolveFromStarts(spec, *problem, budget)
+                      : SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), budget);
   if (Converged(solution.termination) || spec.slope == 0 || !budget->Left()) return solution;
   std::optional<GaitSolution> continued = SolveByContinuation(spec, budget);
   if (!continued) return solution;
@@ -99,7 +99,8 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   if (const auto contradiction = FindContradiction(spec)) {
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;
-    solution.message = "No motion can meet the request: without sliding, the ground must carry the weight at this slope.";
+    solution.message =
+        "No motion can meet the request: without sliding, the ground must carry the weight at this slope.";
     solution.unmet_constraints = {*contradiction};
     return solution;
   }

@@ -7,7 +7,8 @@
 
 namespace rollgait {
 
-// W: the least smoothing of a power (core/ocp/costs/power_price.h) among the costs of the spec. Nothing where none is a power.
+// W: the least smoothing of a power (core/ocp/costs/power_price.h) among the costs of the spec. Nothing where none is a
+// power.
 std::optional<double> LeastSmoothing(const GaitSpec& spec);
 
 // The spec with powers smoothed by `smoothing`, W, at least.

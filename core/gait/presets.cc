@@ -46,10 +46,13 @@ class Costs {
   std::vector<GaitRequest::CostTerm> terms_;
 };
 
-// Factors on weights that undo what mass and gravity do to the integral of a term, ∫ … dt with dt in proportion to 1/√g.
+// Factors on weights that undo what mass and gravity do to the integral of a term, ∫ … dt with dt in proportion to
+// 1/√g.
 struct WeightFactors {
   explicit WeightFactors(const Similarity& s)
-      : ratio(s.speed()), energy(s.speed() / s.power()), torque_rate(s.speed() / std::pow(s.power(), 2)),
+      : ratio(s.speed()),
+        energy(s.speed() / s.power()),
+        torque_rate(s.speed() / std::pow(s.power(), 2)),
         acceleration(s.speed() / std::pow(s.gravity, 2)) {}
   double ratio;         // of what neither changes: torque over strength, angles
   double energy;        // of powers

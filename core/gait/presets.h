@@ -7,19 +7,20 @@
 
 namespace rollgait {
 
-// What the presets are is said in rollgait.v1.Preset and measured in docs/walking.md. A preset fills only what a request
-// leaves open; its costs take the place of costs, which a request with a preset must not give.
+// What the presets are is said in rollgait.v1.Preset and measured in docs/walking.md. A preset fills only what a
+// request leaves open; its costs take the place of costs, which a request with a preset must not give.
 
 // Feet, duty factor and clearance.
 void FillFromPreset(GaitRequest* request);
 
-// The terms of the cost for a body. Weights are chosen at 75 kg and 9.81 m/s² and scaled so that the optimum of a body of the same
-// proportions, another mass and another gravity is the same motion in the time of that gravity. `human` and `transport` also ask for
-// passive torques in proportion to gravity (GaitSpec::passive_scale), and all for the limits below.
+// The terms of the cost for a body. Weights are chosen at 75 kg and 9.81 m/s² and scaled so that the optimum of a body
+// of the same proportions, another mass and another gravity is the same motion in the time of that gravity. `human` and
+// `transport` also ask for passive torques in proportion to gravity (GaitSpec::passive_scale), and all for the limits
+// below.
 std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene, const Similarity& similarity);
 
-// What a preset makes of limits of velocity and effort that are given for 9.81 m/s² (and, of efforts, for the body's mass): they follow
-// gravity as the motion does. Costs of muscles take the limits of effort as strengths.
+// What a preset makes of limits of velocity and effort that are given for 9.81 m/s² (and, of efforts, for the body's
+// mass): they follow gravity as the motion does. Costs of muscles take the limits of effort as strengths.
 void ScaleLimits(const Similarity& similarity, std::vector<Joint>* joints);
 
 }  // namespace rollgait

@@ -5,8 +5,8 @@
 
 namespace rollgait {
 
-// Whether rates of efforts or forces have a price. Efforts change fastest where feet come down and lift off, and how fast, only short
-// intervals tell.
+// Whether rates of efforts or forces have a price. Efforts change fastest where feet come down and lift off, and how
+// fast, only short intervals tell.
 bool HasRates(const GaitSpec& spec);
 
 }  // namespace rollgait

@@ -69,8 +69,10 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
                                          RequestCheck& check);
 std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
                                            RequestCheck& check);
-// The joints of the model with the limits of the request, and those of its preset where it has none; empty without a scene.
-std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity, RequestCheck& check);
+// The joints of the model with the limits of the request, and those of its preset where it has none; empty without a
+// scene.
+std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
+                               RequestCheck& check);
 
 struct CheckedMotion {
   std::optional<double> speed, step_length, step_duration;

@@ -13,7 +13,8 @@ namespace rollgait {
 
 GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget) {
   constexpr double kFirstStep = 8, kLeastStep = 1.3, kRounding = 1e-9;
-  // Where minima follow one another closely 10 to 60 iterations do; beyond that a smaller step costs less than patience.
+  // Where minima follow one another closely 10 to 60 iterations do; beyond that a smaller step costs less than
+  // patience.
   constexpr int kMostIterations = 80, kPatience = 300;
   const double least = LeastSmoothing(spec).value();
   double reached = ColdSmoothing(spec), step = kFirstStep;

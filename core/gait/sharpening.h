@@ -6,13 +6,14 @@
 
 namespace rollgait {
 
-// A cold start seldom converges where the cost of power has a sharp corner; with this smoothing, W, it does (docs/walking.md): 40 W at
-// 75 kg and 9.81 m/s², in proportion to the powers of walking.
+// A cold start seldom converges where the cost of power has a sharp corner; with this smoothing, W, it does
+// (docs/walking.md): 40 W at 75 kg and 9.81 m/s², in proportion to the powers of walking.
 inline double ColdSmoothing(const GaitSpec& spec) { return 40 * spec.similarity.power(); }
 
-// Follows a solution that converged with powers smoothed by ColdSmoothing to the spec: an eighth of the smoothing at a time, each
-// solution the warm start of the next; smaller steps where one does not converge. The meshes list every program from `smooth`
-// on. If the spec is not reached: what stopped the last step, and a message that says how far it came.
+// Follows a solution that converged with powers smoothed by ColdSmoothing to the spec: an eighth of the smoothing at a
+// time, each solution the warm start of the next; smaller steps where one does not converge. The meshes list every
+// program from `smooth` on. If the spec is not reached: what stopped the last step, and a message that says how far it
+// came.
 GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget);
 
 }  // namespace rollgait

@@ -32,7 +32,8 @@ double SolveBudget::elapsed() const {
 }
 
 bool SolveBudget::Left() const {
-  return iterations_left_ > 0 && elapsed() < max_wall_time_ && (control_.stop == nullptr || !control_.stop->requested());
+  return iterations_left_ > 0 && elapsed() < max_wall_time_ &&
+         (control_.stop == nullptr || !control_.stop->requested());
 }
 
 NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {

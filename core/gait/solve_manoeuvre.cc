@@ -146,10 +146,11 @@ GaitSolution Refused(Attempt best) {
     if (solution.meshes.empty()) solution.message = "No chart of the orientation covers the way to the end.";
   } else if (Converged(solution.termination)) {
     solution.termination = Termination::kNumericalDifficulty;
-    solution.message = best.within_chart
-                           ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
-                             "intervals or more time."
-                           : "Only motions that reach the edge of the chart of their orientation were found.";
+    solution.message =
+        best.within_chart
+            ? "Only motions that exist on the mesh were found: the body slips between its nodes. Use more "
+              "intervals or more time."
+            : "Only motions that reach the edge of the chart of their orientation were found.";
   }
   return solution;
 }

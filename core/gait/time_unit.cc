@@ -25,7 +25,9 @@ struct IntegrandPower {
   int operator()(const GaitRequest::SquaredAcceleration&) const { return 4; }
 };
 
-GaitRequest::Range Scaled(double factor, const GaitRequest::Range& range) { return {factor * range.min, factor * range.max}; }
+GaitRequest::Range Scaled(double factor, const GaitRequest::Range& range) {
+  return {factor * range.min, factor * range.max};
+}
 
 Scene WithLimits(double velocity, double effort, const Scene& scene) {
   std::vector<Joint> joints = scene.model.joints();
@@ -40,7 +42,8 @@ Scene WithLimits(double velocity, double effort, const Scene& scene) {
 }
 
 CriterionValues ScaledBounds(double unit, CriterionValues bounds) {
-  for (const Criterion criterion : {Criterion::kSlip, Criterion::kVelocityDefect, Criterion::kApproach, Criterion::kMomentum}) {
+  for (const Criterion criterion :
+       {Criterion::kSlip, Criterion::kVelocityDefect, Criterion::kApproach, Criterion::kMomentum}) {
     bounds[criterion] *= unit;
   }
   bounds[Criterion::kPeriodicity] *= std::min(1.0, unit);
@@ -58,7 +61,8 @@ void ScaleCost(double unit, GaitRequest::Normalization normalization, GaitSpec::
 double ViolationFactor(double unit, const std::string& name) {
   if (name == "s") return unit;
   if (name == "m/s" || name == "rad/s" || name == "rad/s or m/s" || name == "N s") return 1 / unit;
-  if (name == "N" || name == "N m" || name == "N m or N" || name == "m/s²" || name == "rad/s²") return 1 / (unit * unit);
+  if (name == "N" || name == "N m" || name == "N m or N" || name == "m/s²" || name == "rad/s²")
+    return 1 / (unit * unit);
   return 1;
 }
 

@@ -19,7 +19,8 @@ std::string Names(const GaitSpec& spec, const std::vector<int>& contacts) {
 Violations CheckWarmStart(const GaitSpec& spec, const Trajectory& trajectory) {
   const auto refuse = [](const std::string& reason) { return Violations{{"warm_start", "its solution " + reason}}; };
   if (trajectory.cycle != spec.cycle) return refuse("spans another cycle; it must be that of this request");
-  if (trajectory.scheme != spec.scheme) return refuse("has another discretization.scheme; it must be that of this request");
+  if (trajectory.scheme != spec.scheme)
+    return refuse("has another discretization.scheme; it must be that of this request");
   if (trajectory.phases.size() != spec.phases.size()) {
     return refuse("has " + std::to_string(trajectory.phases.size()) + " phases, this request has " +
                   std::to_string(spec.phases.size()) + "; they must be the same");

@@ -12,8 +12,8 @@ namespace rollgait {
 
 struct GaitSpec;
 
-// Lagrange multipliers of the last nonlinear program of a solve, per unit of the objective, in the order of CollocationNlp.
-// Of bounds: that of the lower minus that of the upper one, of which at most one acts.
+// Lagrange multipliers of the last nonlinear program of a solve, per unit of the objective, in the order of
+// CollocationNlp. Of bounds: that of the lower minus that of the upper one, of which at most one acts.
 struct SolutionMultipliers {
   VectorX rows;
   VectorX bounds;
@@ -26,8 +26,8 @@ struct WarmStart {
   AddedConstraints added;  // of the NLP whose solution it is
 };
 
-// What keeps a trajectory from being a start of the spec: another cycle or scheme, other phases, numbers of joints or intervals.
-// Violations have the field "warm_start".
+// What keeps a trajectory from being a start of the spec: another cycle or scheme, other phases, numbers of joints or
+// intervals. Violations have the field "warm_start".
 Violations CheckWarmStart(const GaitSpec& spec, const Trajectory& trajectory);
 
 }  // namespace rollgait

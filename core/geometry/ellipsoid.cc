@@ -1,8 +1,7 @@
 #include "core/geometry/ellipsoid.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/base/check.h"
 
@@ -11,8 +10,7 @@ namespace rollgait {
 // Everything is computed for the ellipsoid divided by its largest semi-axis, so that fourth powers of the axes neither
 // overflow nor underflow; h, x, S, T and Q are all proportional to the size.
 
-Ellipsoid::Ellipsoid(const Vector3& semi_axes)
-    : semi_axes_(semi_axes), scale_(semi_axes.maxCoeff()) {
+Ellipsoid::Ellipsoid(const Vector3& semi_axes) : semi_axes_(semi_axes), scale_(semi_axes.maxCoeff()) {
   ROLLGAIT_CHECK(semi_axes.allFinite() && semi_axes.minCoeff() > 0);
   unit_axes_ = semi_axes / scale_;
   const double a = unit_axes_(0), b = unit_axes_(1), c = unit_axes_(2);

@@ -93,8 +93,7 @@ Result<ImplicitSurface> FlattenedSuperellipsoid::Create(const Vector3& semi_axes
     violations.push_back({field + ".flattening", text});
   }
   if (!violations.empty()) return violations;
-  std::shared_ptr<const ConvexFunction> function(
-      new FlattenedSuperellipsoid(semi_axes, exponent_1, exponent_2, delta));
+  std::shared_ptr<const ConvexFunction> function(new FlattenedSuperellipsoid(semi_axes, exponent_1, exponent_2, delta));
   return ImplicitSurface::Create(std::move(function), field);
 }
 

@@ -1,14 +1,13 @@
 #include "core/geometry/implicit_surface.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "core/base/check.h"
 #include "core/geometry/jet_values.h"
@@ -74,8 +73,10 @@ std::string Text(const char* format, double a, double b, double c, double d) {
 std::string Complaint(const ConvexFunction& function, const Vector3& u, double* length) {
   *length = RayLength(function, u);
   if (*length == 0) {
-    return Text("Φ has no zero between 1e-9 m and 1e9 m along the ray (%g, %g, %g) from the origin; the body must be "
-                "bounded and contain the origin.", u.x(), u.y(), u.z(), 0);
+    return Text(
+        "Φ has no zero between 1e-9 m and 1e9 m along the ray (%g, %g, %g) from the origin; the body must be "
+        "bounded and contain the origin.",
+        u.x(), u.y(), u.z(), 0);
   }
   const Vector3 x = *length * u;
   const Vector3 gradient = function.Gradient(x);
@@ -272,8 +273,8 @@ void ImplicitSurface::Evaluate(const Vector3& nu, int order, SupportJet* jet) co
         const Vector3 upper = kappa_ij[pair(i, j)] * Vector3::Unit(k) + kappa_ij[pair(i, k)] * Vector3::Unit(j) +
                               kappa_ij[pair(j, k)] * Vector3::Unit(i) - fourth * x_i[k] - third[j] * ik -
                               third[i] * jk - third[k] * ij;
-        const double lower = -(x_i[i].dot(third[j] * x_i[k]) + ik.dot(H * x_i[j]) + jk.dot(H * x_i[i]) +
-                               ij.dot(H * x_i[k]));
+        const double lower =
+            -(x_i[i].dot(third[j] * x_i[k]) + ik.dot(H * x_i[j]) + jk.dot(H * x_i[i]) + ij.dot(H * x_i[k]));
         const Vector4 y = solve(upper, lower);
         for (int l = k; l < 3; ++l) {
           const int ijkl[] = {i, j, k, l};

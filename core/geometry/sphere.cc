@@ -1,8 +1,7 @@
 #include "core/geometry/sphere.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/base/check.h"
 

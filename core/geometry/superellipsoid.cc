@@ -1,10 +1,9 @@
 #include "core/geometry/superellipsoid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include <Eigen/Geometry>
 
 #include "core/base/check.h"
 #include "core/geometry/jet_values.h"
@@ -33,12 +32,12 @@ int PowerSmoothness(double q) {
 // B(n, b) of the derivatives of t^q, which is coefficient · t^(b q − n).
 double PowerTerm(double t, double q, int n, int b) {
   const double f_1 = q, f_2 = q * (q - 1), f_3 = f_2 * (q - 2), f_4 = f_3 * (q - 3);
-  const double coefficients[5][5] = {{1},
-                                     {0, f_1},
-                                     {0, f_2, f_1 * f_1},
-                                     {0, f_3, 3 * f_1 * f_2, f_1 * f_1 * f_1},
-                                     {0, f_4, 4 * f_1 * f_3 + 3 * f_2 * f_2, 6 * f_1 * f_1 * f_2,
-                                      f_1 * f_1 * f_1 * f_1}};
+  const double coefficients[5][5] = {
+      {1},
+      {0, f_1},
+      {0, f_2, f_1 * f_1},
+      {0, f_3, 3 * f_1 * f_2, f_1 * f_1 * f_1},
+      {0, f_4, 4 * f_1 * f_3 + 3 * f_2 * f_2, 6 * f_1 * f_1 * f_2, f_1 * f_1 * f_1 * f_1}};
   const double coefficient = coefficients[n][b], exponent = b * q - n;
   if (coefficient == 0) return 0;
   if (exponent == 0) return coefficient;
@@ -105,9 +104,9 @@ Result<Superellipsoid> Superellipsoid::Create(const Vector3& semi_axes, double e
   Violations violations;
   for (int i = 0; i < 3; ++i) {
     if (!(std::isfinite(semi_axes[i]) && semi_axes[i] > 0)) {
-      violations.push_back({field + ".semi_axes_m",
-                            WithValue("A semi-axis is %g m; every one must be finite and greater than %g.",
-                                      semi_axes[i], 0, 0)});
+      violations.push_back(
+          {field + ".semi_axes_m",
+           WithValue("A semi-axis is %g m; every one must be finite and greater than %g.", semi_axes[i], 0, 0)});
     }
   }
   const double exponents[] = {exponent_1, exponent_2};

@@ -50,7 +50,7 @@ class Superellipsoid {
   double scale_;       // m, largest semi-axis
   Vector3 unit_axes_;  // semi-axes / scale
   double exponent_1_, exponent_2_;
-  double q_1_, q_2_;   // dual exponents, along z and around z
+  double q_1_, q_2_;  // dual exponents, along z and around z
 };
 
 }  // namespace rollgait

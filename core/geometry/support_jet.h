@@ -11,11 +11,11 @@ namespace rollgait {
 // All derivatives are totally symmetric; T and Q are kept by components. Every function that fills a jet fills it up to
 // the order asked for: 1 = h and x, 2 = S, 3 = T, 4 = Q. Members above that order are not touched.
 struct SupportJet {
-  double h = 0;               // distance from the origin to the tangent plane with normal ν
-  Vector3 x;                  // ∇h: the point of the surface with outward normal ν
-  Matrix3 S;                  // ∇²h: inverse Weingarten map, Sν = 0
-  std::array<Matrix3, 3> T;   // T[k] = ∂S/∂ν_k
-  std::array<Matrix3, 6> Q;   // ∂²S/∂ν_k∂ν_l at index PairIndex(k, l)
+  double h = 0;              // distance from the origin to the tangent plane with normal ν
+  Vector3 x;                 // ∇h: the point of the surface with outward normal ν
+  Matrix3 S;                 // ∇²h: inverse Weingarten map, Sν = 0
+  std::array<Matrix3, 3> T;  // T[k] = ∂S/∂ν_k
+  std::array<Matrix3, 6> Q;  // ∂²S/∂ν_k∂ν_l at index PairIndex(k, l)
   // The highest derivative (1 … 4, at most the order asked for) that exists and is finite at this ν. Derivatives above
   // it have every entry +infinity: S where the surface is flat, T and Q at edges and where curvature is not smooth.
   int order = 0;

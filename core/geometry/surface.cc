@@ -1,9 +1,8 @@
 #include "core/geometry/surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/base/check.h"
 

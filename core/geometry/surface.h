@@ -22,9 +22,9 @@ class Surface {
  public:
   using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, ImplicitSurface>;
 
-  Surface(Kind kind) : kind_(std::move(kind)) {}                         // NOLINT: a surface of that kind
-  Surface(const Ellipsoid& ellipsoid) : kind_(ellipsoid) {}              // NOLINT
-  Surface(const Sphere& sphere) : kind_(sphere) {}                       // NOLINT
+  Surface(Kind kind) : kind_(std::move(kind)) {}                            // NOLINT: a surface of that kind
+  Surface(const Ellipsoid& ellipsoid) : kind_(ellipsoid) {}                 // NOLINT
+  Surface(const Sphere& sphere) : kind_(sphere) {}                          // NOLINT
   Surface(const Superellipsoid& superellipsoid) : kind_(superellipsoid) {}  // NOLINT
   Surface(const ImplicitSurface& implicit) : kind_(implicit) {}             // NOLINT
 
@@ -39,9 +39,9 @@ class Surface {
   // The ellipsoid if the body is one about the origin and not rounded; otherwise null.
   const Ellipsoid* ellipsoid() const { return plain_ ? std::get_if<Ellipsoid>(&kind_) : nullptr; }
 
-  double Support(const Vector3& nu) const;              // h, m
-  Vector3 SupportPoint(const Vector3& nu) const;        // x, m
-  Matrix3 SupportHessian(const Vector3& nu) const;      // S, m; every entry infinite where the surface is flat
+  double Support(const Vector3& nu) const;          // h, m
+  Vector3 SupportPoint(const Vector3& nu) const;    // x, m
+  Matrix3 SupportHessian(const Vector3& nu) const;  // S, m; every entry infinite where the surface is flat
   Matrix3 SupportThird(const Vector3& nu, const Vector3& u) const;                     // T[u], m
   Matrix3 SupportFourth(const Vector3& nu, const Vector3& u, const Vector3& w) const;  // Q[u, w], m
   // S(ν)(ν × ω), m/s for ω in rad/s: velocity of the contact point over the surface when the body turns at ω relative

@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// to = value + ε derivative for code that is written once for double, which drops the derivative, and for Dual. All three
-// have the same shape.
+// to = value + ε derivative for code that is written once for double, which drops the derivative, and for Dual. All
+// three have the same shape.
 template <typename To, typename A, typename B>
 void AssignDual(To& to, const A& value, const B& derivative) {
   for (Eigen::Index j = 0; j < to.cols(); ++j) {

@@ -84,7 +84,8 @@ EliminatedScheme::EliminatedScheme(const Tableau& tableau)
   for (MatrixX& m : coefficient_) Clean(m);
 }
 
-// Powers of h by dimension: a source of position (0), velocity (1) or acceleration (2) enters quantity k with h^(order − k).
+// Powers of h by dimension: a source of position (0), velocity (1) or acceleration (2) enters quantity k with h^(order
+// − k).
 int EliminatedScheme::Power(Kind kind, int source) const {
   const int order = source >= 4 ? 2 : source % 2;
   return order - static_cast<int>(kind);

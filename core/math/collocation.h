@@ -10,18 +10,18 @@ namespace rollgait {
 // A collocation Runge–Kutta scheme with s points for  q̈ = a  on one interval of length h:
 //   v_i = v₀ + h Σ A_ij a_j,  q_i = q₀ + h c_i v₀ + h² Σ (A²)_ij a_j,  v_e = v₀ + h Σ b_j a_j,  q_e likewise with bᵀA.
 struct Tableau {
-  MatrixX A;   // s × s
-  VectorX b;   // s, positive
-  VectorX c;   // s, ascending, last 1
-  int order;   // classical order of the scheme
+  MatrixX A;  // s × s
+  VectorX b;  // s, positive
+  VectorX c;  // s, ascending, last 1
+  int order;  // classical order of the scheme
   int points() const { return static_cast<int>(c.size()); }
   // The first point is the node itself (Lobatto): its state is not new, only its acceleration is.
   bool starts_at_node() const { return c(0) == 0; }
 };
 
-Tableau Radau2();           // Radau IIA, order 3
-Tableau Radau3();           // Radau IIA, order 5
-Tableau HermiteSimpson();   // Lobatto IIIA, order 4
+Tableau Radau2();          // Radau IIA, order 3
+Tableau Radau3();          // Radau IIA, order 5
+Tableau HermiteSimpson();  // Lobatto IIIA, order 4
 
 // The tableau with points c (distinct, ascending): A, b by integrating the Lagrange polynomials through them.
 Tableau CollocationTableau(const VectorX& c, int order);
@@ -31,10 +31,11 @@ VectorX LagrangeValues(const VectorX& c, double theta);
 VectorX LagrangeIntegrals(const VectorX& c, double theta);
 VectorX LagrangeSecondIntegrals(const VectorX& c, double theta);
 
-// The same scheme with what is linear eliminated. The interval's unknowns per coordinate are the node states q₀, v₀, q_e, v_e
-// and the accelerations of the first s − 2 points ("sources", in this order); position, velocity and acceleration of every point
-// are linear in them for a given h:
-//   z_i = Σ_src  value(i, src) · h^power(src) · source,   exact by construction: no collocation or continuity rows remain.
+// The same scheme with what is linear eliminated. The interval's unknowns per coordinate are the node states q₀, v₀,
+// q_e, v_e and the accelerations of the first s − 2 points ("sources", in this order); position, velocity and
+// acceleration of every point are linear in them for a given h:
+//   z_i = Σ_src  value(i, src) · h^power(src) · source,   exact by construction: no collocation or continuity rows
+//   remain.
 class EliminatedScheme {
  public:
   explicit EliminatedScheme(const Tableau& tableau);

@@ -13,7 +13,8 @@ CubicSpline::CubicSpline(std::vector<double> values) : values_(std::move(values)
   const size_t last = values_.size() - 1;
   spacing_ = 1 / static_cast<double>(last);
   curvatures_.assign(last + 1, 0.0);
-  // Continuity of the first derivative,  m_{i−1} + 4 m_i + m_{i+1} = 6 (y_{i−1} − 2 y_i + y_{i+1}) / spacing²,  by elimination.
+  // Continuity of the first derivative,  m_{i−1} + 4 m_i + m_{i+1} = 6 (y_{i−1} − 2 y_i + y_{i+1}) / spacing²,  by
+  // elimination.
   std::vector<double> upper(last + 1, 0.0);
   for (size_t i = 1; i < last; ++i) {
     const double pivot = 4 - upper[i - 1];

@@ -6,8 +6,8 @@
 
 namespace rollgait {
 
-// p(x) = offset + Σ k_i exp(s_i x) of a coordinate x in rad; p in N m, s in 1/rad. It pushes back on both sides if every
-// k_i s_i <= 0. All zero: no spring. Immutable value.
+// p(x) = offset + Σ k_i exp(s_i x) of a coordinate x in rad; p in N m, s in 1/rad. It pushes back on both sides if
+// every k_i s_i <= 0. All zero: no spring. Immutable value.
 struct ExponentialSpring {
   struct Term {
     double k = 0, s = 0;

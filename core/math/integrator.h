@@ -35,16 +35,17 @@ class Dop853 {
   IntegrationStatus Integrate(const RightSide& right_side, double t, double end, const Options& options, VectorX* x,
                               const Observer& observer = {});
 
-  // The last `count` components are integrals along the motion that nothing depends on: they are carried along, but do not
-  // take part in the error control. Default 0.
+  // The last `count` components are integrals along the motion that nothing depends on: they are carried along, but do
+  // not take part in the error control. Default 0.
   void SetQuadratures(int count) { quadratures_ = count; }
 
-  // The same step by step. Start evaluates the derivative at (t, x) and takes first_step, or what is given, as the length
-  // to try; Restart does so after the caller has changed x, and keeps the length.
+  // The same step by step. Start evaluates the derivative at (t, x) and takes first_step, or what is given, as the
+  // length to try; Restart does so after the caller has changed x, and keeps the length.
   void Start(const RightSide& right_side, double t, const VectorX& x, double first_step);
   void Restart(const RightSide& right_side, double t, const VectorX& x);
-  // One accepted step from (t, x), the state of the last Start, Restart or Advance, not beyond end > t. On failure t and x
-  // stay what they were. kReachedEnd: the step was made (t need not be `end`). `attempts` counts accepted and rejected.
+  // One accepted step from (t, x), the state of the last Start, Restart or Advance, not beyond end > t. On failure t
+  // and x stay what they were. kReachedEnd: the step was made (t need not be `end`). `attempts` counts accepted and
+  // rejected.
   IntegrationStatus Advance(const RightSide& right_side, double end, double tolerance, int max_attempts, double* t,
                             VectorX* x, int* attempts);
   // ẋ at the end of the last step (or at Start).
@@ -72,10 +73,10 @@ class Dop853 {
                             VectorX* next);
 
   std::array<VectorX, 12> stages_;
-  std::array<VectorX, 3> extra_;           // stages of the continuous extension
+  std::array<VectorX, 3> extra_;  // stages of the continuous extension
   std::array<VectorX, 8> interpolation_;
   VectorX derivative_, argument_, next_;
-  VectorX step_from_, step_to_;            // states at the ends of the last step of Advance
+  VectorX step_from_, step_to_;  // states at the ends of the last step of Advance
   double step_start_ = 0, step_ = 0;
   double proposed_step_ = 0;
   bool rejected_ = false;

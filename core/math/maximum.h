@@ -33,10 +33,10 @@ Maximum MaximumIn(const Function& f, double left, double right, Maximum best) {
   return best;
 }
 
-// The maximum of f over grid.front() … grid.back() (ascending), given its samples there: every local maximum of the samples
-// that could be the largest is searched between its neighbours. It finds the maximum if f has at most one maximum
-// between two neighbours of the grid, and no maximum rises above its highest sample by more than a quarter of the range of the
-// samples. Contract: at least two samples, all finite.
+// The maximum of f over grid.front() … grid.back() (ascending), given its samples there: every local maximum of the
+// samples that could be the largest is searched between its neighbours. It finds the maximum if f has at most one
+// maximum between two neighbours of the grid, and no maximum rises above its highest sample by more than a quarter of
+// the range of the samples. Contract: at least two samples, all finite.
 template <class Function>
 Maximum MaximumOverGrid(const Function& f, std::span<const double> grid, std::span<const double> samples) {
   const int n = static_cast<int>(samples.size());

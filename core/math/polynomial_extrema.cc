@@ -45,7 +45,8 @@ double EvaluatePolynomial(std::span<const double> c, double x) {
 int SignChangesOnUnitInterval(std::span<const double> c, double* roots) {
   const int n = static_cast<int>(c.size()) - 1;
   ROLLGAIT_CHECK(n >= 0 && n <= kLargestDegree);
-  // From the derivative of degree 1 up to the polynomial itself: between two sign changes of its derivative it is monotone.
+  // From the derivative of degree 1 up to the polynomial itself: between two sign changes of its derivative it is
+  // monotone.
   std::array<double, kLargestDegree> breaks{};
   int count = 0;
   for (int order = n - 1; order >= 0; --order) {

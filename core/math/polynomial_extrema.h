@@ -13,13 +13,13 @@ struct PolynomialRange {
 
 inline constexpr int kLargestDegree = 8;
 
-// Extrema of  c_0 + c_1 x + … + c_n x^n  on [0, 1], exact but for rounding: roots of the derivative are isolated between
-// the roots of the next derivative. Contract: 1 to kLargestDegree + 1 coefficients; leading ones may vanish.
-// If a coefficient is not finite, the range is all numbers.
+// Extrema of  c_0 + c_1 x + … + c_n x^n  on [0, 1], exact but for rounding: roots of the derivative are isolated
+// between the roots of the next derivative. Contract: 1 to kLargestDegree + 1 coefficients; leading ones may vanish. If
+// a coefficient is not finite, the range is all numbers.
 PolynomialRange RangeOnUnitInterval(std::span<const double> coefficients);
 
-// Where the same polynomial changes its sign in (0, 1), ascending, at most n places; returns how many. It misses roots of
-// even multiplicity, where it touches zero only. Contract: coefficients finite, room for n roots.
+// Where the same polynomial changes its sign in (0, 1), ascending, at most n places; returns how many. It misses roots
+// of even multiplicity, where it touches zero only. Contract: coefficients finite, room for n roots.
 int SignChangesOnUnitInterval(std::span<const double> coefficients, double* roots);
 
 // By Horner's rule.

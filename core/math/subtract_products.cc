@@ -54,12 +54,15 @@ ROLLGAIT_INLINE void ColumnKernel(const double* l, int l_stride, const int* plac
   if ((used & 1) != 0) Subtract<1>(columns + used - 1, factors + used - 1, n, y);
 }
 
-// A tile of R · kWidth<L> rows and C columns of Y, held in registers while all k go by. W's numbers of the columns are neighbours.
+// A tile of R · kWidth<L> rows and C columns of Y, held in registers while all k go by. W's numbers of the columns are
+// neighbours.
 template <typename L, int R, int C>
-ROLLGAIT_INLINE void Tile(const double* l, int l_stride, const double* w, int w_stride, int count, double* y, int y_stride) {
+ROLLGAIT_INLINE void Tile(const double* l, int l_stride, const double* w, int w_stride, int count, double* y,
+                          int y_stride) {
   L sum[R][C];
   for (int c = 0; c < C; ++c) {
-    for (int r = 0; r < R; ++r) std::memcpy(&sum[r][c], y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, sizeof(L));
+    for (int r = 0; r < R; ++r)
+      std::memcpy(&sum[r][c], y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, sizeof(L));
   }
   for (int k = 0; k < count; ++k, l += l_stride, w += w_stride) {
     L column[R];
@@ -69,7 +72,8 @@ ROLLGAIT_INLINE void Tile(const double* l, int l_stride, const double* w, int w_
     }
   }
   for (int c = 0; c < C; ++c) {
-    for (int r = 0; r < R; ++r) std::memcpy(y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, &sum[r][c], sizeof(L));
+    for (int r = 0; r < R; ++r)
+      std::memcpy(y + static_cast<size_t>(c) * y_stride + r * kWidth<L>, &sum[r][c], sizeof(L));
   }
 }
 
@@ -87,7 +91,7 @@ ROLLGAIT_INLINE void Rows(const double* l, int l_stride, const double* w, int w_
   int i = 0;
   Tiles<L, 3, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
   Tiles<L, 1, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
-  if constexpr (kWidth<L> > kWidth<Lanes>) Tiles<Lanes, 1, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
+  if constexpr (kWidth < L >> kWidth<Lanes>) Tiles<Lanes, 1, C>(l, l_stride, w, w_stride, count, n, y, y_stride, &i);
   for (; i < n; ++i) {
     double sum[C];
     for (int c = 0; c < C; ++c) sum[c] = y[static_cast<size_t>(c) * y_stride + i];
@@ -101,11 +105,12 @@ ROLLGAIT_INLINE void Rows(const double* l, int l_stride, const double* w, int w_
 
 // C columns at a time from column j on, as many as fit; of column j the rows from j · first_step on.
 template <typename L, int C>
-ROLLGAIT_INLINE void Columns(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,
-                             double* y, int y_stride, int first_step, int* j) {
+ROLLGAIT_INLINE void Columns(const double* l, int l_stride, const double* w, int w_stride, int count, int n,
+                             int columns, double* y, int y_stride, int first_step, int* j) {
   for (; *j + C <= columns; *j += C) {
     const int first = *j * first_step;
-    Rows<L, C>(l + first, l_stride, w + *j, w_stride, count, n - first, y + static_cast<size_t>(*j) * y_stride + first, y_stride);
+    Rows<L, C>(l + first, l_stride, w + *j, w_stride, count, n - first, y + static_cast<size_t>(*j) * y_stride + first,
+               y_stride);
   }
 }
 
@@ -114,7 +119,7 @@ ROLLGAIT_INLINE void MatrixKernel(const double* l, int l_stride, const double* w
                                   int columns, double* y, int y_stride, int first_step) {
   int j = 0;
   // AVX-512 has registers for twice as many columns, which halves what is read of L.
-  if constexpr (kWidth<L> > kWidth<Lanes>) {
+  if constexpr (kWidth < L >> kWidth<Lanes>) {
     Columns<L, 8>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step, &j);
   }
   Columns<L, 4>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step, &j);
@@ -144,7 +149,8 @@ ROLLGAIT_INLINE void Dots(const double* l, int l_stride, int n, const double* x,
 ROLLGAIT_INLINE void TransposedKernel(const double* l, int l_stride, int count, int n, const double* x, double* y) {
   constexpr int kColumns = 4;
   int k = 0;
-  for (; k + kColumns <= count; k += kColumns) Dots<kColumns>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
+  for (; k + kColumns <= count; k += kColumns)
+    Dots<kColumns>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
   for (; k < count; ++k) Dots<1>(l + static_cast<size_t>(k) * l_stride, l_stride, n, x, y + k);
 }
 
@@ -186,24 +192,24 @@ ROLLGAIT_INLINE void ScaleKernel(double factor, int n, double* __restrict x, dou
   }
 }
 
-// The five kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order whatever the
-// lanes; g++ 12 makes the same bits of it with AVX2 and AVX-512, g++ 14 fuses the wide ones only.
-#define ROLLGAIT_KERNELS(NAME, TARGET, L)                                                                                 \
-  TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count,   \
-                           int n, double* y) {                                                                            \
-    ColumnKernel(l, l_stride, places, w, w_stride, count, n, y);                                                          \
-  }                                                                                                                       \
-  TARGET void NAME##Matrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n, int columns,   \
-                           double* y, int y_stride, int first_step) {                                                     \
-    MatrixKernel<L>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step);                                \
-  }                                                                                                                       \
-  TARGET void NAME##Transposed(const double* l, int l_stride, int count, int n, const double* x, double* y) {             \
-    TransposedKernel(l, l_stride, count, n, x, y);                                                                        \
-  }                                                                                                                       \
-  TARGET double NAME##Largest(const double* x, int n) { return LargestKernel<L>(x, n); }                                  \
-  TARGET void NAME##Scale(double factor, int n, double* x, double* kept) { ScaleKernel(factor, n, x, kept); }             \
-  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME,            NAME##Column,  NAME##Matrix,                     \
-                                                       NAME##Transposed, NAME##Largest, NAME##Scale};
+// The five kernels for one instruction set, with tiles of lanes L. Each number of a tile is summed in the same order
+// whatever the lanes; g++ 12 makes the same bits of it with AVX2 and AVX-512, g++ 14 fuses the wide ones only.
+#define ROLLGAIT_KERNELS(NAME, TARGET, L)                                                                              \
+  TARGET void NAME##Column(const double* l, int l_stride, const int* places, const double* w, int w_stride, int count, \
+                           int n, double* y) {                                                                         \
+    ColumnKernel(l, l_stride, places, w, w_stride, count, n, y);                                                       \
+  }                                                                                                                    \
+  TARGET void NAME##Matrix(const double* l, int l_stride, const double* w, int w_stride, int count, int n,             \
+                           int columns, double* y, int y_stride, int first_step) {                                     \
+    MatrixKernel<L>(l, l_stride, w, w_stride, count, n, columns, y, y_stride, first_step);                             \
+  }                                                                                                                    \
+  TARGET void NAME##Transposed(const double* l, int l_stride, int count, int n, const double* x, double* y) {          \
+    TransposedKernel(l, l_stride, count, n, x, y);                                                                     \
+  }                                                                                                                    \
+  TARGET double NAME##Largest(const double* x, int n) { return LargestKernel<L>(x, n); }                               \
+  TARGET void NAME##Scale(double factor, int n, double* x, double* kept) { ScaleKernel(factor, n, x, kept); }          \
+  [[maybe_unused]] constexpr ProductKernels k##NAME = {#NAME,         NAME##Column, NAME##Matrix, NAME##Transposed,    \
+                                                       NAME##Largest, NAME##Scale};
 
 ROLLGAIT_KERNELS(Portable, , Lanes)
 #if defined(__x86_64__)

@@ -41,8 +41,8 @@ struct BodySelection {
   bool toes = false;
   JointRanges ranges = JointRanges::kAnatomical;
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
-  std::map<std::string, double> locked_joints;    // rad, those given
-  std::optional<RollingEllipsoid> rolling_body;   // if the model is one; nothing else then means anything
+  std::map<std::string, double> locked_joints;   // rad, those given
+  std::optional<RollingEllipsoid> rolling_body;  // if the model is one; nothing else then means anything
 };
 
 // The same before it is checked; empty optionals take the defaults of rollgait.v1.ModelSelection.
@@ -54,9 +54,9 @@ struct BodyRequest {
   std::map<std::string, double> segment_lengths;  // m, [0.7, 1.4] times what the table has
   std::optional<FootShape> feet;
   bool toes = false;
-  std::optional<JointRanges> ranges;              // default: that of the model
+  std::optional<JointRanges> ranges;  // default: that of the model
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
-  std::map<std::string, double> locked_joints;    // rad, within the range of the joint
+  std::map<std::string, double> locked_joints;  // rad, within the range of the joint
   std::optional<RollingEllipsoidRequest> rolling_body;
 };
 

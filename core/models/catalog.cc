@@ -13,14 +13,15 @@ namespace {
 struct Entry {
   const char* name;
   const char* description;
-  bool planar;  // sagittal, without arms and with a rigid trunk
+  bool planar;         // sagittal, without arms and with a rigid trunk
   JointRanges ranges;  // by default
 };
 // Every model that walks. All are the one human, reduced.
 constexpr Entry kEntries[] = {
     {"planar", "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.", true,
      JointRanges::kAnatomical},
-    {"human29", "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.", false, JointRanges::kWalking},
+    {"human29", "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.", false,
+     JointRanges::kWalking},
 };
 
 constexpr const char* kBall = "ball";

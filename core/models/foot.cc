@@ -48,14 +48,20 @@ FootBodies SplitFoot(const SegmentTable& table, Side side) {
 
 std::vector<std::string> FootSources() {
   return {
-      "Feet: ellipsoids from heel to toe (a = half foot length) whose sole has the radius of curvature a²/c = 0.3 × leg "
-      "length (Adamczyk, Collins, Kuo 2006, J Exp Biol 209:3953); bottom at the sole of the standing foot; half breadth "
+      "Feet: ellipsoids from heel to toe (a = half foot length) whose sole has the radius of curvature a²/c = 0.3 × "
+      "leg "
+      "length (Adamczyk, Collins, Kuo 2006, J Exp Biol 209:3953); bottom at the sole of the standing foot; half "
+      "breadth "
       "0.187 × foot length (US Army survey 1988, male means, from memory).",
-      "Feet of two ellipsoids (own choice of shape): heel of half length 0.15 and half breadth 0.125 × foot length with "
-      "sole radius 0.05 × leg length, forefoot of half length 0.2 and half breadth 0.187 × foot length with sole radius "
+      "Feet of two ellipsoids (own choice of shape): heel of half length 0.15 and half breadth 0.125 × foot length "
+      "with "
+      "sole radius 0.05 × leg length, forefoot of half length 0.2 and half breadth 0.187 × foot length with sole "
+      "radius "
       "0.3 × leg length.",
-      "Toe joint: at the middle of the metatarsal heads 1 and 5, at 0.3 of the ankle height (assumption). Toes: 0.08 of the "
-      "mass of the foot (OpenSim's gait2392 has 0.14, from memory; with 0.1 or more the rest of the table's female foot is no "
+      "Toe joint: at the middle of the metatarsal heads 1 and 5, at 0.3 of the ankle height (assumption). Toes: 0.08 "
+      "of the "
+      "mass of the foot (OpenSim's gait2392 has 0.14, from memory; with 0.1 or more the rest of the table's female "
+      "foot is no "
       "rigid body), inertia of a solid ellipsoid from the joint to the tip; the rest of the foot is what remains.",
   };
 }

@@ -11,10 +11,10 @@ namespace rollgait {
 
 // A surface of a foot, axes forward, left and up when the foot is level; its lowest point is then at the sole.
 struct FootSurface {
-  std::string name;         // "foot", or "heel" and "forefoot"
+  std::string name;  // "foot", or "heel" and "forefoot"
   Ellipsoid surface;
-  Vector3 center;           // m, from the ankle joint
-  bool on_toes = false;     // rides on the toes, if they are a link of their own
+  Vector3 center;        // m, from the ankle joint
+  bool on_toes = false;  // rides on the toes, if they are a link of their own
 };
 std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape);
 

@@ -115,7 +115,8 @@ class HumanBuilder {
     const std::string suffix = Suffix(side);
     const double sign = side == Side::kLeft ? -1 : 1;
     const int thigh = AddBall("hip", side, pelvis_, Vector3(0, -sign * table_.HalfHipWidth(), 0));
-    const int shank = AddActuated("knee", side, thigh, Vector3(0, 0, -table_.Length(Segment::kThigh)), Vector3::UnitY());
+    const int shank =
+        AddActuated("knee", side, thigh, Vector3(0, 0, -table_.Length(Segment::kThigh)), Vector3::UnitY());
     const int ankle =
         AddActuated("ankle", side, shank, Vector3(0, 0, -table_.Length(Segment::kShank)), -Vector3::UnitY());
     const int foot = AddActuated("ankle_inversion", side, ankle, Vector3::Zero(), sign * Vector3::UnitX());
@@ -152,8 +153,7 @@ class HumanBuilder {
 
   // Torso and head on the lumbar joint; the torso's mass properties are about the cervical joint.
   void AddTrunk() {
-    const int flexion =
-        AddActuated("trunk_flexion", Side::kMidline, pelvis_, -table_.LumbarToHips(), Vector3::UnitY());
+    const int flexion = AddActuated("trunk_flexion", Side::kMidline, pelvis_, -table_.LumbarToHips(), Vector3::UnitY());
     const int bending = AddActuated("trunk_bending", Side::kMidline, flexion, Vector3::Zero(), Vector3::UnitX());
     torso_ = AddActuated("trunk_rotation", Side::kMidline, bending, Vector3::Zero(), Vector3::UnitZ());
     for (int joint : {bending, torso_}) joints_[joint].mirror_sign = -1;
@@ -180,8 +180,10 @@ class HumanBuilder {
     for (size_t i = 0; i < joints_.size(); ++i) {
       for (size_t k = 0; k < joints_.size(); ++k) {
         std::string image = joints_[i].name;
-        if (image.ends_with("_l")) image.back() = 'r';
-        else if (image.ends_with("_r")) image.back() = 'l';
+        if (image.ends_with("_l"))
+          image.back() = 'r';
+        else if (image.ends_with("_r"))
+          image.back() = 'l';
         if (joints_[k].name == image) joints_[i].mirror_joint = static_cast<int>(k);
       }
     }
@@ -205,16 +207,21 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options) {
 
 std::vector<std::string> HumanSources() {
   std::vector<std::string> sources = SegmentTable::Sources();
-  for (const std::vector<std::string>& more : {FootSources(), LimbBodySources(), JointLimitSources(), PassiveTorqueSources()}) {
+  for (const std::vector<std::string>& more :
+       {FootSources(), LimbBodySources(), JointLimitSources(), PassiveTorqueSources()}) {
     sources.insert(sources.end(), more.begin(), more.end());
   }
   sources.push_back(
-      "Posture at zero: lumbar and cervical joints on one vertical, hips ahead of it as the table has them. The centre of "
-      "mass of pelvis, torso, head and arms is then 0.063 m (male, 1.774 m) or 0.058 m (female, 1.610 m) behind the hips, so "
+      "Posture at zero: lumbar and cervical joints on one vertical, hips ahead of it as the table has them. The centre "
+      "of "
+      "mass of pelvis, torso, head and arms is then 0.063 m (male, 1.774 m) or 0.058 m (female, 1.610 m) behind the "
+      "hips, so "
       "balance takes some forward lean.");
   sources.push_back(
-      "Joint axes: parallel to those of the standing body; hip, shoulder and trunk turn about y, x, z in this order, the "
-      "foot about y (dorsiflexion) and x (inversion) through one centre, a simplification of the oblique subtalar axis.");
+      "Joint axes: parallel to those of the standing body; hip, shoulder and trunk turn about y, x, z in this order, "
+      "the "
+      "foot about y (dorsiflexion) and x (inversion) through one centre, a simplification of the oblique subtalar "
+      "axis.");
   return sources;
 }
 

@@ -25,8 +25,8 @@ struct HumanBody {
 };
 
 // The whole human: 29 degrees of freedom, 23 of them actuated; 31 and 25 with toe joints. All zero: standing straight,
-// arms hanging, palms to the thighs, the hips' middle at the world's origin. World: x forward, y left, z up, the ground's
-// normal. Joints in this order, rad or m, with what is positive:
+// arms hanging, palms to the thighs, the hips' middle at the world's origin. World: x forward, y left, z up, the
+// ground's normal. Joints in this order, rad or m, with what is positive:
 //   base_x, base_y, base_z           middle of the hip joint centres
 //   base_yaw, base_roll, base_pitch  of the pelvis: turn to the left, lean to the right, lean forward
 //   hip, hip_adduction, hip_rotation of the left leg (_l), then the right (_r): flexion, adduction, internal rotation
@@ -36,13 +36,12 @@ struct HumanBody {
 //   shoulder, shoulder_adduction, shoulder_rotation, elbow  _l, then _r: flexion, adduction, internal rotation, flexion
 // A joint of several degrees of freedom is the chain of these with massless links between, in this order. Its chart is
 // regular while the middle angle stays off ±90°: the pelvis' roll (at most ±60°, kLargestBaseRoll), hip and shoulder
-// adduction (at most -45..30° and -80..45°), trunk bending (at most ±35°). Walking stays below 15° in all of them but the
-// shoulder.
-// Left and right joints mirror each other with sign 1; base_y, yaw, roll, trunk bending and rotation mirror themselves
-// with sign -1. Contacts: left_foot and right_foot, or left_heel, left_forefoot, right_heel, right_forefoot.
-// Bodies: the contacts under their own names, with feet of two ellipsoids left_instep, too; left_shank, left_thigh,
-// left_forearm (with the hand), and the same of the right. Standing straight, none overlap.
-// Contract: the table's person.
+// adduction (at most -45..30° and -80..45°), trunk bending (at most ±35°). Walking stays below 15° in all of them but
+// the shoulder. Left and right joints mirror each other with sign 1; base_y, yaw, roll, trunk bending and rotation
+// mirror themselves with sign -1. Contacts: left_foot and right_foot, or left_heel, left_forefoot, right_heel,
+// right_forefoot. Bodies: the contacts under their own names, with feet of two ellipsoids left_instep, too; left_shank,
+// left_thigh, left_forearm (with the hand), and the same of the right. Standing straight, none overlap. Contract: the
+// table's person.
 HumanBody Human(const SegmentTable& table, const HumanOptions& options);
 
 // Where the numbers of the body come from.

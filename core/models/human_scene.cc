@@ -33,9 +33,9 @@ SegmentScales CheckSegments(const BodySelection& selection, Violations* violatio
     }
     const Segment kind = static_cast<Segment>(segment);
     const double usual = kind == Segment::kFoot ? table.FootLength() : table.Length(kind);  // a foot from heel to toe
-    if (!(length >= kShortest * usual && length <= kLongest * usual)) {  // refuses NaN
-      message << "is " << length << " m; must be between " << kShortest * usual << " and " << kLongest * usual
-              << " m (" << kShortest << " and " << kLongest << " times the table's at this stature)";
+    if (!(length >= kShortest * usual && length <= kLongest * usual)) {                     // refuses NaN
+      message << "is " << length << " m; must be between " << kShortest * usual << " and " << kLongest * usual << " m ("
+              << kShortest << " and " << kLongest << " times the table's at this stature)";
       violations->push_back({field, message.str()});
       continue;
     }
@@ -64,11 +64,12 @@ std::string LockProblem(const Joint& joint, double angle, const BodySelection& s
     message << "belongs to the floating base, which cannot be locked; use `sagittal` for a walk in the plane";
   } else if (const char* fixed = FixedBy(joint, selection)) {
     message << "is fixed already by `" << fixed << "`"
-            << (selection.model == "planar" ? ", which is part of the model \"planar\"" : "") << "; leave one of the two out";
+            << (selection.model == "planar" ? ", which is part of the model \"planar\"" : "")
+            << "; leave one of the two out";
   } else if (!(angle >= joint.position_min && angle <= joint.position_max)) {
     message << "is " << angle << " rad (" << angle / kRadiansPerDegree << " deg); must be within the joint's range, "
-            << joint.position_min << " to " << joint.position_max << " rad (" << joint.position_min / kRadiansPerDegree << " to "
-            << joint.position_max / kRadiansPerDegree << " deg)";
+            << joint.position_min << " to " << joint.position_max << " rad (" << joint.position_min / kRadiansPerDegree
+            << " to " << joint.position_max / kRadiansPerDegree << " deg)";
   }
   return message.str();
 }
@@ -84,8 +85,10 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
       continue;
     }
     const std::string problem = LockProblem(model.joint(joint), angle, selection);
-    if (problem.empty()) locked[name] = angle;
-    else violations->push_back({field, problem});
+    if (problem.empty())
+      locked[name] = angle;
+    else
+      violations->push_back({field, problem});
   }
   int driven = 0;
   for (const Joint& joint : model.joints()) {
@@ -103,8 +106,9 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
 Result<Scene> HumanScene(const BodySelection& selection) {
   Violations violations;
   if (selection.toes && selection.feet == FootShape::kOneEllipsoid) {
-    violations.push_back({"toes", "needs feet of two ellipsoids: one that spans heel and toes cannot bend; leave `feet` "
-                                  "unset or set it to FEET_TWO_ELLIPSOIDS"});
+    violations.push_back({"toes",
+                          "needs feet of two ellipsoids: one that spans heel and toes cannot bend; leave `feet` "
+                          "unset or set it to FEET_TWO_ELLIPSOIDS"});
   }
   const SegmentScales scales = CheckSegments(selection, &violations);
   const SegmentTable table(selection.sex, selection.stature, selection.mass, scales);

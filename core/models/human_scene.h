@@ -6,15 +6,15 @@
 
 namespace rollgait {
 
-// The human of the selection, reduced to what it moves (ReduceModel): its switches fix joints at zero, its locked joints at
-// their angles.
+// The human of the selection, reduced to what it moves (ReduceModel): its switches fix joints at zero, its locked
+// joints at their angles.
 //   sagittal     base_y, base_yaw, base_roll and every joint that does not turn about y; contacts work in x and z only.
-//                Limbs keep their distance from the plane, and what is left of it says nothing of limbs that pass each other:
-//                there are bodies, but no pairs
+//                Limbs keep their distance from the plane, and what is left of it says nothing of limbs that pass each
+//                other: there are bodies, but no pairs
 //   drop_arms    shoulders and elbows: straight hanging arms, one body with the torso
 //   rigid_trunk  the three trunk joints: pelvis and torso are one body
-// Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes without feet of
-// two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all there are.
+// Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes without feet
+// of two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all there are.
 // Contract: stature and mass within the ranges of ModelSelection.
 Result<Scene> HumanScene(const BodySelection& selection);
 

@@ -45,17 +45,22 @@ std::vector<std::string> JointLimitSources() {
   return {
       "Ranges of motion: hip -30..120 and ankle -50 deg, AAOS 1965 norms; knee 0..150 deg, AMA guides; 40 deg of ankle "
       "dorsiflexion are reached under weight only (lunge test). From memory of these norms.",
-      "Further ranges, AAOS 1965 norms from memory: hip abduction 45, adduction 30, rotation 45 deg to both sides; foot "
+      "Further ranges, AAOS 1965 norms from memory: hip abduction 45, adduction 30, rotation 45 deg to both sides; "
+      "foot "
       "inversion 35, eversion 15; toe joint -45..70; trunk flexion 80, extension 30, bending 35, rotation 45; shoulder "
-      "-60..180, adduction 45, external rotation 90, internal 70; elbow 0..150. Shoulder abduction ends at 80 deg, before the pole of "
+      "-60..180, adduction 45, external rotation 90, internal 70; elbow 0..150. Shoulder abduction ends at 80 deg, "
+      "before the pole of "
       "its chart at 90.",
-      "Torque limits: 200 N m (hip), 250 N m (knee, ankle) at 75 kg in both directions, proportional to body mass: above "
+      "Torque limits: 200 N m (hip), 250 N m (knee, ankle) at 75 kg in both directions, proportional to body mass: "
+      "above "
       "the isometric maxima of young adults (Anderson, Madigan, Nussbaum 2007, J Biomech 40:3105; from memory) so that "
       "walking meets them rarely. Velocity limits: 15 rad/s (hip), 20 rad/s (knee, ankle), chosen well above walking.",
-      "Further torque limits at 75 kg, chosen above what walking needs and near isometric maxima of adults (from memory, "
+      "Further torque limits at 75 kg, chosen above what walking needs and near isometric maxima of adults (from "
+      "memory, "
       "unchecked): hip adduction 150, hip rotation 80, inversion 60, toes 40, trunk 300 / 150 / 100 (flexion, bending, "
       "rotation), shoulder 80 / 70 / 40, elbow 70 N m.",
-      "Ranges of walking (JointRanges): what people use between 20 deg downhill and uphill with a margin of 5 to 15 deg, "
+      "Ranges of walking (JointRanges): what people use between 20 deg downhill and uphill with a margin of 5 to 15 "
+      "deg, "
       "after normative gait curves; chosen, from memory.",
   };
 }

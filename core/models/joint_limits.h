@@ -18,8 +18,8 @@ struct JointLimits {
   double effort_per_mass;             // N m/kg, both directions
 };
 
-// The limits of a joint of the human by its name without side. The translations of the base have none. Contract: the human
-// has such a joint.
+// The limits of a joint of the human by its name without side. The translations of the base have none. Contract: the
+// human has such a joint.
 const JointLimits& LimitsOf(const std::string& joint);
 
 // Where the numbers come from.

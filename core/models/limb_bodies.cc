@@ -5,8 +5,8 @@
 namespace rollgait {
 namespace {
 
-// Radii over stature. Circumferences of the US Army survey of 1988, means of men of 1.756 m (from memory): calf 378 mm, knee
-// 386 mm, ankle 222 mm, forearm 300 mm; women have the same ratios within 3 %.
+// Radii over stature. Circumferences of the US Army survey of 1988, means of men of 1.756 m (from memory): calf 378 mm,
+// knee 386 mm, ankle 222 mm, forearm 300 mm; women have the same ratios within 3 %.
 constexpr double kShankRadius = 0.0343, kThighRadius = 0.0375;
 constexpr double kForearmDepth = 0.0245, kForearmBreadth = 0.021;
 // Half lengths and centres over the length of the segment.
@@ -45,8 +45,8 @@ LimbBody ForearmBody(const SegmentTable& table) {
 
 LimbBody InstepBody(const SegmentTable& table) {
   const Vector3 semi_axes = table.FootLength() * Vector3(kInstepHalfLength, kInstepHalfBreadth, kInstepHalfHeight);
-  return {Ellipsoid(semi_axes), Vector3(kInstepCenter * table.FootLength() - table.HeelToAnkle(), 0,
-                                        semi_axes.z() - table.AnkleHeight())};
+  return {Ellipsoid(semi_axes),
+          Vector3(kInstepCenter * table.FootLength() - table.HeelToAnkle(), 0, semi_axes.z() - table.AnkleHeight())};
 }
 
 std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces) {
@@ -84,11 +84,15 @@ std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces) {
 
 std::vector<std::string> LimbBodySources() {
   return {
-      "Bodies of the limbs: ellipsoids, thickness proportional to stature. Shank: radius 0.0343 of stature (calf circumference "
-      "378 mm at 1.756 m, US Army survey of 1988, men, from memory), 0.55 of it at knee and ankle (ankle circumference 222 mm: "
-      "0.59). Thigh: its lower part, radius 0.0375 of stature, 0.71 of it at the knee (people: knee circumference 386 mm, "
+      "Bodies of the limbs: ellipsoids, thickness proportional to stature. Shank: radius 0.0343 of stature (calf "
+      "circumference "
+      "378 mm at 1.756 m, US Army survey of 1988, men, from memory), 0.55 of it at knee and ankle (ankle circumference "
+      "222 mm: "
+      "0.59). Thigh: its lower part, radius 0.0375 of stature, 0.71 of it at the knee (people: knee circumference 386 "
+      "mm, "
       "radius 0.035 of stature; mid-thigh 0.047): a fifth thinner than people's, whose thighs touch and yield.",
-      "Forearm with hand: half thickness 0.0245 (fore and aft) and 0.021 (sideways) of stature (forearm circumference 300 mm, "
+      "Forearm with hand: half thickness 0.0245 (fore and aft) and 0.021 (sideways) of stature (forearm circumference "
+      "300 mm, "
       "from memory), from the elbow to the knuckles of the bent fingers, 1.6 times the way to the metacarpal heads. "
       "Instep of a foot of two ellipsoids: half breadth 0.14, height 0.26 of the foot length (chosen).",
   };

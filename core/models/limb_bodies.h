@@ -10,9 +10,9 @@
 
 namespace rollgait {
 
-// The thickness of limbs. Ellipsoids whose axes are those of the straight hanging limb (forward, left, up), `center` in m
-// from the joint centre at the upper end of the segment. Thickness is proportional to stature, length to the length of the
-// segment; neither depends on the mass of the body, so that bodies of different mass and equal size walk alike.
+// The thickness of limbs. Ellipsoids whose axes are those of the straight hanging limb (forward, left, up), `center` in
+// m from the joint centre at the upper end of the segment. Thickness is proportional to stature, length to the length
+// of the segment; neither depends on the mass of the body, so that bodies of different mass and equal size walk alike.
 struct LimbBody {
   Ellipsoid surface;
   Vector3 center;
@@ -30,11 +30,11 @@ struct LimbSurface {
   BodySurface body;
 };
 
-// The pairs that can meet, first the left body where sides differ: every body of one leg with every body of the other, each
-// forearm with both thighs, and the two forearms. Left and right are mirror images of each other. The bodies of one leg are
-// no pairs: the ranges of their joints keep them apart, or they share a joint. Usual are, of feet, shanks and thighs, the widest body
-// and its mirror image: legs that swing past each other meet there first (measured on -20 to 20 degrees, docs/walking.md).
-// Contract: `surfaces` with their mirror bodies set.
+// The pairs that can meet, first the left body where sides differ: every body of one leg with every body of the other,
+// each forearm with both thighs, and the two forearms. Left and right are mirror images of each other. The bodies of
+// one leg are no pairs: the ranges of their joints keep them apart, or they share a joint. Usual are, of feet, shanks
+// and thighs, the widest body and its mirror image: legs that swing past each other meet there first (measured on -20
+// to 20 degrees, docs/walking.md). Contract: `surfaces` with their mirror bodies set.
 std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces);
 
 // Where the numbers come from.

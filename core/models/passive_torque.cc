@@ -8,7 +8,7 @@ namespace rollgait {
 namespace {
 
 constexpr double kPerDegree = 180 / std::numbers::pi;  // 1/deg in 1/rad
-constexpr double kMeasuredMass = 75;                           // kg, of the measured
+constexpr double kMeasuredMass = 75;                   // kg, of the measured
 constexpr double kAnkle = 0, kKnee = 15, kHip = 10;    // degrees, where the other joints of a shared muscle are
 
 // sign · exp(a + b x) with x in degrees.
@@ -20,7 +20,8 @@ ExponentialSpring Stops(double k_low, double s_low, double low, double k_high, d
 }
 
 ExponentialSpring Hip() {
-  return {8.072, {{Exponential(1, 1.4655 - 0.0034 * kKnee, -0.0750), Exponential(-1, 1.3403 - 0.0226 * kKnee, 0.0305)}}};
+  return {8.072,
+          {{Exponential(1, 1.4655 - 0.0034 * kKnee, -0.0750), Exponential(-1, 1.3403 - 0.0226 * kKnee, 0.0305)}}};
 }
 ExponentialSpring Knee() {
   return {-4.820,
@@ -29,11 +30,12 @@ ExponentialSpring Knee() {
 }
 // The source counts plantarflexion positive.
 ExponentialSpring Ankle() {
-  return {1.792, {{Exponential(-1, 2.1016 - 0.0176 * kKnee, 0.0843), Exponential(1, -7.9763 + 0.0008 * kKnee, -0.1949)}}};
+  return {1.792,
+          {{Exponential(-1, 2.1016 - 0.0176 * kKnee, 0.0843), Exponential(1, -7.9763 + 0.0008 * kKnee, -0.1949)}}};
 }
 
-// A fiftieth of the joint's strength 10° before the end of its range, or a quarter of a short range before it; a quarter of
-// the strength at the end.
+// A fiftieth of the joint's strength 10° before the end of its range, or a quarter of a short range before it; a
+// quarter of the strength at the end.
 ExponentialSpring AssumedStops(const Joint& joint) {
   const double margin = std::min(10 / kPerDegree, (joint.position_max - joint.position_min) / 4);
   const double k = 0.02 * joint.effort_max, s = std::log(0.25 / 0.02) / margin;
@@ -59,9 +61,11 @@ ExponentialSpring PassiveTorque(const Joint& joint, double mass) {
 
 std::vector<std::string> PassiveTorqueSources() {
   return {
-      "Passive torques of hip, knee and ankle: the exponentials that Riener and Edrich (1999, J Biomech 32:539) fitted to "
+      "Passive torques of hip, knee and ankle: the exponentials that Riener and Edrich (1999, J Biomech 32:539) fitted "
+      "to "
       "measurements (from memory), with the neighbouring joints fixed at ankle 0, knee 15, hip 10 deg.",
-      "Passive stops of the other joints (assumption): 0.02 of the largest torque 10 deg before the end of the range (or a "
+      "Passive stops of the other joints (assumption): 0.02 of the largest torque 10 deg before the end of the range "
+      "(or a "
       "quarter of it), rising exponentially to 0.25 at the end.",
   };
 }

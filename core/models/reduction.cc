@@ -1,10 +1,9 @@
 #include "core/models/reduction.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include <Eigen/Geometry>
 
 #include "core/base/check.h"
 #include "core/models/rigid_body.h"
@@ -102,8 +101,7 @@ Result<ModelReduction> ReduceModel(const Model& model, const std::map<std::strin
     const ModelReduction::Place& place = places.back();
     if (place.joint < 0 || joint.mass == 0) continue;
     if (bodies[place.joint].empty()) joints[place.joint].link = joint.link;  // named after the first that has mass
-    bodies[place.joint].push_back(
-        Placed({joint.mass, joint.center_of_mass, joint.inertia}, place.R_KL, place.p_KL));
+    bodies[place.joint].push_back(Placed({joint.mass, joint.center_of_mass, joint.inertia}, place.R_KL, place.p_KL));
   }
   const bool symmetric = IsSymmetric(model, fixed);
   for (size_t k = 0; k < joints.size(); ++k) {

@@ -12,21 +12,21 @@
 
 namespace rollgait {
 
-// A tree with some joints fixed: a smaller tree in which each link is lumped with the links fixed to it. No joint without
-// motion and no row without meaning is left: the mass matrix, the bias force and the kinematics are those rows and columns
-// of the full tree, at the fixed positions and at rest, that belong to the joints that still move.
+// A tree with some joints fixed: a smaller tree in which each link is lumped with the links fixed to it. No joint
+// without motion and no row without meaning is left: the mass matrix, the bias force and the kinematics are those rows
+// and columns of the full tree, at the fixed positions and at rest, that belong to the joints that still move.
 struct ModelReduction {
   // Where a link of the full tree is in the reduced one.
   struct Place {
-    int joint = -1;                       // whose link carries it; -1: it stands still in the world
-    Matrix3 R_KL = Matrix3::Identity();   // axes of the link -> axes of the link (or world) that carries it
-    Vector3 p_KL = Vector3::Zero();       // m, origin of the link in it
+    int joint = -1;                      // whose link carries it; -1: it stands still in the world
+    Matrix3 R_KL = Matrix3::Identity();  // axes of the link -> axes of the link (or world) that carries it
+    Vector3 p_KL = Vector3::Zero();      // m, origin of the link in it
   };
   Model model;
   std::vector<int> kept;      // index in the full tree of each joint of the reduced one
   std::vector<Place> places;  // one per joint of the full tree
-  // True if the mirror image of the fixed joints is themselves. Otherwise the body has no left/right symmetry, and every
-  // joint of the reduced tree names itself, with sign 1, as its mirror joint.
+  // True if the mirror image of the fixed joints is themselves. Otherwise the body has no left/right symmetry, and
+  // every joint of the reduced tree names itself, with sign 1, as its mirror joint.
   bool symmetric = true;
 };
 

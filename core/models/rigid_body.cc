@@ -20,9 +20,9 @@ RigidBody CutOff(const RigidBody& whole, const RigidBody& part) {
   rest.mass = whole.mass - part.mass;
   rest.center_of_mass = (whole.mass * whole.center_of_mass - part.mass * part.center_of_mass) / rest.mass;
   const Vector3 apart = part.center_of_mass - rest.center_of_mass;
-  rest.inertia = whole.inertia - part.inertia -
-                 part.mass * rest.mass / whole.mass *
-                     (apart.squaredNorm() * Matrix3::Identity() - apart * apart.transpose());
+  rest.inertia =
+      whole.inertia - part.inertia -
+      part.mass * rest.mass / whole.mass * (apart.squaredNorm() * Matrix3::Identity() - apart * apart.transpose());
   return rest;
 }
 
@@ -36,8 +36,8 @@ RigidBody Lumped(const std::vector<RigidBody>& bodies) {
   sum.center_of_mass /= sum.mass;
   for (const RigidBody& body : bodies) {
     const Vector3 offset = body.center_of_mass - sum.center_of_mass;
-    sum.inertia += body.inertia +
-                   body.mass * (offset.squaredNorm() * Matrix3::Identity() - offset * offset.transpose());
+    sum.inertia +=
+        body.inertia + body.mass * (offset.squaredNorm() * Matrix3::Identity() - offset * offset.transpose());
   }
   return sum;
 }

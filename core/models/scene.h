@@ -11,16 +11,17 @@
 
 namespace rollgait {
 
-// What walks: a tree, the surfaces that may touch the ground z = 0, and the facts that a gait needs of it. Immutable value.
+// What walks: a tree, the surfaces that may touch the ground z = 0, and the facts that a gait needs of it. Immutable
+// value.
 struct Scene {
   std::string name;
   std::string description;
   BodySelection selection;
   Model model;
   std::vector<ContactSurface> contacts;
-  double leg_length;                 // m, hip to sole with straight leg
-  std::vector<std::string> sources;  // where the numbers come from
-  bool symmetric = true;             // its left/right mirror image is itself; if not, it has no half cycle
+  double leg_length;                     // m, hip to sole with straight leg
+  std::vector<std::string> sources;      // where the numbers come from
+  bool symmetric = true;                 // its left/right mirror image is itself; if not, it has no half cycle
   std::vector<BodySurface> bodies = {};  // the parts with a thickness
   std::vector<BodyPair> pairs = {};      // those that can meet
 

@@ -1,18 +1,17 @@
 #include "core/models/segment_table.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <Eigen/Eigenvalues>
 
 #include "core/base/check.h"
 
 namespace rollgait {
 namespace {
 
-// One row of the table, as printed, for the right side. Mass in % of body mass; centre of mass and radii of gyration in %
-// of the segment length, in X anterior, Y up, Z right; a negative product radius stands for a negative tensor entry.
+// One row of the table, as printed, for the right side. Mass in % of body mass; centre of mass and radii of gyration in
+// % of the segment length, in X anterior, Y up, Z right; a negative product radius stands for a negative tensor entry.
 struct Row {
   Segment segment;
   double length_mm;
@@ -57,13 +56,14 @@ constexpr Sample kFemaleSample = {1610, 54, 93, 88, 238};
 constexpr Sample kMaleSample = {1774, 56, 75, 81, 271};
 
 // Heel behind the ankle as a fraction of the foot length. The table gives the foot's centre of mass from the ankle and,
-// in its alternative row, from the heel along the same axis: 48.3 mm (0.178) male, 60.9 mm (0.256) female. The mean is used.
+// in its alternative row, from the heel along the same axis: 48.3 mm (0.178) male, 60.9 mm (0.256) female. The mean is
+// used.
 constexpr double kHeelFraction = 0.217;
 // Height and half distance of the shoulder joints as fractions of stature (Drillis and Contini, after Winter 2009).
 constexpr double kShoulderHeight = 0.818;
 constexpr double kHalfShoulderWidth = 0.129;
-// Metatarsal heads over the sole, as a fraction of the ankle height: 24 mm of 80 mm, an assumption. With the table's distance
-// from the ankle it puts them at 0.69 (male) and 0.65 (female) of the foot length.
+// Metatarsal heads over the sole, as a fraction of the ankle height: 24 mm of 80 mm, an assumption. With the table's
+// distance from the ankle it puts them at 0.69 (male) and 0.65 (female) of the foot length.
 constexpr double kToeJointHeight = 0.3;
 
 const Rows& RowsOf(Sex sex) { return sex == Sex::kFemale ? kFemale : kMale; }
@@ -86,7 +86,8 @@ double MassSum(Sex sex) {
   return sum;
 }
 
-// Nearest tensor (Frobenius norm) with I1 + I2 >= I3 and the same principal axes. The female torso of the table misses it.
+// Nearest tensor (Frobenius norm) with I1 + I2 >= I3 and the same principal axes. The female torso of the table misses
+// it.
 Matrix3 NearestRealisable(const Matrix3& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(inertia);
   Vector3 moments = solver.eigenvalues();  // ascending
@@ -125,7 +126,7 @@ RigidBody SegmentTable::Body(Segment segment, Side side) const {
   inertia << entry(0), entry(3), z_sign * entry(4),  //
       entry(3), entry(1), z_sign * entry(5),         //
       z_sign * entry(4), z_sign * entry(5), entry(2);
-  Matrix3 from_table;  // X anterior, Y up, Z right -> x forward, y left, z up
+  Matrix3 from_table;     // X anterior, Y up, Z right -> x forward, y left, z up
   from_table << 1, 0, 0,  //
       0, 0, -1,           //
       0, 1, 0;
@@ -150,8 +151,8 @@ Vector3 SegmentTable::CervicalToShoulder(Side side) const {
 }
 
 double SegmentTable::AnkleHeight() const {
-  return stature_ - TableLength(Segment::kHeadNeck) - TableLength(Segment::kTorso) -
-         Scaled(SampleOf(sex_).hip_down) - TableLength(Segment::kThigh) - TableLength(Segment::kShank);
+  return stature_ - TableLength(Segment::kHeadNeck) - TableLength(Segment::kTorso) - Scaled(SampleOf(sex_).hip_down) -
+         TableLength(Segment::kThigh) - TableLength(Segment::kShank);
 }
 
 double SegmentTable::LegLength() const { return Length(Segment::kThigh) + Length(Segment::kShank) + AnkleHeight(); }
@@ -170,16 +171,19 @@ std::vector<std::string> SegmentTable::Sources() {
       "Segment masses, centres of mass and inertias: Dumas, Cheze, Verriest 2007, J Biomech 40:543-553 (2007 table and "
       "corrigendum 40:1651); feet: Dumas, Wojtusch 2018; read in OpenMA (BSD-3) and HuMoD (BSD-3).",
       "Masses are renormalised: the printed percentages add up to 99.9 (female) and 100.2 (male).",
-      "The female torso tensor of the table is that of no rigid body (I1 + I2 < I3); the nearest realisable tensor with "
+      "The female torso tensor of the table is that of no rigid body (I1 + I2 < I3); the nearest realisable tensor "
+      "with "
       "the same axes is used. The sign of the female upper arm's yz product is disputed (OpenMA's is used).",
       "Segment lengths: means of the Young 1983 (female, 1.610 m) and McConville 1980 (male, 1.774 m) samples in Dumas "
       "2007, quoted from memory of the paper and not checked against a second source; proportional to stature.",
       "Joint centres of the pelvis from the lumbar joint: OpenMA lyonwholebodymodel.cpp (BSD-3). Ankle height: stature "
       "minus the other lengths (0.080 m male, 0.078 m female).",
       "Left segments mirror the right ones; head, torso and pelvis are made symmetric about the sagittal plane.",
-      "Shoulder joints: 0.818 of stature high, 0.129 to the side (Drillis and Contini, after Winter 2009; from memory), in "
+      "Shoulder joints: 0.818 of stature high, 0.129 to the side (Drillis and Contini, after Winter 2009; from "
+      "memory), in "
       "the fore-aft position of the cervical joint.",
-      "Heel behind the ankle: 0.217 of the foot length, mean of both sexes' foot centre of mass measured from the ankle "
+      "Heel behind the ankle: 0.217 of the foot length, mean of both sexes' foot centre of mass measured from the "
+      "ankle "
       "and from the heel (Dumas 2007).",
   };
 }

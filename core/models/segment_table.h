@@ -24,16 +24,16 @@ inline constexpr SegmentScales kTableScales = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 // The body segments of a person by sex, stature and mass: lengths, joint centres and mass properties. Axes of every
 // segment in the upright reference posture (arms and legs straight down): x forward, y left, z up; the table's are
 // X anterior, Y up, Z right. Lengths are proportional to stature, masses to body mass, inertias to mass · length². A
-// segment with a scale of its own keeps its mass and the shape of its mass distribution. The height of the ankle follows
-// from the stature alone, so the standing height changes with the segments. Immutable value.
+// segment with a scale of its own keeps its mass and the shape of its mass distribution. The height of the ankle
+// follows from the stature alone, so the standing height changes with the segments. Immutable value.
 class SegmentTable {
  public:
   // Contract: stature (m), mass (kg) and scales finite and > 0.
   SegmentTable(Sex sex, double stature, double mass, const SegmentScales& scales = kTableScales);
 
-  // Mass properties about the segment's proximal joint centre: head and neck, torso: cervical; pelvis: lumbar; upper arm:
-  // shoulder; forearm: elbow; hand: wrist; thigh: hip; shank: knee; foot: ankle. The masses of the whole body (limbs
-  // counted twice) add up to the body mass. Head, torso and pelvis are made symmetric about the sagittal plane.
+  // Mass properties about the segment's proximal joint centre: head and neck, torso: cervical; pelvis: lumbar; upper
+  // arm: shoulder; forearm: elbow; hand: wrist; thigh: hip; shank: knee; foot: ankle. The masses of the whole body
+  // (limbs counted twice) add up to the body mass. Head, torso and pelvis are made symmetric about the sagittal plane.
   // Contract: kMidline for these three, kLeft or kRight for the others.
   RigidBody Body(Segment segment, Side side) const;
 

@@ -1,8 +1,7 @@
 #include "core/multibody/body_dynamics.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/base/check.h"
 
@@ -60,8 +59,7 @@ Force ToParent(const Force& f, const BodyDynamics::Link& link) {
 
 // A motion of the parent link, seen at the link's origin in link axes.
 Motion ToChild(const Motion& m, const BodyDynamics::Link& link) {
-  return {link.R_PL.transpose() * m.angular,
-          link.R_PL.transpose() * (m.linear + m.angular.cross(link.p_PL))};
+  return {link.R_PL.transpose() * m.angular, link.R_PL.transpose() * (m.linear + m.angular.cross(link.p_PL))};
 }
 
 }  // namespace
@@ -70,8 +68,9 @@ BodyDynamics::BodyDynamics(const Model& model)
     : model_(model), nq_(model.nq()), nv_(model.nv()), total_mass_(model.total_mass()) {
   for (int i = 0; i < model.size(); ++i) {
     const Joint& joint = model.joint(i);
-    joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type), joint.axis,
-                       joint.R_PJ, joint.p_PJ, InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia)});
+    joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type),
+                       joint.axis, joint.R_PJ, joint.p_PJ,
+                       InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia)});
   }
 }
 

@@ -8,13 +8,13 @@
 
 namespace rollgait {
 
-// The tree's dynamics in link axes, after Featherstone, Rigid Body Dynamics Algorithms (2008): the recursive Newton–Euler
-// algorithm (table 5.1) and the composite rigid body algorithm (table 6.2). It is the second algorithm of the library:
-// trajectories are judged with it, and it shares no code with TreeDynamics, which makes them.
+// The tree's dynamics in link axes, after Featherstone, Rigid Body Dynamics Algorithms (2008): the recursive
+// Newton–Euler algorithm (table 5.1) and the composite rigid body algorithm (table 6.2). It is the second algorithm of
+// the library: trajectories are judged with it, and it shares no code with TreeDynamics, which makes them.
 //
-// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ.  Units: SI; rad or m for q by joint type (free joints: see JointType). Gravity is a vector in world
-// axes, m/s²; the world axes are fixed to the ground, so a slope turns gravity.
-// Immutable after construction; any thread may share it, with a State and a Workspace of its own.
+// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ.  Units: SI; rad or m for q by joint type (free joints: see
+// JointType). Gravity is a vector in world axes, m/s²; the world axes are fixed to the ground, so a slope turns
+// gravity. Immutable after construction; any thread may share it, with a State and a Workspace of its own.
 class BodyDynamics {
  public:
   // A motion vector (twist, acceleration) at the link's origin, in link axes.
@@ -29,19 +29,19 @@ class BodyDynamics {
   };
   // Inertia about the link's origin, in link axes.
   struct Inertia {
-    double mass = 0;                             // kg
-    Vector3 first_moment = Vector3::Zero();      // kg m, mass times centre of mass
-    Matrix3 rotational = Matrix3::Zero();        // kg m²
+    double mass = 0;                         // kg
+    Vector3 first_moment = Vector3::Zero();  // kg m, mass times centre of mass
+    Matrix3 rotational = Matrix3::Zero();    // kg m²
   };
   // Where each link is and how it moves. Index = joint.
   struct Link {
-    Matrix3 R_PL;     // link axes -> axes of the parent link (or world)
-    Vector3 p_PL;     // m, link origin in the parent link (or world)
+    Matrix3 R_PL;  // link axes -> axes of the parent link (or world)
+    Vector3 p_PL;  // m, link origin in the parent link (or world)
     Matrix3 R_WL;
     Vector3 p_WL;
     Motion twist;
-    // Spatial acceleration of the link at v̇ = 0 without gravity, in link axes. It is not the classical one: the classical
-    // acceleration of the origin is  bias.linear + twist.angular × twist.linear.
+    // Spatial acceleration of the link at v̇ = 0 without gravity, in link axes. It is not the classical one: the
+    // classical acceleration of the origin is  bias.linear + twist.angular × twist.linear.
     Motion bias;
   };
   using State = std::vector<Link>;
@@ -55,7 +55,8 @@ class BodyDynamics {
   explicit BodyDynamics(const Model& model);
   const Model& model() const { return model_; }
 
-  // Number of joints and links; the lengths of q and v are nq() and nv(), the same number in a tree without free joints.
+  // Number of joints and links; the lengths of q and v are nq() and nv(), the same number in a tree without free
+  // joints.
   int size() const { return static_cast<int>(joints_.size()); }
   int nq() const { return nq_; }
   int nv() const { return nv_; }

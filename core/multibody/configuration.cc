@@ -1,9 +1,8 @@
 #include "core/multibody/configuration.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/base/check.h"
 

@@ -1,19 +1,19 @@
 #include "core/multibody/model.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace rollgait {
 namespace {
 
 // Rounding allowed in a unit axis, a rotation and a symmetric tensor (relative to its largest entry).
 constexpr double kUnitTolerance = 1e-9;
-// A tensor on the border of what rigid bodies have (a lamina, a rod) may miss it by its rounding, relative to its trace.
+// A tensor on the border of what rigid bodies have (a lamina, a rod) may miss it by its rounding, relative to its
+// trace.
 constexpr double kInertiaTolerance = 1e-9;
 
 class JointChecker {
@@ -116,8 +116,9 @@ class JointChecker {
     // Ascending. A rigid body's satisfy 0 <= I1, I1 + I2 >= I3; the second implies the first.
     const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
     if (moments(0) + moments(1) < moments(2) - kInertiaTolerance * largest) {
-      RefuseValue("inertia", moments.transpose(),
-                  "(principal moments in kg m²) which no rigid body has: the sum of the two smaller must reach the largest");
+      RefuseValue(
+          "inertia", moments.transpose(),
+          "(principal moments in kg m²) which no rigid body has: the sum of the two smaller must reach the largest");
     }
   }
 

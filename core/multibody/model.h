@@ -9,9 +9,9 @@
 
 namespace rollgait {
 
-// kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and the
-// link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's origin in
-// link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
+// kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and
+// the link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's
+// origin in link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
 enum class JointType { kRevolute, kPrismatic, kFree };
 
 // Numbers that a joint contributes to q and to v.
@@ -22,37 +22,37 @@ constexpr int VelocityCount(JointType type) { return type == JointType::kFree ? 
 struct Joint {
   std::string name;
   JointType type = JointType::kRevolute;
-  int parent = -1;                                 // index of a joint before this one; -1 is the world
-  Vector3 p_PJ = Vector3::Zero();                  // m, origin of the joint frame in the parent's link frame
-  Matrix3 R_PJ = Matrix3::Identity();              // joint frame -> parent's link frame
-  Vector3 axis = Vector3::UnitZ();                 // unit, in the joint frame; without meaning for a free joint
-  double position_min = -kInfinity;                // rad or m
+  int parent = -1;                     // index of a joint before this one; -1 is the world
+  Vector3 p_PJ = Vector3::Zero();      // m, origin of the joint frame in the parent's link frame
+  Matrix3 R_PJ = Matrix3::Identity();  // joint frame -> parent's link frame
+  Vector3 axis = Vector3::UnitZ();     // unit, in the joint frame; without meaning for a free joint
+  double position_min = -kInfinity;    // rad or m
   double position_max = kInfinity;
-  double velocity_max = kInfinity;                 // rad/s or m/s
+  double velocity_max = kInfinity;  // rad/s or m/s
   bool actuated = false;
-  double effort_min = 0;                           // N m or N
+  double effort_min = 0;  // N m or N
   double effort_max = 0;
 
   std::string link;
-  double mass = 0;                                 // kg, >= 0
-  Vector3 center_of_mass = Vector3::Zero();        // m, link frame
-  Matrix3 inertia = Matrix3::Zero();               // kg m², about the centre of mass, link axes
+  double mass = 0;                           // kg, >= 0
+  Vector3 center_of_mass = Vector3::Zero();  // m, link frame
+  Matrix3 inertia = Matrix3::Zero();         // kg m², about the centre of mass, link axes
 
   // Whose value this joint takes in the left/right mirror image. -1: itself; Model::Create puts the own index there.
   int mirror_joint = -1;
   double mirror_sign = 1;
 };
 
-// An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating base
-// is a chain of joints (its chart and range are the model's); the optimal control stack takes such trees only.
-// Any thread may share it.
+// An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating
+// base is a chain of joints (its chart and range are the model's); the optimal control stack takes such trees only. Any
+// thread may share it.
 class Model {
  public:
   // Refuses: a parent that does not precede its joint, an axis that is not unit, non-finite numbers, negative mass, an
   // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
-  // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a joint
-  // that is not actuated, a mirror that is not an involution, a free joint that has ranges, is actuated or is mirrored.
-  // Violations name "joints[i].field".
+  // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a
+  // joint that is not actuated, a mirror that is not an involution, a free joint that has ranges, is actuated or is
+  // mirrored. Violations name "joints[i].field".
   static Result<Model> Create(std::vector<Joint> joints);
 
   int size() const { return static_cast<int>(joints_.size()); }
@@ -72,8 +72,8 @@ class Model {
   // True if one of the two is an ancestor of the other.
   bool Related(int a, int b) const { return IsAncestor(a, b) || IsAncestor(b, a); }
   double total_mass() const { return total_mass_; }
-  // For each column of v: the one before it on its path to the world, -1 if there is none. Columns of a joint follow each
-  // other.
+  // For each column of v: the one before it on its path to the world, -1 if there is none. Columns of a joint follow
+  // each other.
   std::vector<int> ColumnParents() const;
   // Index of a joint by name, -1 if there is none.
   int Find(const std::string& name) const;

@@ -66,13 +66,13 @@ class MotionDerivatives {
     Vector6 s, psi, psi2, rate;  // rate: ψ̇ + Ṡ
   };
   struct Body {
-    Vector6 twist, acceleration, force;  // gravity counts as −g at the root; force of the subtree
+    Vector6 twist, acceleration, force;    // gravity counts as −g at the root; force of the subtree
     Vector6 velocity_product, gyroscopic;  // parts of acceleration and force of this body without a
-    Vector3 reference, origin;           // origin: from the reference
-    SpatialInertia own, inertia;         // of the body, of the subtree
-    CompositeMotion motion;              // of the subtree
+    Vector3 reference, origin;             // origin: from the reference
+    SpatialInertia own, inertia;           // of the body, of the subtree
+    CompositeMotion motion;                // of the subtree
     bool massive = false;
-    int anchor = 0;                      // link at whose origin the reference is
+    int anchor = 0;  // link at whose origin the reference is
   };
   // Turns changes of twist and acceleration in world axes at the reference into those of a link's origin.
   Change AtOrigin(const Body& body, const Vector6& pose, const Vector6& twist, const Vector6& acceleration) const;

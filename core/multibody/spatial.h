@@ -14,7 +14,8 @@ template <typename T>
 inline Eigen::Matrix<T, 6, 1> CrossMotion(const Eigen::Matrix<T, 6, 1>& x, const Eigen::Matrix<T, 6, 1>& y) {
   Eigen::Matrix<T, 6, 1> z;
   z.template head<3>() = x.template head<3>().cross(y.template head<3>());
-  z.template tail<3>() = x.template head<3>().cross(y.template tail<3>()) + x.template tail<3>().cross(y.template head<3>());
+  z.template tail<3>() =
+      x.template head<3>().cross(y.template tail<3>()) + x.template tail<3>().cross(y.template head<3>());
   return z;
 }
 

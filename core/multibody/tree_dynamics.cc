@@ -19,8 +19,7 @@ Matrix3 Rodrigues(const Vector3& axis, double angle) {
 
 }  // namespace
 
-TreeDynamics::TreeDynamics(const Model& model)
-    : model_(&model), n_(model.size()), factor_(model.ColumnParents()) {
+TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()), factor_(model.ColumnParents()) {
   ROLLGAIT_CHECK(!model.HasFreeJoint());  // q and v of one length: the optimal control stack's trees
   for (const Joint& joint : model.joints()) {
     JointData data;
@@ -30,8 +29,8 @@ TreeDynamics::TreeDynamics(const Model& model)
     data.axis_index = 0;
     data.axis_sign = joint.axis.cwiseAbs().maxCoeff(&data.axis_index);
     data.axis_sign = joint.axis(data.axis_index) < 0 ? -1 : 1;
-    data.aligned = joint.R_PJ == Matrix3::Identity() &&
-                   joint.axis == data.axis_sign * Vector3(Vector3::Unit(data.axis_index));
+    data.aligned =
+        joint.R_PJ == Matrix3::Identity() && joint.axis == data.axis_sign * Vector3(Vector3::Unit(data.axis_index));
     data.p_PJ = joint.p_PJ;
     data.axis = joint.axis;
     data.center_of_mass = joint.center_of_mass;
@@ -79,8 +78,10 @@ void TreeDynamics::UpdatePose(int i, double q) {
     R = joint.R_PJ;
     origin = joint.p_PJ;
   } else {
-    if (joint.aligned) R = rotation_[p];
-    else R.noalias() = rotation_[p] * joint.R_PJ;
+    if (joint.aligned)
+      R = rotation_[p];
+    else
+      R.noalias() = rotation_[p] * joint.R_PJ;
     origin.noalias() = rotation_[p] * joint.p_PJ;
     origin += origin_[p];
   }
@@ -140,7 +141,8 @@ void TreeDynamics::UpdateForces() {
     const Vector3 com = origin_[i] + R * joint.center_of_mass;
     const Vector3 w = twist_[i].head<3>(), alpha = acceleration_[i].head<3>();
     const Vector3 velocity = twist_[i].tail<3>() + w.cross(com);
-    // Classical acceleration of the material point at the centre of mass: that of the spatial field, and ω × its velocity.
+    // Classical acceleration of the material point at the centre of mass: that of the spatial field, and ω × its
+    // velocity.
     const Vector3 f = joint.mass * (acceleration_[i].tail<3>() + alpha.cross(com) + w.cross(velocity));
     const Vector3 w_L = R.transpose() * w;
     const Vector3 turned = joint.inertia * w_L;

@@ -10,13 +10,13 @@
 
 namespace rollgait {
 
-// Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ ID,
-// all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that. The
-// derivation is in docs/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every derivative
-// along joint m is one linear map of three six-vectors:
+// Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ
+// ID, all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that.
+// The derivation is in docs/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every
+// derivative along joint m is one linear map of three six-vectors:
 //   ψ̇_m = V_p(m) × S_m,  ψ̈_m = A_p(m) × S_m + V_p(m) × ψ̇_m,  ω_m = W_p(m) × S_m,   W = Σ S λ  ("virtual velocity").
-// Cost O(n d) for tree depth d (factorising: O(n d²)), no allocation after construction. What Update leaves out is made when
-// it is first asked for. Not thread-safe: one object a thread. Contract: no free joints.
+// Cost O(n d) for tree depth d (factorising: O(n d²)), no allocation after construction. What Update leaves out is made
+// when it is first asked for. Not thread-safe: one object a thread. Contract: no free joints.
 class TreeDynamics {
  public:
   explicit TreeDynamics(const Model& model);
@@ -24,7 +24,8 @@ class TreeDynamics {
   int size() const { return n_; }
   const Model& model() const { return *model_; }
 
-  // Evaluates the tree at (q, v, a), n values each, with gravity (m/s², world axes). Everything below refers to this point.
+  // Evaluates the tree at (q, v, a), n values each, with gravity (m/s², world axes). Everything below refers to this
+  // point.
   void Update(const double* q, const double* v, const double* a, const Vector3& gravity);
   // The part of Update that contact kinematics needs: poses, axes, velocities.
   void UpdateKinematics(const double* q, const double* v);
@@ -35,8 +36,8 @@ class TreeDynamics {
   // ∂ID/∂q, ∂ID/∂v, ∂ID/∂a = M; each n × n, written where (row, column) are related, zero elsewhere on entry and exit.
   void FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> dv, Eigen::Ref<MatrixX> da);
 
-  // Adds the second derivatives of  λᵀ ID(q, v, a)  to n × n blocks: H_qq and H_vv symmetric and full, H_qv (row q, column
-  // v), H_qa (row q, column a). H_va and H_aa are zero. Cheaper for a λ that is zero on some branches.
+  // Adds the second derivatives of  λᵀ ID(q, v, a)  to n × n blocks: H_qq and H_vv symmetric and full, H_qv (row q,
+  // column v), H_qa (row q, column a). H_va and H_aa are zero. Cheaper for a λ that is zero on some branches.
   void AddContractedHessian(const double* lambda, Eigen::Ref<MatrixX> h_qq, Eigen::Ref<MatrixX> h_qv,
                             Eigen::Ref<MatrixX> h_qa, Eigen::Ref<MatrixX> h_vv);
 
@@ -62,8 +63,8 @@ class TreeDynamics {
   struct JointData {
     int parent;
     bool revolute, massive;
-    bool aligned;          // R_PJ is the identity and the axis is ± a coordinate axis
-    int axis_index;        // of an aligned joint
+    bool aligned;    // R_PJ is the identity and the axis is ± a coordinate axis
+    int axis_index;  // of an aligned joint
     double axis_sign;
     Vector3 p_PJ, axis, center_of_mass;
     Matrix3 R_PJ, inertia;
@@ -104,7 +105,8 @@ class TreeDynamics {
   std::vector<Composite> composite_;
   std::vector<Vector6> virtual_twist_, omega_;
   std::vector<VirtualComposite> virtual_;
-  std::vector<char> moves_, touched_;  // joints with a virtual velocity; joints of which a derivative may differ from zero
+  std::vector<char> moves_,
+      touched_;  // joints with a virtual velocity; joints of which a derivative may differ from zero
   std::vector<Path> paths_;
   std::vector<int> path_of_, depth_;  // of a joint: a path on which it is, and its place there
   Vector6 root_acceleration_ = Vector6::Zero();

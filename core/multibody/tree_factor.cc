@@ -82,7 +82,8 @@ void TreeFactor::Factorise() {
     for (int k = 0; k < last; ++k) {
       const double factor = pivot[k];
       by_column[places[k]] = factor;
-      // The path of a column on the path is the beginning of it; entries beyond the diagonal of that row are its filling.
+      // The path of a column on the path is the beginning of it; entries beyond the diagonal of that row are its
+      // filling.
       double* const changed = entries + rows[k];
       for (int j = 0; j <= k; j += kWidth) Four(changed + j) -= factor * Four(pivot + j);
     }

@@ -26,8 +26,8 @@ class TreeFactor {
   // The same for the entries of M (n × n), of which it reads the upper triangle along the paths.
   void Factorise(const MatrixX& mass);
 
-  // x ← L⁻ᵀ x and x ← L⁻¹ x for the `columns` columns of x, which has n rows, each `stride` after the last one. One after
-  // the other: M⁻¹ x. Fastest if `columns` is a multiple of four.
+  // x ← L⁻ᵀ x and x ← L⁻¹ x for the `columns` columns of x, which has n rows, each `stride` after the last one. One
+  // after the other: M⁻¹ x. Fastest if `columns` is a multiple of four.
   void SolveTransposed(double* x, int stride, int columns) const;
   void Solve(double* x, int stride, int columns) const;
 
@@ -39,11 +39,11 @@ class TreeFactor {
   // Columns of the path to c: length_[c] of them from path_[first_[c]], then filling up to a multiple of four, so that
   // rows of entries_ are vectors without remainder.
   std::vector<int> path_, first_, length_;
-  std::vector<int> beyond_, first_beyond_;    // columns beyond c (c on their path): beyond_[first_beyond_[c] … [c + 1])
-  std::vector<int> place_;                    // of an entry below the diagonal in by_column_
-  std::vector<int> row_of_;                   // of an entry: first_ of its column
-  std::vector<double> entries_, by_column_;   // by row, as path_; by column, as beyond_
-  std::vector<double> inverse_;               // 1 / L_cc
+  std::vector<int> beyond_, first_beyond_;  // columns beyond c (c on their path): beyond_[first_beyond_[c] … [c + 1])
+  std::vector<int> place_;                  // of an entry below the diagonal in by_column_
+  std::vector<int> row_of_;                 // of an entry: first_ of its column
+  std::vector<double> entries_, by_column_;  // by row, as path_; by column, as beyond_
+  std::vector<double> inverse_;              // 1 / L_cc
 };
 
 }  // namespace rollgait

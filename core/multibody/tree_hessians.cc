@@ -1,8 +1,8 @@
-// Second derivatives of every row of inverse dynamics. Row l of  λᵀ ID  is λ = e_l: then W is S_l beyond joint l, and the
-// formulas of AddContractedHessian are bilinear in two axes of one path for given composites of the deepest joint:
+// Second derivatives of every row of inverse dynamics. Row l of  λᵀ ID  is λ = e_l: then W is S_l beyond joint l, and
+// the formulas of AddContractedHessian are bilinear in two axes of one path for given composites of the deepest joint:
 //   joint l the deepest, for k, m on its path:  M_l x = 2 (x_ω × P_ω + x_v × P_v) + Eᵀ x_ω  with P = I_l S_l,
-//   joint k the deepest, for l before k and m on the path:  the same as a matrix on S_l in place of x, and the change of
-//   the composite's inertia as it moves along S_k,  İ_k = S_k ×* I_k − I_k S_k ×.
+//   joint k the deepest, for l before k and m on the path:  the same as a matrix on S_l in place of x, and the change
+//   of the composite's inertia as it moves along S_k,  İ_k = S_k ×* I_k − I_k S_k ×.
 
 #include "core/multibody/tree_dynamics.h"
 
@@ -26,8 +26,10 @@ Four Combine(const Eigen::Matrix<double, kSize, 1>& coefficients, const RowMajor
 // Where the matrices of row l begin.
 struct Targets {
   Targets(int l, RowHessians* rows)
-      : qq(rows->qq.col(l * rows->n).data()), qv(rows->qv.col(l * rows->n).data()),
-        qa(rows->qa.col(l * rows->n).data()), vv(rows->vv.col(l * rows->n).data()) {}
+      : qq(rows->qq.col(l * rows->n).data()),
+        qv(rows->qv.col(l * rows->n).data()),
+        qa(rows->qa.col(l * rows->n).data()),
+        vv(rows->vv.col(l * rows->n).data()) {}
   double *const qq, *const qv, *const qa, *const vv;
 };
 
@@ -46,8 +48,8 @@ Matrix36 VirtualMatrix(const SpatialInertia& inertia, const Vector6& x) {
   const Vector3 w = x.head<3>();
   const Matrix3 W = Skew(w), V = Skew(x.tail<3>()), H = Skew(inertia.moment);
   Matrix36 m;
-  m.leftCols<3>() = 2 * (W * inertia.rotational - V * H) +
-                    Skew(2 * (inertia.rotational * w) - inertia.rotational.trace() * w);
+  m.leftCols<3>() =
+      2 * (W * inertia.rotational - V * H) + Skew(2 * (inertia.rotational * w) - inertia.rotational.trace() * w);
   m.rightCols<3>() = 2 * (W * H - H * W + inertia.mass * V);
   return m;
 }
@@ -83,8 +85,8 @@ void TreeDynamics::DifferentiateRow(int l, RowHessians* rows) {
   Matrix3 k_matrix = 2 * composite.inertia.rotational;
   k_matrix.diagonal().array() -= composite.inertia.rotational.trace();
   Matrix36 virtual_matrix;
-  virtual_matrix.leftCols<3>() = 2 * Skew(composite.inertia.moment) * Skew(axis_[l].tail<3>()) - Skew(w) * k_matrix -
-                                 2 * Skew(momentum.head<3>());
+  virtual_matrix.leftCols<3>() =
+      2 * Skew(composite.inertia.moment) * Skew(axis_[l].tail<3>()) - Skew(w) * k_matrix - 2 * Skew(momentum.head<3>());
   virtual_matrix.rightCols<3>() = -2 * Skew(momentum.tail<3>());
 
   const Path& path = paths_[path_of_[l]];

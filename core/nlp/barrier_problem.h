@@ -8,18 +8,20 @@
 namespace rollgait {
 
 // A nonlinear program with a slack for every row that has bounds and is not an equality,
-//   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i  or, without bounds, 0,
-// and its barrier function  φ_μ(w) = f − μ Σ ln(w − l) − μ Σ ln(u − w) + κ_d μ Σ (distance to a bound without an opposite one).
-// Bounds are moved outwards by a relative 1e-8, so that every problem has an interior. The problem must outlive this object.
+//   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i  or, without
+//   bounds, 0,
+// and its barrier function  φ_μ(w) = f − μ Σ ln(w − l) − μ Σ ln(u − w) + κ_d μ Σ (distance to a bound without an
+// opposite one). Bounds are moved outwards by a relative 1e-8, so that every problem has an interior. The problem must
+// outlive this object.
 class BarrierProblem {
  public:
   explicit BarrierProblem(NlpProblem& problem);
 
   struct Point {
-    VectorX w;          // unknowns()
+    VectorX w;  // unknowns()
     double f = 0;
-    VectorX c;          // rows()
-    double theta = 0;   // Σ |c|
+    VectorX c;         // rows()
+    double theta = 0;  // Σ |c|
   };
 
   int variables() const { return n_; }
@@ -36,8 +38,8 @@ class BarrierProblem {
   // Rows without bounds. They hold nothing, and their multipliers are 0.
   const std::vector<int>& free_rows() const { return free_rows_; }
 
-  // w with x moved inside its bounds by at least `push` (relative to their size and distance), slacks likewise from g(x).
-  // False if the functions have no finite value there.
+  // w with x moved inside its bounds by at least `push` (relative to their size and distance), slacks likewise from
+  // g(x). False if the functions have no finite value there.
   bool MakeInterior(const VectorX& x, double push, Point* point);
   // Fills f, c, θ from w. False if a value is not finite.
   bool Evaluate(Point* point);

@@ -6,8 +6,8 @@
 
 namespace rollgait {
 
-// Multipliers of the bounds of w at the first point: 1 of a cold start; of a warm one those of `start`, and of its rows for slacks
-// (multipliers->y), but no smaller than on the central path at the point's distances.
+// Multipliers of the bounds of w at the first point: 1 of a cold start; of a warm one those of `start`, and of its rows
+// for slacks (multipliers->y), but no smaller than on the central path at the point's distances.
 void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
                            const NlpStart& start, Multipliers* multipliers);
 

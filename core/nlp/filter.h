@@ -7,7 +7,8 @@
 
 namespace rollgait {
 
-// Pairs (constraint violation θ, barrier function φ) that a new iterate must not be dominated by (Fletcher and Leyffer, 2002).
+// Pairs (constraint violation θ, barrier function φ) that a new iterate must not be dominated by (Fletcher and Leyffer,
+// 2002).
 class Filter {
  public:
   // Nothing with a violation of `largest_theta` or more is acceptable.

@@ -41,8 +41,8 @@ class Elimination {
   double* Column(int c) const { return p_.l + static_cast<size_t>(c) * p_.stride; }
   double* Scaled(int c) { return p_.ld + static_cast<size_t>(c) * p_.stride; }
 
-  // First row of an update: that of the next pivot, or a little before it for the sake of whole lines. Nobody reads what becomes of
-  // the rows of pivots.
+  // First row of an update: that of the next pivot, or a little before it for the sake of whole lines. Nobody reads
+  // what becomes of the rows of pivots.
   int FirstRow() const { return found_.count / kNumbersPerLine * kNumbersPerLine; }
 
   void Update(int c) {
@@ -58,8 +58,8 @@ class Elimination {
     for (int c = found_.count, end; c < p_.columns; c = end) {
       const int first = p_.updated[c];
       for (end = c + 1; end < p_.columns && p_.updated[end] == first;) ++end;
-      SubtractProductMatrix(Column(first) + row, p_.stride, Scaled(first) + c, p_.stride, found_.count - first, p_.rows - row,
-                            end - c, Column(c) + row, p_.stride);
+      SubtractProductMatrix(Column(first) + row, p_.stride, Scaled(first) + c, p_.stride, found_.count - first,
+                            p_.rows - row, end - c, Column(c) + row, p_.stride);
       std::fill(p_.updated + c, p_.updated + end, found_.count);
     }
     flushed_ = found_.count;
@@ -79,11 +79,13 @@ class Elimination {
     const double* x = Column(column);
     const int first = std::min(column, other), second = std::max(column, other);
     const int p = found_.count;
-    return std::max({LargestMagnitude(x + p, first - p), LargestMagnitude(x + first + 1, std::max(second - first - 1, 0)),
+    return std::max({LargestMagnitude(x + p, first - p),
+                     LargestMagnitude(x + first + 1, std::max(second - first - 1, 0)),
                      LargestMagnitude(x + second + 1, p_.rows - second - 1)});
   }
 
-  // Row of the largest entry among the fully summed of column p = found_.count, its diagonal left out; -1 where all are zero.
+  // Row of the largest entry among the fully summed of column p = found_.count, its diagonal left out; -1 where all are
+  // zero.
   int LargestSummed() const {
     const double* x = Column(found_.count);
     double most = 0;
@@ -135,8 +137,8 @@ class Elimination {
   }
 
   int Double(int p) {
-    double *__restrict x = Column(p), *__restrict y = Column(p + 1);
-    double *__restrict scaled_x = Scaled(p), *__restrict scaled_y = Scaled(p + 1);
+    double* __restrict x = Column(p), * __restrict y = Column(p + 1);
+    double* __restrict scaled_x = Scaled(p), * __restrict scaled_y = Scaled(p + 1);
     const double a = x[p], b = x[p + 1], c = y[p + 1];
     p_.diagonal[p] = a;
     p_.diagonal[p + 1] = c;

@@ -3,13 +3,13 @@
 
 namespace rollgait {
 
-// The dense kernel of FrontalLdlt: the fully summed columns of one front, column-major. Fastest where every column starts a
-// line of the cache.
-// The first `columns` rows belong to the columns themselves; that square block is symmetric and stored in full.
+// The dense kernel of FrontalLdlt: the fully summed columns of one front, column-major. Fastest where every column
+// starts a line of the cache. The first `columns` rows belong to the columns themselves; that square block is symmetric
+// and stored in full.
 struct FrontPanel {
   int rows, columns, stride;
-  double* l;         // in: the columns of A; out: the first pivots columns hold L, unit lower, zero inside a pivot of order 2
-  double* ld;        // out: the first pivots columns hold L D; same shape
+  double* l;   // in: the columns of A; out: the first pivots columns hold L, unit lower, zero inside a pivot of order 2
+  double* ld;  // out: the first pivots columns hold L D; same shape
   double* diagonal;  // out, columns: D
   double* coupling;  // in: zero; out: off-diagonal of a pivot of order 2 at its first column
   int* unknowns;     // rows; exchanged with the columns

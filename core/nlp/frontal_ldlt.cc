@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/base/check.h"
-#include "core/nlp/front_pivoting.h"
 #include "core/math/subtract_products.h"
+#include "core/nlp/front_pivoting.h"
 
 namespace rollgait {
 namespace {
@@ -155,7 +155,8 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
   return inertia_;
 }
 
-// The fully summed block is put together in its lower triangle and then kept in full; the rest of the panel has the rows of `update`.
+// The fully summed block is put together in its lower triangle and then kept in full; the rest of the panel has the
+// rows of `update`.
 void FrontalLdlt::Assemble(const double* values, Front* front) {
   const int own = static_cast<int>(front->own.size());
   front->unknowns = front->own;
@@ -185,7 +186,8 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   MirrorLowerTriangle(front->panel, front->stride, front->columns);
 }
 
-// What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its `update`.
+// What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its
+// `update`.
 void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
   const int own = static_cast<int>(front->own.size());
   const int shift = front->first_update - own;
@@ -200,7 +202,8 @@ void FrontalLdlt::AddChild(const Front& child, int first_slot, Front* front) {
     const double* column = child.Column(child.pivots + j);
     const int slot = first_slot + j;
     for (int i = j; i < delayed; ++i) front->Column(slot)[first_slot + i] += column[child.pivots + i];
-    for (int i = 0; i < update; ++i) front->Column(std::min(map_[i], slot))[std::max(map_[i], slot)] += column[child.first_update + i];
+    for (int i = 0; i < update; ++i)
+      front->Column(std::min(map_[i], slot))[std::max(map_[i], slot)] += column[child.first_update + i];
   }
   int summed = 0;  // rows of the child's update that this front eliminates
   for (; summed < update && map_[summed] < front->columns; ++summed) {
@@ -222,8 +225,8 @@ void FrontalLdlt::AddRuns(const double* column, int first, int end, double* targ
   for (int i = first; i < end; i = run_ends_[i]) AddTo(target + map_[i], column + i, run_ends_[i] - i);
 }
 
-// The first child's part of the Schur complement, from its row `first` on, and zeros elsewhere: what is written once need not be
-// cleared before.
+// The first child's part of the Schur complement, from its row `first` on, and zeros elsewhere: what is written once
+// need not be cleared before.
 void FrontalLdlt::CopySchur(const Front& child, int first, Front* front) {
   const int update = static_cast<int>(child.update.size()), order = static_cast<int>(front->update.size());
   int done = 0;
@@ -254,14 +257,8 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
   const size_t size = static_cast<size_t>(front->stride) * front->columns;
   if (scaled_.size() < size) scaled_.resize(size);
   if (updated_.size() < static_cast<size_t>(front->columns)) updated_.resize(front->columns);
-  FrontPanel panel{front->rows,
-                   front->columns,
-                   front->stride,
-                   front->panel,
-                   scaled_.data(),
-                   front->diagonal.data(),
-                   front->coupling.data(),
-                   front->unknowns.data(),
+  FrontPanel panel{front->rows,    front->columns,         front->stride,          front->panel,
+                   scaled_.data(), front->diagonal.data(), front->coupling.data(), front->unknowns.data(),
                    updated_.data()};
   const FrontPivots found = EliminateFront(panel, threshold);
   front->pivots = found.count;
@@ -271,8 +268,8 @@ void FrontalLdlt::FactorPanel(Front* front, double threshold) {
 
 void FrontalLdlt::UpdateSchur(Front* front) {
   const int order = static_cast<int>(front->update.size());
-  SubtractProductTriangle(front->panel + front->first_update, front->stride, scaled_.data() + front->first_update, front->stride,
-                          front->pivots, order, Schur(*front), order);
+  SubtractProductTriangle(front->panel + front->first_update, front->stride, scaled_.data() + front->first_update,
+                          front->stride, front->pivots, order, Schur(*front), order);
 }
 
 void FrontalLdlt::Solve(double* x) {

@@ -8,14 +8,14 @@
 
 namespace rollgait {
 
-// Factors of a sparse symmetric indefinite matrix, P A Pᵀ = L D Lᵀ with pivots of order 1 and 2, by the multifrontal method
-// (Duff and Reid, ACM TOMS 9, 1983) in an order that the caller knows: the unknowns come in groups, and a group is eliminated in
-// one dense front with threshold pivoting (Bunch and Kaufman). A pivot that no exchange inside its front makes large enough is
-// left to the next front, so the order governs the cost and never the stability.
+// Factors of a sparse symmetric indefinite matrix, P A Pᵀ = L D Lᵀ with pivots of order 1 and 2, by the multifrontal
+// method (Duff and Reid, ACM TOMS 9, 1983) in an order that the caller knows: the unknowns come in groups, and a group
+// is eliminated in one dense front with threshold pivoting (Bunch and Kaufman). A pivot that no exchange inside its
+// front makes large enough is left to the next front, so the order governs the cost and never the stability.
 //
 // For an optimal control problem the groups are its stages: time and memory grow linearly with their number.
-// Results depend on the input alone. Allocates while it is made, and later only if pivots are delayed more than ever before.
-// One object a thread.
+// Results depend on the input alone. Allocates while it is made, and later only if pivots are delayed more than ever
+// before. One object a thread.
 class FrontalLdlt {
  public:
   struct Inertia {
@@ -23,12 +23,12 @@ class FrontalLdlt {
     int zero = 0;  // pivots that could not be found: the matrix is singular to working precision
   };
 
-  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`; `groups` (size): smaller is
-  // eliminated earlier. Contract: rows and columns within size; groups >= 0.
+  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`; `groups` (size): smaller
+  // is eliminated earlier. Contract: rows and columns within size; groups >= 0.
   FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups);
 
-  // Values in the order of the pattern. A pivot must be at least `threshold` times the entries it divides (0 < threshold <= 0.5):
-  // large values are accurate, small ones keep the fronts narrow.
+  // Values in the order of the pattern. A pivot must be at least `threshold` times the entries it divides (0 <
+  // threshold <= 0.5): large values are accurate, small ones keep the fronts narrow.
   Inertia Factorise(const double* values, double threshold);
 
   // x (size) := A⁻¹ x. Contract: Factorise has been called and found no zero.
@@ -52,10 +52,10 @@ class FrontalLdlt {
     double* Column(int c) const { return panel + static_cast<size_t>(c) * stride; }
     // Numeric. Rows: pivots, columns that were delayed, zeros up to the next line of the cache, update.
     int columns = 0, first_update = 0, rows = 0, stride = 0, pivots = 0;
-    std::vector<int> unknowns;    // of the columns
-    double* panel = nullptr;      // rows × columns in steps of `stride`; L in the first `pivots` columns
+    std::vector<int> unknowns;               // of the columns
+    double* panel = nullptr;                 // rows × columns in steps of `stride`; L in the first `pivots` columns
     std::vector<double> diagonal, coupling;  // D; coupling[k] != 0: pivots k and k + 1 belong together
-    int block = 0;                // of blocks_, with the Schur complement: update × update, lower triangle
+    int block = 0;                           // of blocks_, with the Schur complement: update × update, lower triangle
   };
 
   void AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups);
@@ -73,10 +73,11 @@ class FrontalLdlt {
   std::vector<Front> fronts_;
   PanelStore panels_;
   std::vector<std::vector<double>> blocks_;  // as many as are in use at once, until the parent has taken them up
-  std::vector<int> front_of_, rank_;  // of an unknown: its front; its place in the order of elimination
-  std::vector<int> map_, run_ends_;   // of the update of the child in work: rows in its parent, where a run of neighbours ends
+  std::vector<int> front_of_, rank_;         // of an unknown: its front; its place in the order of elimination
+  std::vector<int> map_,
+      run_ends_;  // of the update of the child in work: rows in its parent, where a run of neighbours ends
   std::vector<int> updated_;
-  std::vector<double> scaled_;        // L D of the front in work
+  std::vector<double> scaled_;  // L D of the front in work
   std::vector<double> gathered_;
   Inertia inertia_;
   long factor_entries_ = 0;

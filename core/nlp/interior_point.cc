@@ -129,9 +129,8 @@ class Solver {
 
   void ReduceBarrier(bool stuck) {
     const double least = options_.tolerance / (kKappaEnd + 1);
-    while (mu_ > least &&
-           (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
-                         options_.barrier_tolerance * mu_)) {
+    while (mu_ > least && (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
+                                        options_.barrier_tolerance * mu_)) {
       mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, options_.barrier_exponent)));
       tau_ = std::max(kTauMin, 1 - mu_);
       acceptance_.ForgetFilter();
@@ -173,8 +172,8 @@ class Solver {
     return TryForOptimality() ? Search::kStep : Search::kFailed;
   }
 
-  // The whole Newton step for what it does to the optimality conditions, whatever the filter says of it: close to a solution the
-  // filter compares roundings (Wächter and Biegler, section 3.3, before the restoration phase).
+  // The whole Newton step for what it does to the optimality conditions, whatever the filter says of it: close to a
+  // solution the filter compares roundings (Wächter and Biegler, section 3.3, before the restoration phase).
   bool TryForOptimality() {
     const double before = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled;
     const Multipliers old_multipliers = multipliers_;
@@ -193,7 +192,8 @@ class Solver {
     return false;
   }
 
-  // The recentred step, if it is longer in one and not much shorter in the other of primal and dual, and the filter takes it whole.
+  // The recentred step, if it is longer in one and not much shorter in the other of primal and dual, and the filter
+  // takes it whole.
   bool TryRecentred(double alpha) {
     if (!newton_.Recentre(point_, multipliers_, mu_, step_, std::min(1.0, alpha + kLengthening),
                           std::min(1.0, dual_step_ + kLengthening), &corrected_)) {

@@ -14,9 +14,10 @@ struct InteriorPointResult {
   bool needs_restoration = false;
 };
 
-// Primal-dual interior point method with a filter line search (Wächter and Biegler, Math. Program. 106, 2006: the algorithm and
-// the constants of Ipopt), on factors that follow the problem's elimination groups. Exact Hessian, inertia correction, second-order
-// corrections, monotone barrier parameter. May run in several threads at once, one problem each.
+// Primal-dual interior point method with a filter line search (Wächter and Biegler, Math. Program. 106, 2006: the
+// algorithm and the constants of Ipopt), on factors that follow the problem's elimination groups. Exact Hessian,
+// inertia correction, second-order corrections, monotone barrier parameter. May run in several threads at once, one
+// problem each.
 InteriorPointResult SolveWithInteriorPoint(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
                                            const SolveControl& control);
 

@@ -1,10 +1,11 @@
 #include "core/nlp/ipopt_solver.h"
 
+#include <IpoptConfig.h>
+
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptCalculatedQuantities.hpp>
 #include <IpIpoptData.hpp>
 #include <IpTNLP.hpp>
-#include <IpoptConfig.h>
 #include <algorithm>
 #include <chrono>
 
@@ -55,15 +56,9 @@ class Adapter : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_f(Index, const Number* x, bool, Number& value) override {
-    return problem_.Objective(x, &value);
-  }
-  bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override {
-    return problem_.Gradient(x, gradient);
-  }
-  bool eval_g(Index, const Number* x, bool, Index, Number* g) override {
-    return problem_.Constraints(x, g);
-  }
+  bool eval_f(Index, const Number* x, bool, Number& value) override { return problem_.Objective(x, &value); }
+  bool eval_grad_f(Index, const Number* x, bool, Number* gradient) override { return problem_.Gradient(x, gradient); }
+  bool eval_g(Index, const Number* x, bool, Index, Number* g) override { return problem_.Constraints(x, g); }
   bool eval_jac_g(Index, const Number* x, bool, Index, Index, Index* rows, Index* columns, Number* values) override {
     if (values == nullptr) {
       std::copy(problem_.jacobian_pattern().rows.begin(), problem_.jacobian_pattern().rows.end(), rows);
@@ -145,7 +140,8 @@ void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const NlpOp
   o.SetIntegerValue("acceptable_iter", 0);
   o.SetIntegerValue("max_iter", options.max_iterations);
   o.SetStringValue("linear_solver", "mumps");
-  // Approximate minimum degree, set explicitly: the automatic choice may take SCOTCH, whose runs differ from one another.
+  // Approximate minimum degree, set explicitly: the automatic choice may take SCOTCH, whose runs differ from one
+  // another.
   o.SetIntegerValue("mumps_pivot_order", 0);
   o.SetIntegerValue("mumps_mem_percent", 200);
   // The transcription scales unknowns, rows and objective itself.
@@ -180,8 +176,7 @@ Termination Interpret(Ipopt::ApplicationReturnStatus status, const Adapter& adap
   }
   if (control.stop != nullptr && control.stop->requested()) return Termination::kCancelled;
   if (result.x.size() > 0 && result.kkt_error <= kAcceptableFactor * options.tolerance) return Termination::kAcceptable;
-  if (status == Ipopt::Restoration_Failed &&
-      result.constraint_violation > kAcceptableFactor * options.tolerance) {
+  if (status == Ipopt::Restoration_Failed && result.constraint_violation > kAcceptableFactor * options.tolerance) {
     return Termination::kInfeasible;
   }
   return Termination::kNumericalDifficulty;

@@ -7,9 +7,8 @@
 
 namespace rollgait {
 
-// Interior point method of Wächter and Biegler with MUMPS, exact Hessian. MUMPS is not reentrant: one solve at a time in a
-// process, whatever the thread. The result holds the last iterate, whatever the
-// termination.
+// Interior point method of Wächter and Biegler with MUMPS, exact Hessian. MUMPS is not reentrant: one solve at a time
+// in a process, whatever the thread. The result holds the last iterate, whatever the termination.
 NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
                          const SolveControl& control);
 

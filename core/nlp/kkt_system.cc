@@ -6,8 +6,8 @@
 namespace rollgait {
 namespace {
 
-// Threshold of pivots. Where the reduced Hessian is small beside the equations (1/h² times), larger ones would delay pivots through the
-// whole chain; refinement makes up for the growth that small ones allow.
+// Threshold of pivots. Where the reduced Hessian is small beside the equations (1/h² times), larger ones would delay
+// pivots through the whole chain; refinement makes up for the growth that small ones allow.
 constexpr double kFirstThreshold = 1e-7;
 constexpr double kLargestThreshold = 1e-6;
 constexpr int kMostRefinements = 6;

@@ -14,8 +14,8 @@ namespace rollgait {
 // with the patterns and elimination groups of a problem. Variables that are fixed are taken out: their u is 0.
 class KktSystem {
  public:
-  // fixed (variables()): nonzero where the variable is no unknown. fine_residual: where the refinement of a solution ends
-  // (NlpOptions::step_residual).
+  // fixed (variables()): nonzero where the variable is no unknown. fine_residual: where the refinement of a solution
+  // ends (NlpOptions::step_residual).
   KktSystem(const NlpProblem& problem, std::vector<char> fixed, double fine_residual);
 
   // Where the values of H and J go, in the order of the problem's patterns; kept from one factorisation to the next.
@@ -27,8 +27,8 @@ class KktSystem {
   // Factors the matrix. kRight: it has as many positive eigenvalues as unknowns and as many negative ones as rows.
   Outcome Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal);
 
-  // Solves with iterative refinement. False if the residual stays above 1e-6 of the right-hand side: the factors are not to be
-  // trusted.
+  // Solves with iterative refinement. False if the residual stays above 1e-6 of the right-hand side: the factors are
+  // not to be trusted.
   bool Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v);
 
   // y += Jᵀ v with the present Jacobian, fixed variables included.
@@ -44,8 +44,8 @@ class KktSystem {
   const SparsityPattern& jacobian_pattern_;
   int jacobian_start_, primal_start_, dual_start_;
   std::vector<char> fixed_;
-  VectorX values_;          // of H, of J and of the two diagonals
-  SymmetricMatrix matrix_;  // the same without what is fixed
+  VectorX values_;                  // of H, of J and of the two diagonals
+  SymmetricMatrix matrix_;          // the same without what is fixed
   std::vector<int> fixed_entries_;  // of the matrix, with a fixed variable
   double fine_residual_, threshold_;
   FrontalLdlt factors_;

@@ -10,8 +10,8 @@ namespace {
 constexpr double kLeastShift = 1e-20, kLargestShift = 1e20;
 constexpr double kShiftDecrease = 1.0 / 3, kShiftIncrease = 8, kFirstShiftIncrease = 100;
 constexpr double kDualShift = 1e-8, kDualShiftExponent = 0.25;
-// Where no shift has failed before, it is tried again only after as many iterations as it has failed in a row, up to this. Differs
-// from Ipopt, which tries every time: each trial costs a factorisation.
+// Where no shift has failed before, it is tried again only after as many iterations as it has failed in a row, up to
+// this. Differs from Ipopt, which tries every time: each trial costs a factorisation.
 constexpr int kMostSkips = 3;
 // Of a slack that is far from its bounds.
 constexpr double kLeastCurvature = 1e-20;
@@ -91,8 +91,8 @@ bool NewtonSystem::Factorise(double mu) {
   return true;
 }
 
-bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& lagrangian,
-                           double mu, NewtonStep* step) {
+bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers& multipliers,
+                           const VectorX& lagrangian, double mu, NewtonStep* step) {
   barrier_.AddBarrierGradient(point, mu, lagrangian, &right_);
   right_ = -right_;
   for (int i = 0; i < barrier_.unknowns(); ++i) {
@@ -109,8 +109,8 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
   return false;
 }
 
-bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
-                         NewtonStep* step) {
+bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c,
+                         double mu, NewtonStep* step) {
   return Solve(point, multipliers, c, mu, right_, no_excess_, step);
 }
 
@@ -136,8 +136,8 @@ bool NewtonSystem::Recentre(const BarrierProblem::Point& point, const Multiplier
   return Solve(point, multipliers, point.c, mu, shifted_right_, excess_, recentred);
 }
 
-bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
-                         const VectorX& right, const Multipliers& excess, NewtonStep* step) {
+bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c,
+                         double mu, const VectorX& right, const Multipliers& excess, NewtonStep* step) {
   const int n = barrier_.variables();
   a_ = right.head(n);
   b_ = -c;

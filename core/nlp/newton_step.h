@@ -9,8 +9,8 @@ namespace rollgait {
 
 // Multipliers of the rows and of the bounds of w; zero where there is no bound.
 struct Multipliers {
-  VectorX y;              // rows()
-  VectorX lower, upper;   // unknowns()
+  VectorX y;             // rows()
+  VectorX lower, upper;  // unknowns()
 };
 
 // A step in everything.
@@ -19,8 +19,8 @@ struct NewtonStep {
   Multipliers multipliers;
 };
 
-// The Newton step of the primal-dual barrier equations, with the Hessian shifted until the step descends (inertia correction of
-// Wächter and Biegler, section 3.1).
+// The Newton step of the primal-dual barrier equations, with the Hessian shifted until the step descends (inertia
+// correction of Wächter and Biegler, section 3.1).
 class NewtonSystem {
  public:
   // Of the options: step_residual and first_shift.
@@ -41,9 +41,9 @@ class NewtonSystem {
   bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
              NewtonStep* step);
 
-  // With the last factors, the step corrected for centrality (Gondzio, Computational Optimization and Applications 6, 1996): the
-  // products of distance and multiplier that a longer step, `primal` and `dual` of the given one, would leave outside
-  // [0.1 μ, 10 μ] are aimed at its ends.
+  // With the last factors, the step corrected for centrality (Gondzio, Computational Optimization and Applications 6,
+  // 1996): the products of distance and multiplier that a longer step, `primal` and `dual` of the given one, would
+  // leave outside [0.1 μ, 10 μ] are aimed at its ends.
   bool Recentre(const BarrierProblem::Point& point, const Multipliers& multipliers, double mu, const NewtonStep& step,
                 double primal, double dual, NewtonStep* recentred);
 
@@ -59,10 +59,10 @@ class NewtonSystem {
   const double first_shift_;
   double shift_ = 0, last_shift_ = 0;
   int zero_failures_ = 0, skipped_ = 0;  // of the unshifted matrix: failures in a row; iterations since the last trial
-  bool degenerate_ = false;    // the present matrix is singular without a dual shift
-  VectorX sigma_;              // unknowns(): curvature of the bounds
-  VectorX right_;              // unknowns(): negative gradient of the barrier Lagrangian
-  Multipliers no_excess_, excess_;   // of targets
+  bool degenerate_ = false;              // the present matrix is singular without a dual shift
+  VectorX sigma_;                        // unknowns(): curvature of the bounds
+  VectorX right_;                        // unknowns(): negative gradient of the barrier Lagrangian
+  Multipliers no_excess_, excess_;       // of targets
   VectorX shifted_right_;
   VectorX primal_diagonal_, dual_diagonal_, a_, b_, x_;
 };

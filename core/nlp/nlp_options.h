@@ -17,18 +17,20 @@ struct NlpOptions {
   double tolerance = 1e-6;
   int max_iterations = 1000;
   double max_wall_time_s = 600;
-  double initial_barrier = 0.1;  // μ₀; small for a warm start
+  double initial_barrier = 0.1;   // μ₀; small for a warm start
   double barrier_tolerance = 10;  // κ_ε: μ falls once its problem is solved to an error of κ_ε μ
   // How far from its bounds a warm start begins, relative to their size or distance, at most 0.01; 0: μ₀.
   double warm_push = 0;
-  double barrier_exponent = 1.5;   // θ_μ: the next μ is at least μ^θ_μ
+  double barrier_exponent = 1.5;  // θ_μ: the next μ is at least μ^θ_μ
   // Whether a step that bounds cut short is tried again with Gondzio's correction for centrality.
   bool recentre = false;
-  // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; from afar they cost iterations.
+  // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; from afar they cost
+  // iterations.
   double step_residual = 1e-10;
-  // δ_w of the first Hessian that must be shifted. A smaller one that does not do costs a factorisation more, a larger one a good step.
+  // δ_w of the first Hessian that must be shifted. A smaller one that does not do costs a factorisation more, a larger
+  // one a good step.
   double first_shift = 1e-4;
-  int mesh = 0;                  // passed on with every iteration
+  int mesh = 0;  // passed on with every iteration
 };
 
 }  // namespace rollgait

@@ -10,8 +10,8 @@ namespace rollgait {
 // Numbers in 64 bytes, a line of the cache.
 inline constexpr int kNumbersPerLine = 8;
 
-// Memory for the panels of one factorisation after the other. They lie side by side in a few blocks of huge pages, where the system
-// has them: a solve visits all panels several times an iteration. What has been allocated stays.
+// Memory for the panels of one factorisation after the other. They lie side by side in a few blocks of huge pages,
+// where the system has them: a solve visits all panels several times an iteration. What has been allocated stays.
 class PanelStore {
  public:
   // Everything taken before may be taken again.

@@ -7,7 +7,8 @@
 
 namespace rollgait {
 
-// Row and column of every entry of a sparse matrix, in the order in which values are delivered. Entries that occur twice add.
+// Row and column of every entry of a sparse matrix, in the order in which values are delivered. Entries that occur
+// twice add.
 struct SparsityPattern {
   std::vector<int> rows;
   std::vector<int> columns;
@@ -18,24 +19,25 @@ struct SparsityPattern {
   }
 };
 
-// Which group of unknowns and multipliers a variable and a row belong to when the Newton system of the problem is factored:
-// smaller groups are eliminated first, each in one dense front. For a chain of stages it makes the cost linear in their number.
+// Which group of unknowns and multipliers a variable and a row belong to when the Newton system of the problem is
+// factored: smaller groups are eliminated first, each in one dense front. For a chain of stages it makes the cost
+// linear in their number.
 struct EliminationGroups {
   std::vector<int> variables, constraints;  // variables(), constraints(); >= 0
 };
 
 //   minimise f(x)  subject to  g_l ≤ g(x) ≤ g_u,  x_l ≤ x ≤ x_u.
-// Sizes, bounds and patterns are fixed for the life of the object. Evaluations allocate nothing and return false where a value
-// is not finite. ±1e19 and beyond means "no bound".
+// Sizes, bounds and patterns are fixed for the life of the object. Evaluations allocate nothing and return false where
+// a value is not finite. ±1e19 and beyond means "no bound".
 class NlpProblem {
  public:
   virtual ~NlpProblem() = default;
 
   virtual int variables() const = 0;
   virtual int constraints() const = 0;
-  virtual const VectorX& lower_bounds() const = 0;        // variables()
+  virtual const VectorX& lower_bounds() const = 0;  // variables()
   virtual const VectorX& upper_bounds() const = 0;
-  virtual const VectorX& constraint_lower() const = 0;    // constraints()
+  virtual const VectorX& constraint_lower() const = 0;  // constraints()
   virtual const VectorX& constraint_upper() const = 0;
   virtual const SparsityPattern& jacobian_pattern() const = 0;
   // Lower triangle of the Hessian of the Lagrangian  σ f + λᵀ g.
@@ -43,7 +45,8 @@ class NlpProblem {
 
   // Without a choice of the problem's own: everything in one group.
   virtual EliminationGroups elimination_groups() const {
-    return {std::vector<int>(static_cast<size_t>(variables()), 0), std::vector<int>(static_cast<size_t>(constraints()), 0)};
+    return {std::vector<int>(static_cast<size_t>(variables()), 0),
+            std::vector<int>(static_cast<size_t>(constraints()), 0)};
   }
 
   virtual bool Objective(const double* x, double* value) = 0;

@@ -8,7 +8,8 @@ namespace rollgait {
 
 namespace {
 
-NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control) {
+NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
+                      const SolveControl& control) {
   const InteriorPointResult first = SolveWithInteriorPoint(problem, start, options, control);
   if (!first.needs_restoration || first.result.iterations >= options.max_iterations) return first.result;
   NlpOptions rest = options;

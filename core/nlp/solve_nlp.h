@@ -7,9 +7,10 @@
 
 namespace rollgait {
 
-// Solves a nonlinear program: by the interior point method that follows the problem's elimination groups (interior_point.h), and,
-// from the point where that one finds no acceptable step, by Ipopt with its restoration phase. Iterations are numbered through;
-// those of Ipopt count as restoration in IterationInfo, and NlpResult::restored_from says where they began.
+// Solves a nonlinear program: by the interior point method that follows the problem's elimination groups
+// (interior_point.h), and, from the point where that one finds no acceptable step, by Ipopt with its restoration phase.
+// Iterations are numbered through; those of Ipopt count as restoration in IterationInfo, and NlpResult::restored_from
+// says where they began.
 NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control);
 
 }  // namespace rollgait

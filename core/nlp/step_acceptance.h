@@ -5,13 +5,14 @@
 
 namespace rollgait {
 
-// A point on a search line: constraint violation θ and barrier function φ; with the slope of φ along the step where it starts.
+// A point on a search line: constraint violation θ and barrier function φ; with the slope of φ along the step where it
+// starts.
 struct LinePoint {
   double theta = 0, phi = 0, slope = 0;
 };
 
-// Which steps a line search takes: those that lower φ enough where the constraints nearly hold, elsewhere those that lower θ or φ, and
-// none that the filter has seen (Wächter and Biegler, section 2.3).
+// Which steps a line search takes: those that lower φ enough where the constraints nearly hold, elsewhere those that
+// lower θ or φ, and none that the filter has seen (Wächter and Biegler, section 2.3).
 class StepAcceptance {
  public:
   // For points with violations of about that of the first one.

@@ -4,7 +4,8 @@
 
 namespace rollgait {
 
-double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step, double tau) {
+double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step,
+                     double tau) {
   double alpha = 1;
   for (int i = 0; i < barrier.unknowns(); ++i) {
     if (step(i) < 0 && barrier.has_lower(i)) {

@@ -5,8 +5,10 @@
 
 namespace rollgait {
 
-// Largest step in (0, 1] after which every distance to a bound is at least 1 − τ of what it was (fraction to the boundary).
-double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step, double tau);
+// Largest step in (0, 1] after which every distance to a bound is at least 1 − τ of what it was (fraction to the
+// boundary).
+double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step,
+                     double tau);
 // The same for the multipliers of bounds.
 double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau);
 

@@ -10,7 +10,8 @@ namespace rollgait {
 // A sparse symmetric matrix, kept by the columns of its lower triangle, where a product reads and writes neighbours.
 class SymmetricMatrix {
  public:
-  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`. Contract: rows and columns within size.
+  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`. Contract: rows and columns
+  // within size.
   SymmetricMatrix(int size, const SparsityPattern& pattern);
 
   // The same entries by columns; row >= column. The entries on the diagonal come first in their column.
@@ -32,7 +33,7 @@ class SymmetricMatrix {
   int size_;
   SparsityPattern pattern_;
   std::vector<int> place_, source_;  // inverse permutations
-  std::vector<int> first_, below_;  // of a column: its first entry, and its first below the diagonal
+  std::vector<int> first_, below_;   // of a column: its first entry, and its first below the diagonal
   VectorX values_;
 };
 

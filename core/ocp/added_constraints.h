@@ -5,7 +5,8 @@
 
 namespace rollgait {
 
-// Joints whose range, velocity or effort is bounded at every instant of a phase; those of all joints are at nodes or points.
+// Joints whose range, velocity or effort is bounded at every instant of a phase; those of all joints are at nodes or
+// points.
 struct BoundedBetween {
   std::vector<int> range, velocity, effort;
   friend bool operator==(const BoundedBetween&, const BoundedBetween&) = default;

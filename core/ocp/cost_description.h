@@ -17,14 +17,15 @@ struct EffortRateCost {
   double effort_size = 1;  // N m
 };
 
-// ∫ Σ |df/dt|² dt, N²/s, of the forces of the ground. Along x it is the sum over the contacts of a link that counts (of two points
-// of one rigid body only that is determined). A contact that is not active has no force: taking one up and giving it up costs too.
+// ∫ Σ |df/dt|² dt, N²/s, of the forces of the ground. Along x it is the sum over the contacts of a link that counts (of
+// two points of one rigid body only that is determined). A contact that is not active has no force: taking one up and
+// giving it up costs too.
 struct ForceRateCost {
   double force_size = 1;  // N
 };
 
-// ∫ Σ w_j (q_j(t) − r_j(t/T))² dt, rad² s (m² s for a prismatic joint), T the duration of all phases together. It knows where
-// an instant is in the whole, so it depends on every duration.
+// ∫ Σ w_j (q_j(t) − r_j(t/T))² dt, rad² s (m² s for a prismatic joint), T the duration of all phases together. It knows
+// where an instant is in the whole, so it depends on every duration.
 struct TrackingCost {
   struct Channel {
     int joint = 0;

@@ -9,8 +9,8 @@
 
 namespace rollgait {
 
-// Where the variables of one instant sit in its vector z = (q, v, a, τ, f): n positions, velocities and accelerations, the
-// efforts of the actuated joints, and the forces of the active contacts, contact by contact in their directions.
+// Where the variables of one instant sit in its vector z = (q, v, a, τ, f): n positions, velocities and accelerations,
+// the efforts of the actuated joints, and the forces of the active contacts, contact by contact in their directions.
 struct PointLayout {
   int n = 0;
   int efforts = 0;

@@ -140,13 +140,13 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
   // At a node that belongs to the interval before as well, gaps and distances are bounded there.
   for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
     if (Contains(phases[phase].active, c)) continue;
-    constraints.push_back(std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance,
-                                                          swing_clearance));
+    constraints.push_back(
+        std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance, swing_clearance));
   }
   for (size_t s = 0; !at_node && s < separated.size(); ++s) {
     const BodyPair& pair = pairs[separated[s]];
-    constraints.push_back(std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout,
-                                                                 pair_clearance));
+    constraints.push_back(
+        std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout, pair_clearance));
   }
   return constraints;
 }

@@ -33,9 +33,9 @@ struct Ends {
 // What the sum of the cost integrals is divided by.
 enum class CostDenominator { kDistance, kTime, kNothing };
 
-// The multi-phase problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit. Periodic, or
-// between given ends (its first case study).
-// World axes: x along the ground, z its normal; all contacts are with the plane z = 0.
+// The multi-phase problem of section 4.1 of the paper: eqs (4.1)–(4.3) with what they leave open made explicit.
+// Periodic, or between given ends (its first case study). World axes: x along the ground, z its normal; all contacts
+// are with the plane z = 0.
 struct OptimalControlProblem {
   explicit OptimalControlProblem(Model tree) : model(std::move(tree)) {}
 
@@ -47,30 +47,30 @@ struct OptimalControlProblem {
   bool mirrored = true;
   int forward_joint = 0;   // prismatic joint along x that carries the displacement
   int lateral_joint = -1;  // prismatic joint along y, if there is one: where it starts is no part of a full cycle
-  // If set, the motion goes from one to the other and nothing is periodic. What rolling or touching determines (height and
-  // velocity of a body in contact) must be left free here, and `displacement` is prescribed if they prescribe the forward
-  // joint's.
+  // If set, the motion goes from one to the other and nothing is periodic. What rolling or touching determines (height
+  // and velocity of a body in contact) must be left free here, and `displacement` is prescribed if they prescribe the
+  // forward joint's.
   std::optional<Ends> ends;
 
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;
 
   double friction_coefficient = 0.8;
-  double min_normal_force = 0;   // N
-  double swing_clearance = 0.01; // m
-  // Bodies with a thickness, the pairs of them that can meet, and the least distance at collocation points of those that are kept
-  // apart (AddedConstraints), m: what they may approach each other between the points.
+  double min_normal_force = 0;    // N
+  double swing_clearance = 0.01;  // m
+  // Bodies with a thickness, the pairs of them that can meet, and the least distance at collocation points of those
+  // that are kept apart (AddedConstraints), m: what they may approach each other between the points.
   std::vector<BodySurface> bodies;
   std::vector<BodyPair> pairs;
   double pair_clearance = 1e-3;
   std::optional<Interval> touch_down_point, lift_off_point;
-  // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact of the
-  // new phase. Else they arrive at rest.
+  // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact
+  // of the new phase. Else they arrive at rest.
   bool plastic_touch_down = false;
 
-  Interval displacement;         // m over all phases
-  Interval duration;             // s over all phases
-  Interval speed;                // m/s; equal bounds prescribe it
+  Interval displacement;  // m over all phases
+  Interval duration;      // s over all phases
+  Interval speed;         // m/s; equal bounds prescribe it
   // Share of the cycle that a foot stands, mean of both feet; equal bounds prescribe it.
   std::optional<Interval> duty_factor;
 
@@ -80,25 +80,26 @@ struct OptimalControlProblem {
   double impulse_size() const { return 0.1 * force_size(); }
   double effort_size() const { return lever * force_size(); }  // N m: about 100 for an adult
 
-  // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored; none
-  // where there are ends.
+  // The contacts of the phase before `phase` as that phase sees them: for the first one, those of the last, mirrored;
+  // none where there are ends.
   std::vector<int> PreviousActive(int phase) const;
   // Whether velocities jump at the start of a phase: touch-down is plastic, and something touches down there.
   bool Jumps(int phase) const;
   // Contacts that are taken up at the start of a phase, or given up at its end.
   std::vector<int> TakenUp(int phase) const;
   std::vector<int> GivenUp(int phase) const;
-  // Whether the forces of contacts that are taken up at the start of a phase, or given up at its end, vanish there: where all efforts
-  // are continuous, since their rates cost something, velocities do not jump, and no least normal force is asked for. Source:
-  // docs/contact_changes.md.
+  // Whether the forces of contacts that are taken up at the start of a phase, or given up at its end, vanish there:
+  // where all efforts are continuous, since their rates cost something, velocities do not jump, and no least normal
+  // force is asked for. Source: docs/contact_changes.md.
   bool ForcesVanishAtStart(int phase) const;
   bool ForcesVanishAtEnd(int phase) const;
-  // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a foot.
+  // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a
+  // foot.
   int StandingFeet(int phase) const;
-  // The contacts of the problem with the directions in which they are held in a phase: of active contacts on one link the first
-  // is held in all of its directions, the others not along x. Two points of one rigid body cannot both be held along the line
-  // that joins them: the rows would depend on each other. Forces act in all directions; how contacts of one link share the
-  // force along x is the matter of ForceSharesConstraint.
+  // The contacts of the problem with the directions in which they are held in a phase: of active contacts on one link
+  // the first is held in all of its directions, the others not along x. Two points of one rigid body cannot both be
+  // held along the line that joins them: the rows would depend on each other. Forces act in all directions; how
+  // contacts of one link share the force along x is the matter of ForceSharesConstraint.
   std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
@@ -108,13 +109,14 @@ struct OptimalControlProblem {
   // `separated` apart.
   std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node,
                                                                  const std::vector<int>& separated = {}) const;
-  // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed contact
-  // points.
+  // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed
+  // contact points.
   std::vector<std::unique_ptr<PointConstraint>> EntryConstraints(int phase) const;
   // The instant of a jump, z = (q, 0, v⁺ − v⁻, Λ): no efforts, and impulses in place of forces.
   PointLayout JumpLayout(int phase) const;
-  // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the friction
-  // cone, contacts that are taken up coming from above. That the contacts are at rest afterwards is among EntryConstraints.  Source: contact-math 7.
+  // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the
+  // friction cone, contacts that are taken up coming from above. That the contacts are at rest afterwards is among
+  // EntryConstraints.  Source: contact-math 7.
   std::vector<std::unique_ptr<PointConstraint>> JumpConstraints(int phase) const;
 };
 

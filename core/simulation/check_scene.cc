@@ -1,8 +1,7 @@
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <sstream>
 #include <string>
-
-#include <Eigen/Cholesky>
 
 #include "core/multibody/body_dynamics.h"
 #include "core/simulation/scene.h"
@@ -120,7 +119,8 @@ class SceneChecker {
       for (size_t g = 0; g < contact.gates.size(); ++g) {
         const Gate& gate = contact.gates[g];
         const std::string gate_path = path + Indexed("gates", g);
-        if (!(gate.min <= gate.max)) Refuse(gate_path + "min", gate.min, "must not be larger than max, neither may be NaN");
+        if (!(gate.min <= gate.max))
+          Refuse(gate_path + "min", gate.min, "must not be larger than max, neither may be NaN");
         if (scene_.model.joint(gate.joint).type == JointType::kFree) {
           Refuse(gate_path + "joint", scene_.model.joint(gate.joint).name, "must have one degree of freedom");
         }

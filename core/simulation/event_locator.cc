@@ -31,8 +31,8 @@ void EventLocator::ChooseWatched() {
     if (dynamics_.IsSliding(k)) {
       watched_.push_back({SimulationEventKind::kStick, k});
     } else if (contact.friction != kInfinity) {
-      watched_.push_back({beyond_friction_[i] != 0 ? SimulationEventKind::kFrictionRegained
-                                                   : SimulationEventKind::kFrictionLoss, k});
+      watched_.push_back(
+          {beyond_friction_[i] != 0 ? SimulationEventKind::kFrictionRegained : SimulationEventKind::kFrictionLoss, k});
     }
     forces_watched_ = true;
   }
@@ -46,8 +46,8 @@ double EventLocator::Value(const Watched& watched) {
   const Vector3 force = contacts.Force(watched.contact);
   const double normal = pair.normal.dot(force);
   if (watched.kind == SimulationEventKind::kLiftOff) return normal;
-  const double margin = scene_.contacts[static_cast<size_t>(watched.contact)].friction * normal -
-                        (force - normal * pair.normal).norm();
+  const double margin =
+      scene_.contacts[static_cast<size_t>(watched.contact)].friction * normal - (force - normal * pair.normal).norm();
   return watched.kind == SimulationEventKind::kFrictionLoss ? margin : -margin;
 }
 
@@ -155,7 +155,8 @@ std::optional<Crossing> EventLocator::FirstBetween(const Point& a, const Point& 
     }
     if (!(a.values[w] > 0 && end->values[w] <= 0)) continue;
     const double root = RootBetween(w, a, *end);
-    if (watched_[w].kind == SimulationEventKind::kTouchDown && !GatesOpen(watched_[w].contact, At(root).state)) continue;
+    if (watched_[w].kind == SimulationEventKind::kTouchDown && !GatesOpen(watched_[w].contact, At(root).state))
+      continue;
     if (root < first_root) first_root = root, first = w;
   }
   if (!first) return std::nullopt;

@@ -1,8 +1,7 @@
 #include "core/simulation/ground_motion.h"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace rollgait {
 

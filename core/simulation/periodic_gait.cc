@@ -200,20 +200,23 @@ Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const Period
   for (;; ++gait.iterations) {
     section.emplace(scene, q);
     if (section->dimension() == 0) {
-      return Violations{{"contacts", "leave the walker no freedom right after a heel strike; fewer directions or feet"}};
+      return Violations{
+          {"contacts", "leave the walker no freedom right after a heel strike; fewer directions or feet"}};
     }
     VectorX y = section->Coordinates(q, v);
     if (!MapCoordinates(y, &*section, &map, &image)) {
-      return Violations{{"joints", "a step from the state at t = 0 does not end with the other foot's heel strike within "
-                                   "duration_s; start closer to a gait, or open the gates of the swing foot"}};
+      return Violations{{"joints",
+                         "a step from the state at t = 0 does not end with the other foot's heel strike within "
+                         "duration_s; start closer to a gait, or open the gates of the swing foot"}};
     }
     gait.residual = (image - y).cwiseAbs().maxCoeff();
     const bool go_on = !observer || observer(gait.iterations, gait.residual);
     gait.converged = gait.residual <= options.residual;
     MatrixX jacobian;
     if (!Differentiate(y, options.difference_step, &*section, &map, &jacobian)) {
-      return Violations{{"joints", "a step from a state near the one found does not end with the other foot's heel strike; "
-                                   "start closer to a gait"}};
+      return Violations{{"joints",
+                         "a step from a state near the one found does not end with the other foot's heel strike; "
+                         "start closer to a gait"}};
     }
     gait.jacobian = jacobian;
     if (gait.converged || !go_on || gait.iterations >= options.max_iterations) break;
@@ -229,10 +232,12 @@ Result<PeriodicGait> FindPeriodicGait(const SimulationScene& scene, const Period
     section->State(y + newton, &q, &v);
   }
   section->State(section->Coordinates(q, v), &gait.q, &gait.v);
-  // The bases of two sections may differ by any rotation, however near they are: the derivative belongs to the one at the gait.
+  // The bases of two sections may differ by any rotation, however near they are: the derivative belongs to the one at
+  // the gait.
   section.emplace(scene, gait.q);
   if (!Differentiate(section->Coordinates(gait.q, gait.v), options.difference_step, &*section, &map, &gait.jacobian)) {
-    return Violations{{"joints", "a step from a state near the gait found does not end with the other foot's heel strike"}};
+    return Violations{
+        {"joints", "a step from a state near the gait found does not end with the other foot's heel strike"}};
   }
   VectorX q_next, v_next;
   if (map.Map(gait.q, gait.v, &q_next, &v_next)) {

@@ -12,13 +12,13 @@
 
 namespace rollgait {
 
-// What acts in a joint besides contact and gravity. Of a free joint only `damping` counts: the couple −damping · ω on the
-// link, ω its angular velocity relative to the parent.
+// What acts in a joint besides contact and gravity. Of a free joint only `damping` counts: the couple −damping · ω on
+// the link, ω its angular velocity relative to the parent.
 struct JointForce {
-  double effort = 0;         // N m or N, constant
-  double damping = 0;        // N m s or N s/m, ≥ 0: effort −damping · v
-  double stiffness = 0;      // N m/rad or N/m, ≥ 0: effort −stiffness (q − rest)
-  double rest = 0;           // rad or m
+  double effort = 0;     // N m or N, constant
+  double damping = 0;    // N m s or N s/m, ≥ 0: effort −damping · v
+  double stiffness = 0;  // N m/rad or N/m, ≥ 0: effort −stiffness (q − rest)
+  double rest = 0;       // rad or m
 };
 
 // A touch-down counts only while the position of a joint is within [min, max].
@@ -36,13 +36,13 @@ enum class FrictionLoss {
 
 struct SceneContact {
   TreeContact contact;
-  bool active = false;            // at the start
-  bool bilateral = false;         // may pull; never lifts off
-  bool can_touch_down = true;     // an inactive contact whose gap closes becomes active by a plastic impact
-  double friction = kInfinity;    // coefficient; infinite: not checked
+  bool active = false;          // at the start
+  bool bilateral = false;       // may pull; never lifts off
+  bool can_touch_down = true;   // an inactive contact whose gap closes becomes active by a plastic impact
+  double friction = kInfinity;  // coefficient; infinite: not checked
   FrictionLoss friction_loss = FrictionLoss::kReport;
-  std::vector<Gate> gates;        // all must be open for a touch-down to count
-  int mirror = -1;                // index of the contact that takes this one's part in the mirror image; -1: itself
+  std::vector<Gate> gates;  // all must be open for a touch-down to count
+  int mirror = -1;          // index of the contact that takes this one's part in the mirror image; -1: itself
 };
 
 enum class DriftControl {
@@ -52,28 +52,28 @@ enum class DriftControl {
 };
 
 struct SimulationOptions {
-  double duration = 1;          // s, (0, 1e7]
-  double tolerance = 1e-9;      // of the integrator, relative and absolute, [1e-14, 1e-2]
-  double output_step = 0.01;    // s between samples, (0, duration]
+  double duration = 1;        // s, (0, 1e7]
+  double tolerance = 1e-9;    // of the integrator, relative and absolute, [1e-14, 1e-2]
+  double output_step = 0.01;  // s between samples, (0, duration]
   DriftControl drift = DriftControl::kProjection;
   Baumgarte baumgarte;
-  int max_steps = 1'000'000;    // of the integrator, rejected ones included, [1, 1e9]
-  int max_events = 10'000;      // [1, 1e6]
-  int stop_after_impacts = 0;   // 0: no limit
+  int max_steps = 1'000'000;   // of the integrator, rejected ones included, [1, 1e9]
+  int max_events = 10'000;     // [1, 1e6]
+  int stop_after_impacts = 0;  // 0: no limit
 };
 
 // A mechanism, its ground, its state at t = 0 and how to simulate it. A value; valid if it comes out of CheckScene.
 struct SimulationScene {
   std::string name;
   Model model;
-  std::vector<JointForce> forces;        // one per joint
-  std::vector<GroundMotion> ground;      // frames that contacts refer to; frame 0 is the fixed world
+  std::vector<JointForce> forces;    // one per joint
+  std::vector<GroundMotion> ground;  // frames that contacts refer to; frame 0 is the fixed world
   std::vector<SceneContact> contacts;
-  Vector3 gravity{0, 0, -9.81};          // m/s², world
-  VectorX q, v;                          // (nq), (nv) at t = 0
-  // Joints whose positions and velocities are computed from the others so that the active contacts touch and do not slip:
-  // positions by least change (sliding and free joints translate, turning joints turn), velocities replaced. Of a free
-  // joint the translation only.
+  Vector3 gravity{0, 0, -9.81};  // m/s², world
+  VectorX q, v;                  // (nq), (nv) at t = 0
+  // Joints whose positions and velocities are computed from the others so that the active contacts touch and do not
+  // slip: positions by least change (sliding and free joints translate, turning joints turn), velocities replaced. Of a
+  // free joint the translation only.
   std::vector<int> adjusted_joints;
   // Joint along which a walker travels: its position is not part of a periodic gait. -1: none.
   int travel_joint = -1;
@@ -87,8 +87,8 @@ inline constexpr int kMaxSceneGrounds = 16;
 inline constexpr double kMaxSamples = 2e6;
 inline constexpr double kMaxSceneNumber = 1e9;  // magnitude of any position, velocity, force or rate
 
-// Everything that is wrong with the numbers of the scene, by the path of the field in rollgait.v1.SimulationScene; empty if
-// it can be simulated. The model is checked already (Model::Create).
+// Everything that is wrong with the numbers of the scene, by the path of the field in rollgait.v1.SimulationScene;
+// empty if it can be simulated. The model is checked already (Model::Create).
 Violations CheckScene(const SimulationScene& scene);
 
 }  // namespace rollgait

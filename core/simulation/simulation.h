@@ -14,57 +14,59 @@ namespace rollgait {
 // One contact at an instant. World axes.
 struct ContactSample {
   bool active = false, sliding = false;
-  double gap = 0;                            // m
-  Vector3 point = Vector3::Zero();           // m, on body 1
+  double gap = 0;                   // m
+  Vector3 point = Vector3::Zero();  // m, on body 1
   Vector3 normal = Vector3::Zero();
-  Vector3 slip = Vector3::Zero();            // m/s
-  Vector3 force = Vector3::Zero();           // N on body 1; zero if not active
-  double spin_torque = 0;                    // N m on body 1 about the normal
-  double friction_ratio = 0;                 // |tangential force| / normal force; infinite without a normal force
+  Vector3 slip = Vector3::Zero();   // m/s
+  Vector3 force = Vector3::Zero();  // N on body 1; zero if not active
+  double spin_torque = 0;           // N m on body 1 about the normal
+  double friction_ratio = 0;        // |tangential force| / normal force; infinite without a normal force
 };
 
 struct SimulationSample {
-  double time = 0;                           // s
+  double time = 0;  // s
   VectorX q, v, acceleration;
-  std::vector<ContactSample> contacts;       // one per contact of the scene
-  double kinetic_energy = 0;                 // J
-  double potential_energy = 0;               // J, gravity and springs
-  double work = 0;                           // J, done so far by everything else, and what impacts took (negative)
+  std::vector<ContactSample> contacts;  // one per contact of the scene
+  double kinetic_energy = 0;            // J
+  double potential_energy = 0;          // J, gravity and springs
+  double work = 0;                      // J, done so far by everything else, and what impacts took (negative)
 };
 
 enum class SimulationEventKind {
   kTouchDown,     // a gap closed: plastic impact
   kLiftOff,       // a normal force fell to zero: the contact became inactive
-  kFrictionLoss,  // the friction that rolling needs passed the coefficient; FrictionLoss::kSlide: the contact slides now
+  kFrictionLoss,  // the friction that rolling needs passed the coefficient; FrictionLoss::kSlide: the contact slides
+                  // now
   kFrictionRegained,
-  kStick,         // a sliding contact came to rest in its tangent directions and rolls again
+  kStick,  // a sliding contact came to rest in its tangent directions and rolls again
 };
 
 struct SimulationEvent {
   SimulationEventKind kind = SimulationEventKind::kTouchDown;
-  double time = 0;                      // s
+  double time = 0;  // s
   int contact = 0;
   VectorX q, velocity_before, velocity_after;
-  // Of an impact: per contact of the scene, N s on body 1 (world); contacts that were released and their gap rates, m/s.
+  // Of an impact: per contact of the scene, N s on body 1 (world); contacts that were released and their gap rates,
+  // m/s.
   std::vector<Vector3> impulses;
   std::vector<int> released;
   std::vector<double> released_gap_rates;
-  double energy_loss = 0;               // J
+  double energy_loss = 0;  // J
   bool redundant = false;
-  bool consistent = true;               // no held contact pulls, no released one closes
+  bool consistent = true;  // no held contact pulls, no released one closes
 };
 
 enum class SimulationEnd {
-  kDuration,         // reached the end
-  kImpactCount,      // stop_after_impacts
-  kFrictionLoss,     // a contact with FrictionLoss::kStop
-  kStopped,          // the stop flag, or the observer said no
-  kStepTooSmall,     // the tolerance cannot be met
-  kNotFinite,        // the accelerations are not finite; a flat surface in contact is one reason
+  kDuration,      // reached the end
+  kImpactCount,   // stop_after_impacts
+  kFrictionLoss,  // a contact with FrictionLoss::kStop
+  kStopped,       // the stop flag, or the observer said no
+  kStepTooSmall,  // the tolerance cannot be met
+  kNotFinite,     // the accelerations are not finite; a flat surface in contact is one reason
   kTooManySteps,
   kTooManyEvents,
-  kFrictionUndetermined,  // Coulomb friction on rigid bodies leaves the motion undetermined: jamming, or several contacts
-                          // whose friction forces are not unique (ConstrainedSolver::SolveSliding)
+  kFrictionUndetermined,  // Coulomb friction on rigid bodies leaves the motion undetermined: jamming, or several
+                          // contacts whose friction forces are not unique (ConstrainedSolver::SolveSliding)
 };
 
 // How well the simulation kept what it should, over all steps and samples.
@@ -73,7 +75,7 @@ struct SimulationReport {
   double end_time = 0;
   int steps = 0, rejected_steps = 0, evaluations = 0;
   int impacts = 0;
-  double energy_initial = 0;            // J, kinetic + potential
+  double energy_initial = 0;  // J, kinetic + potential
   double energy_final = 0;
   double max_energy_error = 0;          // J, |energy − work − energy_initial|
   double max_gap = 0;                   // m, |gap| of active contacts, before projection
@@ -85,9 +87,9 @@ struct SimulationReport {
   double max_friction_ratio = 0;
   double max_friction_ratio_time = 0;
   int max_friction_ratio_contact = -1;
-  bool redundant = false;               // at some instant forces were not unique (ConstrainedSolution::ForcesUnique)
+  bool redundant = false;  // at some instant forces were not unique (ConstrainedSolution::ForcesUnique)
   std::vector<int> active_at_end;
-  VectorX q, v;                         // at the end
+  VectorX q, v;  // at the end
 };
 
 // Receives samples (t = 0, every output_step, the end) and events in order of time. False ends the simulation.
@@ -97,8 +99,9 @@ struct SimulationObserver {
 };
 
 // Simulates a scene that CheckScene found nothing wrong with. Violations: the state at t = 0 contradicts the contacts.
-// Adaptive integration by DOP853; samples are single steps of it from the last mesh point, so they are as accurate as the
-// mesh; events are bracketed on the continuous extension and then located with single steps, to rounding. Deterministic.
+// Adaptive integration by DOP853; samples are single steps of it from the last mesh point, so they are as accurate as
+// the mesh; events are bracketed on the continuous extension and then located with single steps, to rounding.
+// Deterministic.
 Result<SimulationReport> Simulate(const SimulationScene& scene, const SimulationObserver& observer,
                                   const StopFlag* stop = nullptr);
 

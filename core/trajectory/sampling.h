@@ -29,8 +29,8 @@ class IntervalPolynomials {
   void Evaluate(double theta, MotionSample* sample) const;
   void EvaluateEfforts(double theta, VectorX* efforts) const;
 
-  // One of the polynomials: the coefficients of 1, θ, θ², …, written to the front of `room`. Row: joint, joint, index of the
-  // actuated joint, component of the forces. Contract: room for s + 2, s + 1, s and s numbers.
+  // One of the polynomials: the coefficients of 1, θ, θ², …, written to the front of `room`. Row: joint, joint, index
+  // of the actuated joint, component of the forces. Contract: room for s + 2, s + 1, s and s numbers.
   std::span<const double> PositionPolynomial(int row, std::span<double> room) const;
   std::span<const double> VelocityPolynomial(int row, std::span<double> room) const;
   std::span<const double> EffortPolynomial(int row, std::span<double> room) const;
@@ -43,12 +43,12 @@ class IntervalPolynomials {
   MatrixX acceleration_, efforts_, forces_;
 };
 
-// Evaluates the trajectory in interval `interval` of phase `phase` at fraction θ ∈ [0, 1] of the interval, by the rule that
-// Trajectory states. Contract: indices in range.
+// Evaluates the trajectory in interval `interval` of phase `phase` at fraction θ ∈ [0, 1] of the interval, by the rule
+// that Trajectory states. Contract: indices in range.
 MotionSample Sample(const Trajectory& trajectory, int phase, int interval, double theta);
 
-// Sets point_positions and point_velocities of every phase to the values of those polynomials, from the nodes, the accelerations and
-// times that are there. Contract: as IntervalPolynomials, for every interval.
+// Sets point_positions and point_velocities of every phase to the values of those polynomials, from the nodes, the
+// accelerations and times that are there. Contract: as IntervalPolynomials, for every interval.
 void FillPointStates(Trajectory* trajectory);
 
 // Efforts alone.

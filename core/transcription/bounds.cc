@@ -1,8 +1,8 @@
 // CollocationNlp's bounds of states, controls and rows.
 
-#include "core/transcription/collocation_nlp.h"
-
 #include <algorithm>
+
+#include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 
@@ -71,7 +71,8 @@ void CollocationNlp::SetControlBounds() {
   }
 }
 
-// Of the forces that are Bernstein coefficients themselves: those at the ends of the interval. The others have rows (IntervalPathRows).
+// Of the forces that are Bernstein coefficients themselves: those at the ends of the interval. The others have rows
+// (IntervalPathRows).
 void CollocationNlp::SetForceBounds(int k) {
   const int p = layout_.phase(k), last = scheme_.points() - 1;
   const bool zero_at_start = k == layout_.first_interval(p) && problem_.ForcesVanishAtStart(p);

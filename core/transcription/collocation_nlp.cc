@@ -24,7 +24,8 @@ Tableau TableauOf(Scheme scheme) {
 
 CollocationNlp::~CollocationNlp() = default;
 
-CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh, AddedConstraints added)
+CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh,
+                               AddedConstraints added)
     : problem_(problem),
       scheme_kind_(scheme),
       scheme_(TableauOf(scheme)),
@@ -77,8 +78,8 @@ void CollocationNlp::SetDenominator() {
 void CollocationNlp::ScaleObjective() {
   double typical = 0;
   for (const CostDescription& cost : problem_.costs) typical += cost.weight * cost.Typical();
-  // Integrals are per second; a metre takes about a second. 100 keeps the curvature of one node of a fine mesh well above
-  // the regularisation that Ipopt adds.
+  // Integrals are per second; a metre takes about a second. 100 keeps the curvature of one node of a fine mesh well
+  // above the regularisation that Ipopt adds.
   objective_scale_ = typical > 0 ? 100 / typical : 1;
 }
 
@@ -206,8 +207,8 @@ bool CollocationNlp::Constraints(const double* x, double* g) {
   return Eigen::Map<const VectorX>(g, rows_).allFinite();
 }
 
-// Of the rows and integrands of the intervals; leaves the gradient of the integrands in cost_gradient_. Moves the pointers that are
-// not null to the end of what it wrote.
+// Of the rows and integrands of the intervals; leaves the gradient of the integrands in cost_gradient_. Moves the
+// pointers that are not null to the end of what it wrote.
 void CollocationNlp::IntervalDerivatives(const double* x, const double* lambda, double** jacobian, double** hessian) {
   cost_gradient_.setZero();
   for (int k = 0; k < layout_.intervals(); ++k) {

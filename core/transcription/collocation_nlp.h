@@ -19,8 +19,8 @@
 
 namespace rollgait {
 
-// Where a solve starts: durations, displacement and the motion at a fraction of a phase. Forces are 3 per active contact, world;
-// impulses likewise, one vector a phase, empty for zero.
+// Where a solve starts: durations, displacement and the motion at a fraction of a phase. Forces are 3 per active
+// contact, world; impulses likewise, one vector a phase, empty for zero.
 struct MotionGuess {
   std::vector<double> durations;  // s, one a phase
   double displacement = 0;        // m
@@ -30,8 +30,8 @@ struct MotionGuess {
 };
 
 // The optimal control problem on a mesh, as a nonlinear program in stage order (DecisionLayout).
-//   rows: interval by interval the rows of its points; entry rows of the phases; jumps; periodicity or displacement; positions
-//   through jumps; travel; continuous efforts and forces
+//   rows: interval by interval the rows of its points; entry rows of the phases; jumps; periodicity or displacement;
+//   positions through jumps; travel; continuous efforts and forces
 // The problem must outlive this object. Not thread-safe; evaluations allocate nothing.
 class CollocationNlp : public NlpProblem {
  public:
@@ -46,15 +46,13 @@ class CollocationNlp : public NlpProblem {
   const VectorX& constraint_upper() const override { return row_upper_; }
   const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
   const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
-  // Point by point the efforts and the rows that hold them, then the rest of the interval with the node before it; last the first
-  // node, the durations and the displacement, which everything may meet.
+  // Point by point the efforts and the rows that hold them, then the rest of the interval with the node before it; last
+  // the first node, the durations and the displacement, which everything may meet.
   EliminationGroups elimination_groups() const override;
   bool Objective(const double* x, double* value) override;
   bool Gradient(const double* x, double* gradient) override;
   bool Constraints(const double* x, double* g) override;
-  bool Jacobian(const double* x, double* values) override {
-    return Derivatives(x, 0, nullptr, values, nullptr);
-  }
+  bool Jacobian(const double* x, double* values) override { return Derivatives(x, 0, nullptr, values, nullptr); }
   bool Hessian(const double* x, double sigma, const double* lambda, double* values) override {
     return Derivatives(x, sigma, lambda, nullptr, values);
   }
@@ -93,7 +91,8 @@ class CollocationNlp : public NlpProblem {
   void TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
   void ExtractImpact(const double* x, int phase, TrajectoryPhase* extracted);
-  // Divides the forces of a point, or the impulses, that contacts of one link have along x as ForceSharesConstraint asks for.
+  // Divides the forces of a point, or the impulses, that contacts of one link have along x as ForceSharesConstraint
+  // asks for.
   void ShareForces(int phase, double* forces) const;
   void SetDenominator();
   void SetStateBounds();
@@ -120,7 +119,7 @@ class CollocationNlp : public NlpProblem {
   AddedConstraints added_;
   DecisionLayout layout_;
   PointWorkspace workspace_;
-  std::vector<std::unique_ptr<IntervalBlock>> blocks_;  // one a phase
+  std::vector<std::unique_ptr<IntervalBlock>> blocks_;   // one a phase
   std::vector<std::unique_ptr<CouplingTerm>> coupling_;  // one a cost term, null for those with an integrand
   EntryRows entries_;
   JumpRows jumps_;

@@ -11,8 +11,8 @@
 
 namespace rollgait {
 
-// Two consecutive collocation points, Δt = ratio · T_phase apart, of the phase of the later one; ratio 0: the same instant. The
-// last point of a motion is followed by the first one, mirrored in a half cycle.
+// Two consecutive collocation points, Δt = ratio · T_phase apart, of the phase of the later one; ratio 0: the same
+// instant. The last point of a motion is followed by the first one, mirrored in a half cycle.
 struct PointLink {
   int from_interval, from_point, to_interval, to_point;
   int phase = 0;
@@ -27,8 +27,9 @@ std::vector<PointLink> ConsecutivePoints(const DecisionLayout& layout, const Vec
 std::vector<Change> EffortChanges(const OptimalControlProblem& problem, const DecisionLayout& layout,
                                   const PointLink& link);
 
-// What the components of the forces of the ground change by over a link, N, with the names of contact and direction. Along x of
-// the contacts of one link together, else of each contact; of contacts that are active on neither side nothing.
+// What the components of the forces of the ground change by over a link, N, with the names of contact and direction.
+// Along x of the contacts of one link together, else of each contact; of contacts that are active on neither side
+// nothing.
 std::vector<std::pair<std::string, Change>> ForceChanges(const OptimalControlProblem& problem,
                                                          const DecisionLayout& layout, const PointLink& link);
 

@@ -10,9 +10,9 @@
 
 namespace rollgait {
 
-// A cost integral that no single interval knows: it couples instants of several intervals, or depends on the durations other
-// than through the length of its interval. x is the decision vector (DecisionLayout). Evaluations allocate nothing; one object
-// serves one thread.
+// A cost integral that no single interval knows: it couples instants of several intervals, or depends on the durations
+// other than through the length of its interval. x is the decision vector (DecisionLayout). Evaluations allocate
+// nothing; one object serves one thread.
 class CouplingTerm {
  public:
   virtual ~CouplingTerm() = default;

@@ -24,8 +24,8 @@ EliminationGroups CollocationNlp::elimination_groups() const {
   }
   std::fill_n(groups.variables.begin() + layout_.node(layout_.intervals()), 2 * n, last - 1);
   std::fill_n(groups.variables.begin() + layout_.node(0), 2 * n, last);
-  // A row goes with the earliest of its unknowns, which it determines. Linear rows tie unknowns of different intervals, and go
-  // with the latest but for those that come last.
+  // A row goes with the earliest of its unknowns, which it determines. Linear rows tie unknowns of different intervals,
+  // and go with the latest but for those that come last.
   groups.constraints.assign(constraints(), last);
   std::vector<int> latest(constraints(), -1);
   for (int e = 0; e < jacobian_pattern_.size(); ++e) {

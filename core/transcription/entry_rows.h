@@ -12,8 +12,8 @@
 
 namespace rollgait {
 
-// The rows at the first node of every phase (OptimalControlProblem::EntryConstraints), functions of its (q, v). Layout and
-// workspace must outlive the object. Evaluations allocate nothing.
+// The rows at the first node of every phase (OptimalControlProblem::EntryConstraints), functions of its (q, v). Layout
+// and workspace must outlive the object. Evaluations allocate nothing.
 class EntryRows {
  public:
   EntryRows(const OptimalControlProblem& problem, const DecisionLayout& layout, PointWorkspace* workspace);

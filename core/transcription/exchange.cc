@@ -7,8 +7,8 @@ namespace rollgait {
 
 namespace {
 
-// A point at the end of an interval is one of this interval, not of the neighbour, whose efforts and forces there are others: it
-// is looked for by this part of a half interval further in.
+// A point at the end of an interval is one of this interval, not of the neighbour, whose efforts and forces there are
+// others: it is looked for by this part of a half interval further in.
 constexpr double kInside = 1e-9;
 
 }  // namespace
@@ -46,7 +46,8 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
     for (int i = 0; i < scheme_.points(); ++i) {
       const double c = scheme_.tableau().c(i) + kInside * (0.5 - scheme_.tableau().c(i));
       const MotionSample sample = guess.motion(p, layout_.start(k) + c * layout_.length(k));
-      if (i < scheme_.points() - 2) x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
+      if (i < scheme_.points() - 2)
+        x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
       set_forces(p, sample.forces, problem_.force_size(), layout_.forces(k, i));
     }
@@ -65,7 +66,8 @@ void CollocationNlp::ShareForces(int p, double* forces) const {
     };
     for (const ActiveContact& other : active) {
       if (problem_.contacts[other.contact].joint != problem_.contacts[contact.contact].joint) continue;
-      if (other.offset < contact.offset) count = -static_cast<int>(active.size());  // the first of its link does it for all
+      if (other.offset < contact.offset)
+        count = -static_cast<int>(active.size());  // the first of its link does it for all
       normal += normal_of(other);
       along += forces[other.offset];
       ++count;

@@ -156,8 +156,8 @@ double* IntervalBlock::WriteJacobian(int i, double* values) const {
   return values;
 }
 
-void IntervalBlock::Derivatives(const double* y, double h, const double* lambda, const double* weights, double* jacobian,
-                                double* hessian, Eigen::Ref<VectorX> cost_gradient) {
+void IntervalBlock::Derivatives(const double* y, double h, const double* lambda, const double* weights,
+                                double* jacobian, double* hessian, Eigen::Ref<VectorX> cost_gradient) {
   SetStep(h);
   if (hessian != nullptr) {
     local_.setZero();
@@ -277,7 +277,8 @@ void IntervalBlock::AccumulateAccelerations(int i) {
   }
 }
 
-// Everything against h: H ż with the symmetric Hessian of (q, v, a), and the gradient times the derivatives of the coefficients.
+// Everything against h: H ż with the symmetric Hessian of (q, v, a), and the gradient times the derivatives of the
+// coefficients.
 void IntervalBlock::AccumulateStep(int i) {
   const int n = layout_.n, q = 0, v = n, a = 2 * n, u = 3 * n;
   const auto rate_q = z_rate_.segment(q, n), rate_v = z_rate_.segment(v, n), rate_a = z_rate_.segment(a, n);

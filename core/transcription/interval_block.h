@@ -13,16 +13,17 @@
 
 namespace rollgait {
 
-// All collocation points of one interval of a phase, as a function of the slice of unknowns from the node before it to the node
-// after it (local variables, scaled) and of its length h (the last local variable, in s). Position, velocity and acceleration
-// at a point are linear in the slice for given h; this class carries the derivatives of the point functions through that map:
+// All collocation points of one interval of a phase, as a function of the slice of unknowns from the node before it to
+// the node after it (local variables, scaled) and of its length h (the last local variable, in s). Position, velocity
+// and acceleration at a point are linear in the slice for given h; this class carries the derivatives of the point
+// functions through that map:
 //   ∂g/∂y = Σ c_α J_α,   ∂²ℓ/∂y∂y' = Σ c_α c_β H_αβ,   and the terms of h.
-// Second derivatives that involve accelerations are with positions or accelerations, not with velocities or efforts: so it is in
-// rigid-body dynamics and with costs of the acceleration.
+// Second derivatives that involve accelerations are with positions or accelerations, not with velocities or efforts: so
+// it is in rigid-body dynamics and with costs of the acceleration.
 class IntervalBlock {
  public:
-  IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase, const EliminatedScheme& scheme,
-                PointWorkspace* workspace);
+  IntervalBlock(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
+                const EliminatedScheme& scheme, PointWorkspace* workspace);
 
   int local_size() const { return local_size_; }  // without h
   int rows() const { return rows_; }
@@ -32,7 +33,7 @@ class IntervalBlock {
   // Rows of point i: how many, and the first of them.
   int PointRows(int i) const { return points_[i].rows; }
   int FirstRow(int i) const { return points_[i].first_row; }
-  const VectorX& scale() const { return scale_; }            // physical = scale · unknown, local_size()
+  const VectorX& scale() const { return scale_; }                        // physical = scale · unknown, local_size()
   const Entries& jacobian_pattern() const { return jacobian_pattern_; }  // column local_size() is h
   const Entries& hessian_pattern() const { return hessian_pattern_; }    // lower triangle, h included
   // Local variables (h excluded) on which the cost depends.
@@ -53,8 +54,8 @@ class IntervalBlock {
   // gradient (local_size() + 1) = ∂/∂(y, h) of Σ_t weights[t] · integral_t.
   void CostGradient(const double* y, double h, const double* weights, Eigen::Ref<VectorX> gradient);
   void Values(const double* y, double h, double* g);
-  // The Jacobian on jacobian_pattern() and the Hessian of λᵀ g + Σ_t weights[t] integral_t on hessian_pattern(); either may be
-  // null and is then left out. cost_gradient as CostGradient, with the Hessian only.
+  // The Jacobian on jacobian_pattern() and the Hessian of λᵀ g + Σ_t weights[t] integral_t on hessian_pattern(); either
+  // may be null and is then left out. cost_gradient as CostGradient, with the Hessian only.
   void Derivatives(const double* y, double h, const double* lambda, const double* weights, double* jacobian,
                    double* hessian, Eigen::Ref<VectorX> cost_gradient);
 
@@ -115,19 +116,19 @@ class IntervalBlock {
   // Coefficients for the current h: [kind](point, source).
   double step_ = -1;
   MatrixX value_[3], first_[3], second_[3];
-  MatrixX scaled_[3];             // value_ times the unit of the source
+  MatrixX scaled_[3];  // value_ times the unit of the source
   PointContext context_;
   VectorX z_, z_rate_, z_curve_;  // z and the first two derivatives of its first 3n entries by h
   MatrixX hessian_;
-  bool bends_accelerations_ = false;          // something has second derivatives by accelerations alone
-  MatrixX aa_;                                // those, if so
+  bool bends_accelerations_ = false;     // something has second derivatives by accelerations alone
+  MatrixX aa_;                           // those, if so
   MatrixX qq_, qv_, vq_, qa_, aq_, vv_;  // blocks of hessian_ and their transposes
   std::vector<double> hessian_scale_;    // per entry of hessian_pattern_
   VectorX gradient_, cost_gradient_, scaled_lambda_;
-  MatrixX local_;                 // dense lower Hessian of the interval
-  MatrixX block_;                 // n × controls
-  VectorX turned_;                // 3n
-  VectorX step_controls_;         // controls
+  MatrixX local_;          // dense lower Hessian of the interval
+  MatrixX block_;          // n × controls
+  VectorX turned_;         // 3n
+  VectorX step_controls_;  // controls
 };
 
 }  // namespace rollgait

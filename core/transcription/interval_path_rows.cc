@@ -1,8 +1,8 @@
 #include "core/transcription/interval_path_rows.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <Eigen/LU>
 #include <set>
 
 #include "core/math/bernstein.h"
@@ -31,8 +31,7 @@ MatrixX StateCoefficients(const EliminatedScheme& scheme, bool velocity) {
     }
   }
   // Monomials of the acceleration from those of its Bernstein form.
-  const MatrixX monomials =
-      BernsteinFromMonomials(s - 1).inverse() * BernsteinFromValues(scheme.tableau().c) * points;
+  const MatrixX monomials = BernsteinFromMonomials(s - 1).inverse() * BernsteinFromValues(scheme.tableau().c) * points;
   MatrixX state = MatrixX::Zero(degree + 1, scheme.sources());
   for (int j = 0; j < s; ++j) {
     if (velocity) {
@@ -89,12 +88,18 @@ void IntervalPathRows::AddForces(const OptimalControlProblem& problem, int phase
     for (const ActiveContact& contact : active) {
       if (is_point) continue;  // an unknown: it has a bound
       const int normal = contact.offset + static_cast<int>(contact.directions.size()) - 1;
-      Row row{KeyOf("normal force", contact.contact, k), "normal force " + problem.contacts[contact.contact].name, "N", size,
-              problem.min_normal_force / size, kInfinity, terms(k, {{normal, 1}})};
+      Row row{KeyOf("normal force", contact.contact, k),
+              "normal force " + problem.contacts[contact.contact].name,
+              "N",
+              size,
+              problem.min_normal_force / size,
+              kInfinity,
+              terms(k, {{normal, 1}})};
       if (k == 0 && zero_at_start && Contains(taken, contact.contact)) row.at_start = AtZero::kEquals;
       rows_.push_back(std::move(row));
     }
-    // Of the two rows of a direction one becomes the equation. At a point the shares of a link's force along x are equations already.
+    // Of the two rows of a direction one becomes the equation. At a point the shares of a link's force along x are
+    // equations already.
     const auto at_zero = [is_point](const ForceRow& row) {
       return row.positive && !(row.shared && is_point) ? AtZero::kEquals : AtZero::kFree;
     };
@@ -113,8 +118,13 @@ void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int join
   for (int k = 0; k < from_points_.rows(); ++k) {
     if (from_points_.row(k).cwiseAbs().sum() == 1) continue;
     const double size = problem.effort_size();
-    Row row{KeyOf("effort", joint, k), "effort " + limits.name, limits.type == JointType::kPrismatic ? "N" : "N m", size,
-            limits.effort_min / size, limits.effort_max / size, {}};
+    Row row{KeyOf("effort", joint, k),
+            "effort " + limits.name,
+            limits.type == JointType::kPrismatic ? "N" : "N m",
+            size,
+            limits.effort_min / size,
+            limits.effort_max / size,
+            {}};
     for (int i = 0; i < from_points_.cols(); ++i) {
       if (from_points_(k, i) != 0) row.terms.push_back({locals.controls[i] + effort, from_points_(k, i) / size, 0});
     }
@@ -122,18 +132,21 @@ void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int join
   }
 }
 
-void IntervalPathRows::AddStates(const OptimalControlProblem& problem, int joint, bool velocity, const EliminatedScheme& scheme,
-                                 const Locals& locals) {
+void IntervalPathRows::AddStates(const OptimalControlProblem& problem, int joint, bool velocity,
+                                 const EliminatedScheme& scheme, const Locals& locals) {
   const Joint& limits = problem.model.joint(joint);
   const MatrixX coefficients = StateCoefficients(scheme, velocity);
   const bool prismatic = limits.type == JointType::kPrismatic;
   // The first and the last coefficient are states of nodes, which have bounds.
   for (int k = 1; k + 1 < coefficients.rows(); ++k) {
     const double size = velocity ? kVelocityShare * limits.velocity_max : 1;
-    Row row{KeyOf(velocity ? "velocity" : "range", joint, k), (velocity ? "velocity " : "range ") + limits.name,
-            std::string(prismatic ? "m" : "rad") + (velocity ? "/s" : ""), size,
+    Row row{KeyOf(velocity ? "velocity" : "range", joint, k),
+            (velocity ? "velocity " : "range ") + limits.name,
+            std::string(prismatic ? "m" : "rad") + (velocity ? "/s" : ""),
+            size,
             (velocity ? -limits.velocity_max : limits.position_min) / size,
-            (velocity ? limits.velocity_max : limits.position_max) / size, {}};
+            (velocity ? limits.velocity_max : limits.position_max) / size,
+            {}};
     for (int source = 0; source < scheme.sources(); ++source) {
       if (std::abs(coefficients(k, source)) < 1e-12) continue;  // rounding of the inverse
       const int order = source >= 4 ? 2 : source % 2;           // of the derivative that the source is
@@ -175,7 +188,8 @@ Entries IntervalPathRows::HessianPairs(int step) const {
 void IntervalPathRows::Values(const double* y, double h, double* g) const {
   for (const Row& row : rows_) {
     double sum = 0;
-    for (const Term& term : row.terms) sum += term.coefficient * std::pow(h, term.power) * scale_(term.local) * y[term.local];
+    for (const Term& term : row.terms)
+      sum += term.coefficient * std::pow(h, term.power) * scale_(term.local) * y[term.local];
     *g++ = sum;
   }
 }

@@ -14,10 +14,10 @@ struct IntervalPlace {
   bool first = false, last = false;
 };
 
-// Rows that bound the polynomials of one interval of a phase at every instant, by their Bernstein coefficients: a polynomial lies in the
-// convex hull of its coefficients. Bounded are the normal forces and the friction of all active contacts, and of the joints that
-// AddedConstraints names range, velocity and effort. Coefficients that are unknowns themselves have bounds in
-// place of rows, but for friction.
+// Rows that bound the polynomials of one interval of a phase at every instant, by their Bernstein coefficients: a
+// polynomial lies in the convex hull of its coefficients. Bounded are the normal forces and the friction of all active
+// contacts, and of the joints that AddedConstraints names range, velocity and effort. Coefficients that are unknowns
+// themselves have bounds in place of rows, but for friction.
 //   A row is  lower <= Σ coefficient · h^power · y_local · scale_local <= upper,  with the interval's length h in s.
 // At the ends of a phase the forces of contacts that are taken up or given up at rest vanish where the problem says so
 // (OptimalControlProblem::ForcesVanish). Source: docs/contact_changes.md.
@@ -50,7 +50,8 @@ class IntervalPathRows {
   void Values(const double* y, double h, double* g) const;
   // Returns the end of what it wrote.
   double* Jacobian(const double* y, double h, double* values) const;
-  // Adds the Hessian of λᵀ g by unscaled unknowns (scale · y) and h, the last local variable, to the lower triangle of `local`.
+  // Adds the Hessian of λᵀ g by unscaled unknowns (scale · y) and h, the last local variable, to the lower triangle of
+  // `local`.
   void AddHessian(const double* y, double h, const double* lambda, Eigen::Ref<MatrixX> local) const;
 
  private:

@@ -144,8 +144,8 @@ std::vector<int> IntervalBlock::Behind(int i, int column) const {
   return locals;
 }
 
-// Pairs of variables of z with a second derivative at point i, and the variables of z that meet h: all that enter anything
-// nonlinear.
+// Pairs of variables of z with a second derivative at point i, and the variables of z that meet h: all that enter
+// anything nonlinear.
 void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_coupled) {
   const int n = layout_.n;
   for (PointConstraint* constraint : points_[i].constraints) {
@@ -171,7 +171,8 @@ void IntervalBlock::PointPairs(int i, Entries* pairs, std::set<int>* step_couple
 
 void IntervalBlock::BuildHessianPattern() {
   const int order = local_size_ + 1;
-  std::vector<char> lower(static_cast<size_t>(order) * order, 0);  // column by column, as the dense local matrix is stored
+  std::vector<char> lower(static_cast<size_t>(order) * order,
+                          0);  // column by column, as the dense local matrix is stored
   std::set<int> cost;
   const auto add = [&](int a, int b) { lower[static_cast<size_t>(std::min(a, b)) * order + std::max(a, b)] = 1; };
   for (int i = 0; i < points_count_; ++i) {
@@ -207,7 +208,8 @@ void IntervalBlock::BuildHessianPattern() {
   for (const auto& [i, j] : hessian_pattern_) hessian_scale_.push_back(scale(i) * scale(j));
 }
 
-void IntervalBlock::Bounds(double start, double length, const IntervalPlace& place, double* lower, double* upper) const {
+void IntervalBlock::Bounds(double start, double length, const IntervalPlace& place, double* lower,
+                           double* upper) const {
   for (int i = 0; i < points_count_; ++i) {
     const Point& point = points_[i];
     const double fraction = start + scheme_.tableau().c(i) * length;

@@ -165,7 +165,8 @@ RowInfo JumpRows::Describe(const double* x, int row) const {
       if (row < constraint->rows()) {
         double time = 0;
         for (int p = 0; p < jump.phase; ++p) time += x[layout_.duration(p)];
-        return {"impact, " + constraint->Name(row), constraint->Unit(row) + " s", constraint->Size(row), jump.phase, time};
+        return {"impact, " + constraint->Name(row), constraint->Unit(row) + " s", constraint->Size(row), jump.phase,
+                time};
       }
       row -= constraint->rows();
     }

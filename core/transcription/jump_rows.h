@@ -13,9 +13,9 @@
 
 namespace rollgait {
 
-// The rows of every jump of velocities (OptimalControlProblem::JumpConstraints), functions of the node after it, the velocities
-// before it and its impulses. Before the first phase of a periodic motion are the velocities of its last node, mirrored in a half
-// cycle. Layout and workspace must outlive the object. Evaluations allocate nothing.
+// The rows of every jump of velocities (OptimalControlProblem::JumpConstraints), functions of the node after it, the
+// velocities before it and its impulses. Before the first phase of a periodic motion are the velocities of its last
+// node, mirrored in a half cycle. Layout and workspace must outlive the object. Evaluations allocate nothing.
 class JumpRows {
  public:
   JumpRows(const OptimalControlProblem& problem, const DecisionLayout& layout, PointWorkspace* workspace);

@@ -16,14 +16,15 @@ struct Mesh {
   std::vector<int> Intervals() const;
 };
 
-// Unknown accelerations are in units of this, m/s² or rad/s²; efforts, forces and impulses in those of the problem's sizes.
+// Unknown accelerations are in units of this, m/s² or rad/s²; efforts, forces and impulses in those of the problem's
+// sizes.
 inline constexpr double kAccelerationScale = 10;
 
 // The only place that knows where unknowns sit in the decision vector. Stage order:
 //   node 0, interior of interval 0, node 1, interior of interval 1, … , node N, durations T_0 … T_P−1, displacement D.
-// Before the first node of a phase at whose start velocities jump: the end node of the interval before (except before node 0),
-// which is otherwise the next node itself, and the impulses Λ.
-// A node is (q, v); the interior of an interval is the accelerations of its first s − 2 points, then (τ, f) point by point.
+// Before the first node of a phase at whose start velocities jump: the end node of the interval before (except before
+// node 0), which is otherwise the next node itself, and the impulses Λ. A node is (q, v); the interior of an interval
+// is the accelerations of its first s − 2 points, then (τ, f) point by point.
 class DecisionLayout {
  public:
   DecisionLayout(const OptimalControlProblem& problem, const Mesh& mesh, int points);

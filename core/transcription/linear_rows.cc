@@ -54,9 +54,13 @@ void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayo
 void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
   if (problem.displacement.min == problem.displacement.max) return;  // the ends prescribe it
   const int joint = problem.forward_joint;
-  rows->Add({"displacement", "m", 0, 0,
-             {{layout.node(layout.intervals()) + joint, 1.0}, {layout.node(0) + joint, -1.0}, {layout.displacement(), -1.0}},
-             1});
+  rows->Add(
+      {"displacement",
+       "m",
+       0,
+       0,
+       {{layout.node(layout.intervals()) + joint, 1.0}, {layout.node(0) + joint, -1.0}, {layout.displacement(), -1.0}},
+       1});
 }
 
 void AddJumpPositionRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows) {
@@ -64,8 +68,12 @@ void AddJumpPositionRows(const OptimalControlProblem& problem, const DecisionLay
     if (!layout.jumps(p)) continue;
     for (int j = 0; j < problem.model.size(); ++j) {
       const Joint& joint = problem.model.joint(j);
-      rows->Add({"position at touch-down " + joint.name, joint.type == JointType::kPrismatic ? "m" : "rad", 0, 0,
-                 {{layout.node(layout.first_interval(p)) + j, 1.0}, {layout.end_node(layout.first_interval(p) - 1) + j, -1.0}},
+      rows->Add({"position at touch-down " + joint.name,
+                 joint.type == JointType::kPrismatic ? "m" : "rad",
+                 0,
+                 0,
+                 {{layout.node(layout.first_interval(p)) + j, 1.0},
+                  {layout.end_node(layout.first_interval(p) - 1) + j, -1.0}},
                  1});
     }
   }

@@ -35,7 +35,8 @@ class LinearRows {
   std::vector<Row> rows_;
 };
 
-// x_N = mirror(x_0) + displacement along x, without the mirror in a full cycle; of positions alone where the cycle starts with a jump.
+// x_N = mirror(x_0) + displacement along x, without the mirror in a full cycle; of positions alone where the cycle
+// starts with a jump.
 void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
 // Without periodicity: the displacement is how far the forward joint went, unless it is prescribed.
 void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
@@ -43,8 +44,8 @@ void AddDisplacementRow(const OptimalControlProblem& problem, const DecisionLayo
 void AddJumpPositionRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
 // Range of the mean speed, of the duty factor and of the sum of the durations.
 void AddTravelRows(const OptimalControlProblem& problem, const DecisionLayout& layout, LinearRows* rows);
-// In schemes whose intervals share an instant (the first point is a node), efforts and forces whose rate costs something are the
-// same on both sides; forces within a phase.
+// In schemes whose intervals share an instant (the first point is a node), efforts and forces whose rate costs
+// something are the same on both sides; forces within a phase.
 void AddContinuityRows(const OptimalControlProblem& problem, const DecisionLayout& layout,
                        const EliminatedScheme& scheme, LinearRows* rows);
 

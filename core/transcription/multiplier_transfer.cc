@@ -1,5 +1,6 @@
-// Multipliers from one mesh to another. A multiplier of a row at a collocation point approximates the step h b_i times a function of
-// time that does not depend on the mesh; that function is interpolated linearly in time, for each point of the scheme apart.
+// Multipliers from one mesh to another. A multiplier of a row at a collocation point approximates the step h b_i times
+// a function of time that does not depend on the mesh; that function is interpolated linearly in time, for each point
+// of the scheme apart.
 
 #include <algorithm>
 #include <map>
@@ -62,7 +63,8 @@ void CollocationNlp::TransferMultipliers(const CollocationNlp& from, const NlpRe
 }
 
 // Rows and controls of point i of the intervals of phase p.
-void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i, NlpStart* start) const {
+void CollocationNlp::TransferPoint(const CollocationNlp& from, const NlpResult& of, int p, int i,
+                                   NlpStart* start) const {
   const std::vector<double> times = PointTimes(p, i), other_times = from.PointTimes(p, i);
   // Rows of pairs of bodies, which another program may lack, come last.
   const int rows = std::min(blocks_[p]->PointRows(i), from.blocks_[p]->PointRows(i));

@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// Tree and contacts at the instant under evaluation; shared by all parts of a problem, so one problem serves one thread.
-// with_dual: for the acceleration rows of schemes whose first point is a node.
+// Tree and contacts at the instant under evaluation; shared by all parts of a problem, so one problem serves one
+// thread. with_dual: for the acceleration rows of schemes whose first point is a node.
 struct PointWorkspace {
   PointWorkspace(const OptimalControlProblem& problem, bool with_dual) : tree(problem.model) {
     for (const ContactSurface& contact : problem.contacts) {

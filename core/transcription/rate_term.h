@@ -8,8 +8,8 @@
 
 namespace rollgait {
 
-// What a quantity changes by from one collocation point to the next, Δt = ratio · T_phase later:  Σ coefficient · x[unknown]  in
-// the quantity's unit.
+// What a quantity changes by from one collocation point to the next, Δt = ratio · T_phase later:  Σ coefficient ·
+// x[unknown]  in the quantity's unit.
 struct Change {
   std::vector<std::pair<int, double>> terms;
   double weight = 1;

@@ -128,8 +128,8 @@ void TrackingTerm::AddLocalHessian(const Residual& residual, double factor) {
   }
   for (int u = 0; u < durations_; ++u) {
     for (int r = u; r < durations_; ++r) {
-      const double bend = residual.r_tt * theta_rate_(r) * theta_rate_(u) -
-                          residual.r_t * (theta_rate_(r) + theta_rate_(u)) / total;
+      const double bend =
+          residual.r_tt * theta_rate_(r) * theta_rate_(u) - residual.r_t * (theta_rate_(r) + theta_rate_(u)) / total;
       double entry = -h_ * bend;
       if (r == phase_) entry += length_ * slope_(sources_ + u);
       if (u == phase_) entry += length_ * slope_(sources_ + r);

@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// ∫ Σ w_j (q_j(t) − r_j(θ))² dt by the quadrature of the scheme. Point i of interval k in phase p, at the constant fraction s of
-// it, is at  θ = (Σ_{r<p} T_r + s T_p) / S,  S = Σ T_r, with
+// ∫ Σ w_j (q_j(t) − r_j(θ))² dt by the quadrature of the scheme. Point i of interval k in phase p, at the constant
+// fraction s of it, is at  θ = (Σ_{r<p} T_r + s T_p) / S,  S = Σ T_r, with
 //   ∂θ/∂T_r = (n_r − θ)/S,  ∂²θ/∂T_r∂T_u = −(θ_r + θ_u)/S,   n_r = 1, s, 0 for r < p, r = p, r > p.
 class TrackingTerm : public CouplingTerm {
  public:
@@ -40,10 +40,10 @@ class TrackingTerm : public CouplingTerm {
 
   std::vector<double> phase_start_;  // s, one a phase and the end
   double step_ = -1;
-  MatrixX value_, first_, second_;   // of positions: points × sources, times the unit of the unknown
+  MatrixX value_, first_, second_;  // of positions: points × sources, times the unit of the unknown
   int interval_ = 0, point_ = 0, phase_ = 0;
   double quadrature_ = 0, length_ = 0, h_ = 0, theta_ = 0;
-  VectorX theta_rate_;               // ∂θ/∂T
+  VectorX theta_rate_;  // ∂θ/∂T
   VectorX slope_;
   MatrixX local_, duration_hessian_;  // lower triangles
 };

@@ -16,12 +16,12 @@ namespace rollgait {
 namespace {
 
 constexpr int kGapDegree = 10, kGapGrid = 48, kGapHalvings = 10;
-constexpr double kGapResolved = 1e-4;         // of the largest value
-constexpr double kGapRounding = 1e-12;        // m, m/s: above what rounding does to positions of metres and velocities of m/s
-constexpr double kPointResolved = 1e-5;    // m, of contact points, which say only where forces act
+constexpr double kGapResolved = 1e-4;   // of the largest value
+constexpr double kGapRounding = 1e-12;  // m, m/s: above what rounding does to positions of metres and velocities of m/s
+constexpr double kPointResolved = 1e-5;  // m, of contact points, which say only where forces act
 
-// The contacts of one phase. Rows of the functions of time: the gap of every contact of the scene, then of every active one its
-// slip x y z (zero where not forbidden), then of every active one the rows of ForceJudge.
+// The contacts of one phase. Rows of the functions of time: the gap of every contact of the scene, then of every active
+// one its slip x y z (zero where not forbidden), then of every active one the rows of ForceJudge.
 class PhaseContacts {
  public:
   PhaseContacts(const Scene& scene, const BodyDynamics& dynamics, const TrajectoryPhase& phase, int index,
@@ -43,7 +43,8 @@ class PhaseContacts {
       Instant at{phase_, 0, number};
       const double start = interval.start() + from * interval.length(), length = (to - from) * interval.length();
       JudgeGaps(*pieces, start, length, at, log, result, depth);
-      judge_.JudgeFriction(pieces->basis(), pieces->coefficients(), pieces->samples(), ForceRow(0), start, length, at, log);
+      judge_.JudgeFriction(pieces->basis(), pieces->coefficients(), pieces->samples(), ForceRow(0), start, length, at,
+                           log);
     };
     pieces->Cover(ForceRow(active()), 0, 1, kGapHalvings, sample, resolved, visit);
     JudgeNormals(interval, number, log);
@@ -87,14 +88,15 @@ class PhaseContacts {
       const double size = values.middleRows<3>(SlipRow(a)).cwiseAbs().maxCoeff();
       for (int axis = 0; axis < 3; ++axis) {
         if (!Small(pieces, SlipRow(a) + axis, size)) return false;
-        if (axis < 2 && !(ChebyshevBasis::Tail(pieces.coefficients(), ForceRow(a) + 3 + axis) <= kPointResolved)) return false;
+        if (axis < 2 && !(ChebyshevBasis::Tail(pieces.coefficients(), ForceRow(a) + 3 + axis) <= kPointResolved))
+          return false;
       }
     }
     return true;
   }
 
-  // The largest of a function of the interpolants over the piece at hand; `at` gets its time. `value` takes a functor that gives
-  // row -> number.
+  // The largest of a function of the interpolants over the piece at hand; `at` gets its time. `value` takes a functor
+  // that gives row -> number.
   template <class Value>
   double Largest(const Pieces& pieces, const Value& value, double start, double length, Instant* at) const {
     const std::vector<double>& grid = pieces.basis().grid();
@@ -115,18 +117,20 @@ class PhaseContacts {
     return peak.value;
   }
 
-  void JudgeGaps(const Pieces& pieces, double start, double length, Instant at, FindingLog* log, ContactResiduals* result,
-                 double* depth) const {
+  void JudgeGaps(const Pieces& pieces, double start, double length, Instant at, FindingLog* log,
+                 ContactResiduals* result, double* depth) const {
     for (int c = 0; c < contacts(); ++c) {
       const std::string& name = scene_.contacts[c].name;
       const int a = place_[c];
       if (a < 0) {
-        const double deep = Largest(pieces, [c](const auto& row) { return -row(c); }, start, length, &at);
+        const double deep = Largest(
+            pieces, [c](const auto& row) { return -row(c); }, start, length, &at);
         RaiseTo(deep, depth);
         log->Raise(Criterion::kPenetration, std::max(deep, 0.0), name, at);
         continue;
       }
-      const double gap = Largest(pieces, [c](const auto& row) { return std::abs(row(c)); }, start, length, &at);
+      const double gap = Largest(
+          pieces, [c](const auto& row) { return std::abs(row(c)); }, start, length, &at);
       RaiseTo(gap, &result->max_gap);
       log->Raise(Criterion::kGap, gap, name, at);
       const int r = SlipRow(a);

@@ -9,7 +9,8 @@
 
 namespace rollgait {
 
-// What a trajectory is judged by, at every instant. kCriteria says what each measures; every measure is >= 0 and 0 is perfect.
+// What a trajectory is judged by, at every instant. kCriteria says what each measures; every measure is >= 0 and 0 is
+// perfect.
 enum class Criterion {
   kGap,
   kSlip,
@@ -64,7 +65,7 @@ struct Finding {
   double value = 0;   // unit of the criterion; infinite if it could not be measured
   std::string where;  // joint, contact, pair of bodies or impact; empty: the whole motion, or nothing was found
   int phase = 0;
-  double time = 0;    // s
+  double time = 0;  // s
 };
 
 // A bound that is exceeded.

@@ -1,17 +1,16 @@
 #include "core/validation/ellipsoid_overlap.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace rollgait {
 namespace {
 
-constexpr double kDeep = 1e-3;             // m, overlap from which other ways out are looked for
-constexpr double kFirstStep = 0.2;         // rad, of the direct search
-constexpr double kLastStep = 1e-6;         // rad; g is flat to the square of it at a maximum
+constexpr double kDeep = 1e-3;      // m, overlap from which other ways out are looked for
+constexpr double kFirstStep = 0.2;  // rad, of the direct search
+constexpr double kLastStep = 1e-6;  // rad; g is flat to the square of it at a maximum
 constexpr int kBracketSteps = 200;
 constexpr double kBracketWidth = 1e-14;
 
@@ -51,7 +50,8 @@ double PlaneDistance(const PosedEllipsoid& a, const PosedEllipsoid& b, const Vec
   return nu.dot(b.p_WE - a.p_WE) - Support(a, nu) - Support(b, nu);
 }
 
-// The derivative of the concave function is  (1 − s)² xᵀ Q_a x − s² xᵀ Q_b x  with x = M(s)⁻¹ r: regula falsi with Illinois' rule.
+// The derivative of the concave function is  (1 − s)² xᵀ Q_a x − s² xᵀ Q_b x  with x = M(s)⁻¹ r: regula falsi with
+// Illinois' rule.
 ScaledContact FindScaledContact(const PosedEllipsoid& a, const PosedEllipsoid& b) {
   const Matrix3 Q_a = ShapeOf(a), Q_b = ShapeOf(b);
   const Vector3 r = b.p_WE - a.p_WE;

@@ -16,8 +16,8 @@ void RaiseTo(double value, double* worst);
 struct Instant {
   static constexpr int kNoInterval = -1;
   int phase = 0;
-  double time = 0;                  // s
-  int interval = kNoInterval;       // in order of time over all phases; kNoInterval: an impact, a border, the whole motion
+  double time = 0;             // s
+  int interval = kNoInterval;  // in order of time over all phases; kNoInterval: an impact, a border, the whole motion
 };
 
 // Collects the largest measure of every criterion, over all and for every interval.
@@ -25,10 +25,13 @@ class FindingLog {
  public:
   explicit FindingLog(int intervals) : intervals_(intervals) {}
 
-  // A measure > 0 that is larger than all before it is kept with its place, of equal ones the first. A NaN counts as infinite.
+  // A measure > 0 that is larger than all before it is kept with its place, of equal ones the first. A NaN counts as
+  // infinite.
   void Raise(Criterion criterion, double value, const std::string& where, const Instant& at);
   // An interval's own measure alone, which says nothing of the whole.
-  void RaiseInterval(Criterion criterion, double value, int interval) { RaiseTo(value, &intervals_[interval][criterion]); }
+  void RaiseInterval(Criterion criterion, double value, int interval) {
+    RaiseTo(value, &intervals_[interval][criterion]);
+  }
 
   const Finding& operator[](Criterion criterion) const { return findings_[static_cast<int>(criterion)]; }
   const std::array<Finding, kCriterionCount>& findings() const { return findings_; }

@@ -107,7 +107,8 @@ double ForceJudge::FrictionRatio(const double* rows, int* worst) const {
 
 void ForceJudge::AddNormal(int c, double normal, const Instant& at, FindingLog* log) const {
   extremes_->AddNormal(normal);
-  log->Raise(Criterion::kPull, std::max((bounds_.min_normal - normal) / extremes_->weight(), 0.0), contacts_[c].name, at);
+  log->Raise(Criterion::kPull, std::max((bounds_.min_normal - normal) / extremes_->weight(), 0.0), contacts_[c].name,
+             at);
 }
 
 void ForceJudge::AddRatio(int c, double ratio, const Instant& at, FindingLog* log) const {
@@ -120,7 +121,7 @@ void ForceJudge::AddRatio(int c, double ratio, const Instant& at, FindingLog* lo
 void ForceJudge::JudgeFriction(const ChebyshevBasis& basis, const MatrixX& coefficients, const MatrixX& samples,
                                int first_row, double start, double length, Instant at, FindingLog* log) const {
   if (contacts() == 0) return;
-  std::array<double, kRows * kMostContacts> rows = {};
+  std::array<double, kRows* kMostContacts> rows = {};
   const int count = kRows * contacts();
   std::array<double, kMostSamples> ratios = {};
   const std::vector<double>& grid = basis.grid();

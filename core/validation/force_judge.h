@@ -9,8 +9,9 @@
 
 namespace rollgait {
 
-// Extremes of contact forces or impulses. The friction ratio is |tangential| / max(normal, 0.001 × weight): below that floor a
-// normal force says nothing about friction, and a pulling contact with a tangential force shows as a large ratio.
+// Extremes of contact forces or impulses. The friction ratio is |tangential| / max(normal, 0.001 × weight): below that
+// floor a normal force says nothing about friction, and a pulling contact with a tangential force shows as a large
+// ratio.
 class ForceExtremes {
  public:
   // `weight` in N (of impulses: N s), > 0.
@@ -39,11 +40,12 @@ struct ForceBounds {
   double min_normal = 0;        // N
 };
 
-// Judges the forces of the contacts of one phase together. Where two or more contacts belong to one rigid link, its motion does
-// not determine the forces along the lines between them, so friction is judged by whether some distribution with the same net wrench
-// is admissible: tangential forces are shifted along those lines such that the largest ratio of the link is as small as it can be.
-// Two contacts: exact. More: pair after pair, which bounds the least ratio from above, so that friction is never judged too
-// small. Contact points of one link differ in height by their gaps only, and the shift leaves normal forces as they are.
+// Judges the forces of the contacts of one phase together. Where two or more contacts belong to one rigid link, its
+// motion does not determine the forces along the lines between them, so friction is judged by whether some distribution
+// with the same net wrench is admissible: tangential forces are shifted along those lines such that the largest ratio
+// of the link is as small as it can be. Two contacts: exact. More: pair after pair, which bounds the least ratio from
+// above, so that friction is never judged too small. Contact points of one link differ in height by their gaps only,
+// and the shift leaves normal forces as they are.
 class ForceJudge {
  public:
   // `contacts` are indices into the scene's. `extremes` has the weight and takes every figure.
@@ -53,8 +55,8 @@ class ForceJudge {
 
   // Rows that a contact has in a matrix of functions of time: force x y z, point x y.
   static constexpr int kRows = 5;
-  // Largest ratio of friction at one instant, and the contact (of this phase) that has it. `rows` as above, one contact after the
-  // other. Infinite if a number is NaN. No allocation.
+  // Largest ratio of friction at one instant, and the contact (of this phase) that has it. `rows` as above, one contact
+  // after the other. Infinite if a number is NaN. No allocation.
   double FrictionRatio(const double* rows, int* worst) const;
 
   // Judges over a piece of time: `coefficients` (ChebyshevBasis, of rows from first_row on) over θ ∈ [0, 1], which is

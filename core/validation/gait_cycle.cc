@@ -91,7 +91,8 @@ void GaitCycle::BuildSpans() {
       spans_.back().end = end;
       continue;
     }
-    spans_.push_back({100 * pieces_[i].start / duration_, end, contacts, Touches(pieces_[i], right_), Touches(pieces_[i], left_)});
+    spans_.push_back(
+        {100 * pieces_[i].start / duration_, end, contacts, Touches(pieces_[i], right_), Touches(pieces_[i], left_)});
   }
 }
 

@@ -18,7 +18,7 @@ class GaitCycle {
   // never on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene is not symmetric.
   static std::optional<GaitCycle> Of(const Scene& scene, const Trajectory& trajectory);
 
-  double start() const { return start_; }                // s, of the heel strike after the start of the trajectory, < duration()
+  double start() const { return start_; }  // s, of the heel strike after the start of the trajectory, < duration()
   double duration() const { return duration_; }          // s
   double displacement() const { return displacement_; }  // m
 
@@ -31,9 +31,9 @@ class GaitCycle {
   // From 0 to 100 % without gaps; neighbours differ in their contacts.
   const std::vector<Span>& spans() const { return spans_; }
 
-  // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases (to rounding) that of the later one, at 100 the limit from
-  // the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. base_x goes on through
-  // the cycle.
+  // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases (to rounding) that of the later one, at 100
+  // the limit from the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. base_x
+  // goes on through the cycle.
   MotionSample At(double percent) const;
 
   // True if the contact belongs to the right (left) leg.
@@ -43,10 +43,10 @@ class GaitCycle {
  private:
   // A phase of the trajectory, or its mirror image, at its place in the cycle.
   struct Piece {
-    double start;   // s after the heel strike
+    double start;  // s after the heel strike
     int phase;
     bool mirrored;
-    double shift;   // m, added to base_x
+    double shift;  // m, added to base_x
   };
   GaitCycle(const Scene& scene, const Trajectory& trajectory) : scene_(&scene), trajectory_(&trajectory) {}
   MotionSample Mirrored(const MotionSample& sample) const;

@@ -1,10 +1,9 @@
 #include "core/validation/gait_events.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <tuple>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/rolling_kinematics.h"
 
@@ -68,20 +67,25 @@ void AddEvents(const std::vector<GaitCycle::Span>& spans, const FootSurfaces& su
         events->push_back({GaitEventKind::kFootFlat, foot, percent});
         flat_seen = true;
       }
-      if (on && was_on && Holds(before(i).contacts, surfaces.rear) && !Holds(span.contacts, surfaces.rear)) heel_off = percent;
+      if (on && was_on && Holds(before(i).contacts, surfaces.rear) && !Holds(span.contacts, surfaces.rear))
+        heel_off = percent;
     }
     if (was_on && !on) {
       if (heel_off != kNone) events->push_back({GaitEventKind::kHeelOff, foot, heel_off});
       events->push_back({GaitEventKind::kToeOff, foot, percent});
     }
   }
-  // The stance that began last ends where the first one begins only if the foot is never off, and then it has no heel strike.
+  // The stance that began last ends where the first one begins only if the foot is never off, and then it has no heel
+  // strike.
 }
 
 class Plates {
  public:
   Plates(const Scene& scene, const GaitCycle& cycle, const Vector3& gravity)
-      : scene_(scene), cycle_(cycle), dynamics_(scene.model), least_(kLeastLoad * scene.model.total_mass() * gravity.norm()) {
+      : scene_(scene),
+        cycle_(cycle),
+        dynamics_(scene.model),
+        least_(kLeastLoad * scene.model.total_mass() * gravity.norm()) {
     const Vector3 up = -gravity.normalized(), forward = Vector3::UnitY().cross(up).normalized();
     axes_ << forward.transpose(), up.cross(forward).transpose(), up.transpose();
   }
@@ -110,9 +114,9 @@ class Plates {
     }
     foot->force.col(column) = sum;
     foot->level_force.col(column) = axes_ * sum;
-    foot->center_of_pressure.col(column) =
-        sum.z() >= least_ ? Eigen::Vector2d(moment / sum.z())
-                          : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    foot->center_of_pressure.col(column) = sum.z() >= least_
+                                               ? Eigen::Vector2d(moment / sum.z())
+                                               : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
 
   const Scene& scene_;
@@ -153,7 +157,9 @@ std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory
     const double share = (span.end - span.begin) / 100;
     if (span.right) result.feet[0].stance += share;
     if (span.left) result.feet[1].stance += share;
-    (span.right && span.left ? result.double_support : span.right || span.left ? result.single_support : result.flight) += share;
+    (span.right && span.left   ? result.double_support
+     : span.right || span.left ? result.single_support
+                               : result.flight) += share;
   }
   Plates(scene, *cycle, gravity).Measure(&result.feet);
   return result;

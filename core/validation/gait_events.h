@@ -18,8 +18,8 @@ inline constexpr int kCycleSteps = 200;
 enum class Foot { kRight = 0, kLeft = 1 };
 inline constexpr int kFootCount = 2;
 
-// Of a foot with two surfaces or more, "rear" and "front" are those whose lowest points lie furthest back and furthest forward in
-// the upright posture (all joints at zero). A foot with one surface has no foot flat and no heel off.
+// Of a foot with two surfaces or more, "rear" and "front" are those whose lowest points lie furthest back and furthest
+// forward in the upright posture (all joints at zero). A foot with one surface has no foot flat and no heel off.
 enum class GaitEventKind {
   kHeelStrike,  // initial contact: the foot, on the ground with no surface before, is on it with one or more
   kFootFlat,    // the first instant of a stance with rear and front surface on the ground
@@ -33,26 +33,28 @@ struct GaitEvent {
   double percent;  // of the cycle, [0, 100)
 };
 
-// One foot: the contacts of the links beyond one leg's joints, however many they are. The curves have one column an instant
-// (kCycleSteps + 1; at 100 % the limit from the left, at an event the limit from the right).
+// One foot: the contacts of the links beyond one leg's joints, however many they are. The curves have one column an
+// instant (kCycleSteps + 1; at 100 % the limit from the left, at an event the limit from the right).
 struct FootOnGround {
   std::vector<int> contacts;  // indices into Scene::contacts, ascending
   double stance = 0;          // share of the cycle with a contact on the ground, 0 … 1; the rest is swing
-  MatrixX force;              // 3 × instants, N, of the ground on the foot: sum over its contacts, world axes (fixed to the ground)
-  MatrixX level_force;        // the same force in axes that gravity gives: forward horizontal, left, up
-  // 2 × instants, m, centre of pressure on the ground plane, world axes x and y; base_x goes on through the cycle. NaN where the
-  // normal force on the foot is below kLeastLoad of body weight.
+  MatrixX force;  // 3 × instants, N, of the ground on the foot: sum over its contacts, world axes (fixed to the ground)
+  MatrixX level_force;  // the same force in axes that gravity gives: forward horizontal, left, up
+  // 2 × instants, m, centre of pressure on the ground plane, world axes x and y; base_x goes on through the cycle. NaN
+  // where the normal force on the foot is below kLeastLoad of body weight.
   MatrixX center_of_pressure;
 };
 inline constexpr double kLeastLoad = 0.01;
 
-// What a gait laboratory's force plates and event detection say of the full cycle, from right heel strike to right heel strike.
+// What a gait laboratory's force plates and event detection say of the full cycle, from right heel strike to right heel
+// strike.
 struct GaitEvents {
   double start = 0;         // s, GaitCycle::start
   double duration = 0;      // s
   double displacement = 0;  // m
   double body_weight = 0;   // N
-  std::vector<GaitEvent> events;  // ascending by percent; at the same percent right before left, then in the order of the kinds
+  std::vector<GaitEvent>
+      events;  // ascending by percent; at the same percent right before left, then in the order of the kinds
   std::vector<GaitCycle::Span> spans;
   std::array<FootOnGround, kFootCount> feet;
   double double_support = 0, single_support = 0, flight = 0;  // shares of the cycle, their sum is 1

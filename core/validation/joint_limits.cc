@@ -66,8 +66,8 @@ void MeasureJointLimits(const Model& model, const Trajectory& trajectory, Findin
         const Joint& joint = model.joint(model.actuated()[a]);
         const double least = std::abs(joint.effort_min), most = std::abs(joint.effort_max);
         const double larger = std::max(least, most);
-        limits.Judge(Criterion::kJointEffort, joint, interval.EffortPolynomial(a, room), joint.effort_min, joint.effort_max,
-                     least > 0 ? least : larger, most > 0 ? most : larger);
+        limits.Judge(Criterion::kJointEffort, joint, interval.EffortPolynomial(a, room), joint.effort_min,
+                     joint.effort_max, least > 0 ? least : larger, most > 0 ? most : larger);
       }
     }
   }

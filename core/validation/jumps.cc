@@ -115,7 +115,8 @@ std::vector<int> TouchDowns(const Scene& scene, const Trajectory& trajectory, in
   return result;
 }
 
-double MeasureApproach(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, FindingLog* log) {
+double MeasureApproach(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
+                       FindingLog* log) {
   double worst = 0;
   BodyDynamics::State state;
   for (int p = 0; p < static_cast<int>(trajectory.phases.size()); ++p) {

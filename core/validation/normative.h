@@ -30,13 +30,13 @@ struct CurveComparison {
   std::vector<double> ours;  // kNormativeSamples
   std::vector<double> mean, deviation;
   CurveDistance distance;
-  double min, max;           // ours, on a grid four times as fine
+  double min, max;  // ours, on a grid four times as fine
   double normative_min, normative_max;
 };
 
 // The vertical ground force of the right foot through its stance, % of body weight. A hump is the largest value of the
-// first or the second half of stance where the force rises before it and falls after it. Two humps: both, and the trough
-// between them is at least 5 % of body weight below the lower one.
+// first or the second half of stance where the force rises before it and falls after it. Two humps: both, and the
+// trough between them is at least 5 % of body weight below the lower one.
 struct ForceHumps {
   std::optional<double> first, second;  // empty: no such hump
   std::optional<double> trough;         // between the two; empty without both
@@ -59,25 +59,26 @@ struct DatasetComparison {
   double speed, stride_time;               // m/s, s
   double stance;                           // share of the cycle with more than 5 % of body weight on the foot
   ForceHumps humps;
-  std::vector<CurveComparison> curves;     // of the joints that the model has
+  std::vector<CurveComparison> curves;  // of the joints that the model has
 };
 
 struct NormativeComparison {
-  double speed, stride_time, step_length;     // m/s, s, m
-  double cadence;                             // steps per minute
-  double stance, double_support;              // shares of the cycle, right leg
+  double speed, stride_time, step_length;                                 // m/s, s, m
+  double cadence;                                                         // steps per minute
+  double stance, double_support;                                          // shares of the cycle, right leg
   std::optional<double> opposite_toe_off, opposite_heel_strike, toe_off;  // % of the cycle
   ForceHumps humps;
-  std::vector<RestingJoint> resting;          // largest share first
+  std::vector<RestingJoint> resting;  // largest share first
   std::vector<DatasetComparison> datasets;
 };
 
-// Compares the gait cycle of the right leg with normative data (level ground). Events, shares and the ground's force are those of `events`, which
-// MeasureGaitEvents made of the same scene and trajectory; on a slope "vertical" is against gravity. Joint moments are net moments,
-// as a laboratory reports them: what muscles, ligaments and stretched tissue exert on the joint together. In this model that is the
-// effort of the joint, in which the passive torque (core/models/passive_torque.h) is contained: costs of muscles subtract it. A
-// laboratory obtains the same quantity by inverse dynamics of measured motion and forces; of a trajectory that would repeat the
-// errors of its polynomials, twice differentiated, where no effort acts.
+// Compares the gait cycle of the right leg with normative data (level ground). Events, shares and the ground's force
+// are those of `events`, which MeasureGaitEvents made of the same scene and trajectory; on a slope "vertical" is
+// against gravity. Joint moments are net moments, as a laboratory reports them: what muscles, ligaments and stretched
+// tissue exert on the joint together. In this model that is the effort of the joint, in which the passive torque
+// (core/models/passive_torque.h) is contained: costs of muscles subtract it. A laboratory obtains the same quantity by
+// inverse dynamics of measured motion and forces; of a trajectory that would repeat the errors of its polynomials,
+// twice differentiated, where no effort acts.
 NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events);
 
 }  // namespace rollgait

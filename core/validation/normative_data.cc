@@ -14,11 +14,19 @@ std::vector<NormativeDataset> Described() {
       {"Winter_BioMAC",
        "Winter's normal walkers as in the BioMAC-Sim-Toolbox (data/Walking/Winter_normal.mat, Apache-2.0): angles and "
        "ground forces",
-       "between persons; of the forces at least 5 % of body weight", 1.325, 1.1396, 56.7, {}},
+       "between persons; of the forces at least 5 % of body weight",
+       1.325,
+       1.1396,
+       56.7,
+       {}},
       {"Falisse2019_subject1",
        "Falisse et al. 2019, one subject, 11 trials (3dpredictsim ExperimentalData.mat, MIT): angles, moments, ground "
        "forces; speed as recalled from the paper, stride time from the stride of 1.377 m",
-       "between trials of one person", 1.33, 1.377 / 1.33, 62, {}},
+       "between trials of one person",
+       1.33,
+       1.377 / 1.33,
+       62,
+       {}},
   };
 }
 
@@ -43,8 +51,8 @@ NormativeCurve* CurveOf(NormativeDataset* set, NormativeQuantity quantity, const
   return &set->curves.back();
 }
 
-// Columns: dataset, speed_m_s, joint, plane_or_component, quantity, unit, pct_cycle, mean, sd. The sample at 100 %, where
-// there is one, repeats the one at 0 %.
+// Columns: dataset, speed_m_s, joint, plane_or_component, quantity, unit, pct_cycle, mean, sd. The sample at 100 %,
+// where there is one, repeats the one at 0 %.
 std::vector<NormativeDataset> Read() {
   std::vector<NormativeDataset> sets = Described();
   std::istringstream table(kNormativeTable);

@@ -6,8 +6,8 @@
 
 namespace rollgait {
 
-// kAngle: deg, hip and knee flexion and ankle dorsiflexion positive. kMoment: N m per kg of body mass, net, internal, hip
-// and knee extensor and ankle plantarflexor positive. Forces of the ground on the right foot, % of body weight:
+// kAngle: deg, hip and knee flexion and ankle dorsiflexion positive. kMoment: N m per kg of body mass, net, internal,
+// hip and knee extensor and ankle plantarflexor positive. Forces of the ground on the right foot, % of body weight:
 // kVerticalForce up, kForwardForce in the direction of walking, horizontal.
 enum class NormativeQuantity { kAngle, kMoment, kVerticalForce, kForwardForce };
 

@@ -11,8 +11,8 @@
 namespace rollgait {
 namespace {
 
-constexpr int kSamples = 12;        // an interval
-constexpr int kTimeSteps = 40;      // of the search in time: each shortens the bracket by 0.62
+constexpr int kSamples = 12;    // an interval
+constexpr int kTimeSteps = 40;  // of the search in time: each shortens the bracket by 0.62
 constexpr double kGolden = 0.6180339887498949;
 
 // All bodies at one instant.
@@ -78,8 +78,8 @@ class IntervalSearch {
     return (to.p_WE - from.p_WE).norm() + from.semi_axes.maxCoeff() * (to.R_WE - from.R_WE).norm();
   }
 
-  // Whether the pair may touch between sample k and the samples next to it. An instant in between is within half of what
-  // the bodies move from one sample to the next; the other half is for paths that are not straight.
+  // Whether the pair may touch between sample k and the samples next to it. An instant in between is within half of
+  // what the bodies move from one sample to the next; the other half is for paths that are not straight.
   bool Near(int pair, int k) {
     const int first = scene_.pairs[pair].first, second = scene_.pairs[pair].second;
     const PosedEllipsoid &a = postures_[k][first], &b = postures_[k][second];
@@ -173,7 +173,8 @@ OverlapFindings MeasureOverlap(const Scene& scene, const BodyDynamics& dynamics,
         RaiseTo(deepest.depth, &findings.intervals.back());
         RaiseTo(deepest.depth, &findings.pairs[pair]);
         if (deepest.depth <= findings.worst.value) continue;
-        findings.worst = {deepest.depth, scene.PairName(pair), p, interval.start() + deepest.fraction * interval.length()};
+        findings.worst = {deepest.depth, scene.PairName(pair), p,
+                          interval.start() + deepest.fraction * interval.length()};
       }
     }
   }

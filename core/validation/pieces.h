@@ -5,8 +5,8 @@
 
 namespace rollgait {
 
-// Functions of time, one a row, approximated by Chebyshev interpolants on pieces of an interval that are halved until the last
-// coefficients are small enough. Extrema are then sought on the interpolants, between their samples, too.
+// Functions of time, one a row, approximated by Chebyshev interpolants on pieces of an interval that are halved until
+// the last coefficients are small enough. Extrema are then sought on the interpolants, between their samples, too.
 class Pieces {
  public:
   explicit Pieces(const ChebyshevBasis& basis) : basis_(basis) {}
@@ -17,9 +17,9 @@ class Pieces {
   const MatrixX& coefficients() const { return coefficients_; }
   const MatrixX& samples() const { return samples_; }
 
-  // Covers [from, to] from left to right. sample(t, values, column) writes the functions at t into a column; resolved() says
-  // whether the interpolants of the piece at hand are good enough; visit(from, to) takes a piece that is, or whose length is
-  // 2^−halvings of the first, or on which a value is not finite. No allocation but the first time.
+  // Covers [from, to] from left to right. sample(t, values, column) writes the functions at t into a column; resolved()
+  // says whether the interpolants of the piece at hand are good enough; visit(from, to) takes a piece that is, or whose
+  // length is 2^−halvings of the first, or on which a value is not finite. No allocation but the first time.
   template <class Sample, class Resolved, class Visit>
   void Cover(int rows, double from, double to, int halvings, const Sample& sample, const Resolved& resolved,
              const Visit& visit) {
@@ -29,7 +29,8 @@ class Pieces {
   }
   // The same where the first piece's values have been written by the caller.
   template <class Sample, class Resolved, class Visit>
-  void Continue(double from, double to, int halvings, const Sample& sample, const Resolved& resolved, const Visit& visit) {
+  void Continue(double from, double to, int halvings, const Sample& sample, const Resolved& resolved,
+                const Visit& visit) {
     basis_.Coefficients(values_, &coefficients_);
     if (halvings > 0 && values_.allFinite() && !resolved()) {
       const double middle = 0.5 * (from + to);

@@ -38,16 +38,17 @@ struct AccuracyReport {
 
   // The largest measure of every criterion.
   std::array<Finding, kCriterionCount> findings;
-  // For every interval in order of time, its own largest measures; 0 where a criterion judges the whole motion or an impact.
+  // For every interval in order of time, its own largest measures; 0 where a criterion judges the whole motion or an
+  // impact.
   std::vector<CriterionValues> intervals;
   // Pairs of bodies (Scene::pairs) that overlap at some instant, at least half as deep as the deepest.
   std::vector<int> overlapping_pairs;
 };
 
 struct ValidationOptions {
-  Vector3 gravity{0, 0, -9.81};         // m/s², world axes (fixed to the slope)
-  double integrator_tolerance = 1e-10;  // relative and absolute
-  std::optional<Manoeuvre> manoeuvre;   // what a motion of Cycle::kOnce was asked to do
+  Vector3 gravity{0, 0, -9.81};             // m/s², world axes (fixed to the slope)
+  double integrator_tolerance = 1e-10;      // relative and absolute
+  std::optional<Manoeuvre> manoeuvre;       // what a motion of Cycle::kOnce was asked to do
   double friction_coefficient = kInfinity;  // of the ground
   double min_normal_force = 0;              // N, of a contact that is on the ground
 };

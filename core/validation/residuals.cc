@@ -14,8 +14,9 @@ namespace {
 constexpr int kGaussPoints = 4;
 constexpr double kGaussNodes[kGaussPoints] = {0.0694318442029737123880267555535953, 0.330009478207571867598667120448378,
                                               0.669990521792428132401332879551622, 0.930568155797026287611973244446405};
-constexpr double kGaussWeights[kGaussPoints] = {0.173927422568726928686531974610999, 0.326072577431273071313468025389001,
-                                                0.326072577431273071313468025389001, 0.173927422568726928686531974610999};
+constexpr double kGaussWeights[kGaussPoints] = {
+    0.173927422568726928686531974610999, 0.326072577431273071313468025389001, 0.326072577431273071313468025389001,
+    0.173927422568726928686531974610999};
 
 // What is balanced, at a node: J, N s.
 struct NodeBalance {
@@ -120,7 +121,8 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
             (power > 0 ? positive : negative) += weight * std::abs(power);
           }
           pushed += weight * dynamics.total_mass() * gravity;
-          for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c) pushed += weight * sample.forces.segment<3>(3 * c);
+          for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c)
+            pushed += weight * sample.forces.segment<3>(3 * c);
         }
         work += done;
         impulse += pushed;
@@ -150,7 +152,8 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
     const double whole =
         criterion == Criterion::kEnergy ? errors.energy_relative : errors.momentum / dynamics.total_mass();
     log->Raise(criterion, whole, "", {own[criterion].phase, own[criterion].time});
-    for (size_t i = 0; i < intervals.size(); ++i) log->RaiseInterval(criterion, own.intervals()[i][criterion], static_cast<int>(i));
+    for (size_t i = 0; i < intervals.size(); ++i)
+      log->RaiseInterval(criterion, own.intervals()[i][criterion], static_cast<int>(i));
   }
   return errors;
 }

@@ -16,9 +16,11 @@ namespace {
 
 // Interpolation of the forces within one accepted step.
 constexpr int kForceDegree = 4, kForceGrid = 48, kForceHalvings = 8;
-constexpr double kForceResolved = 1e-3;  // of the least normal force of the contact, or of the least that friction is judged with
+constexpr double kForceResolved =
+    1e-3;  // of the least normal force of the contact, or of the least that friction is judged with
 constexpr double kContactPointResolved = 1e-5;  // m, of the contact points, which say only where forces act
-// The quintic through the ends of a step is good enough if it is off by at most this share of the velocities (and of 1 rad/s or m/s).
+// The quintic through the ends of a step is good enough if it is off by at most this share of the velocities (and of 1
+// rad/s or m/s).
 constexpr double kQuinticError = 1e-5;
 // An interval takes one to ten steps; one that takes so many is not integrated.
 constexpr int kMostSteps = 2000;
@@ -29,8 +31,8 @@ std::vector<ContactSurface> ActiveSurfaces(const Scene& scene, const TrajectoryP
   return surfaces;
 }
 
-// The quintic polynomial through positions, velocities and accelerations at both ends of a step. Its error is of order 6 in the
-// length of the step, that of its derivative of order 5.
+// The quintic polynomial through positions, velocities and accelerations at both ends of a step. Its error is of order
+// 6 in the length of the step, that of its derivative of order 5.
 class QuinticStep {
  public:
   // x = [q; v] and its derivative [v; a] at the start and at the end.
@@ -54,10 +56,13 @@ class QuinticStep {
     x->head(n) = c_[0] + s * (c_[1] + s * (c_[2] + s * (c_[3] + s * (c_[4] + s * c_[5]))));
     x->tail(n) = (c_[1] + s * (2 * c_[2] + s * (3 * c_[3] + s * (4 * c_[4] + s * 5 * c_[5])))) / h_;
   }
-  // Largest difference of its acceleration at t from the given one, times the length of the step: how far its velocities may be off.
+  // Largest difference of its acceleration at t from the given one, times the length of the step: how far its
+  // velocities may be off.
   double VelocityError(double t, const Eigen::Ref<const VectorX>& acceleration) const {
     const double s = (t - start_) / h_;
-    return ((2 * c_[2] + s * (6 * c_[3] + s * (12 * c_[4] + s * 20 * c_[5]))) / h_ - h_ * acceleration).cwiseAbs().maxCoeff();
+    return ((2 * c_[2] + s * (6 * c_[3] + s * (12 * c_[4] + s * 20 * c_[5]))) / h_ - h_ * acceleration)
+        .cwiseAbs()
+        .maxCoeff();
   }
 
  private:
@@ -81,8 +86,8 @@ class PhaseMotion {
         step_end_(Rows()) {}
 
   // Carries x over the interval and judges its forces.
-  IntegrationStatus Run(const IntervalPolynomials& interval, int number, double tolerance, Dop853* integrator, Pieces* pieces,
-                        VectorX* x, FindingLog* log) {
+  IntegrationStatus Run(const IntervalPolynomials& interval, int number, double tolerance, Dop853* integrator,
+                        Pieces* pieces, VectorX* x, FindingLog* log) {
     const double end = interval.length();
     const int n = model_.size();
     const Dop853::RightSide right_side = [&](double t, const VectorX& state, VectorX* derivative) {
@@ -104,8 +109,8 @@ class PhaseMotion {
       if (status != IntegrationStatus::kReachedEnd) return status;
       if (judge_.contacts() == 0) continue;
       ReadForces(step_end_.data());
-      quintic_.Set(integrator->step_start(), integrator->step_end() - integrator->step_start(), from_state_, from_derivative_, *x,
-                   integrator->derivative());
+      quintic_.Set(integrator->step_start(), integrator->step_end() - integrator->step_start(), from_state_,
+                   from_derivative_, *x, integrator->derivative());
       JudgeStep(right_side, {phase_, 0, number}, interval.start(), integrator, pieces, log);
       step_start_.swap(step_end_);
       from_state_ = *x, from_derivative_ = integrator->derivative();
@@ -119,19 +124,19 @@ class PhaseMotion {
   // Forces and contact points of the last evaluation.
   void ReadForces(double* rows) const {
     for (int c = 0; c < judge_.contacts(); ++c) {
-      Eigen::Map<Eigen::Matrix<double, ForceJudge::kRows, 1>>(rows + ForceJudge::kRows * c)
-          << dynamics_.Force(c), dynamics_.contact(c).p_WP.head<2>();
+      Eigen::Map<Eigen::Matrix<double, ForceJudge::kRows, 1>>(rows + ForceJudge::kRows * c) << dynamics_.Force(c),
+          dynamics_.contact(c).p_WP.head<2>();
     }
   }
 
   // `offset`: time of the interval's start.
-  void JudgeStep(const Dop853::RightSide& right_side, const Instant& at, double offset, Dop853* integrator, Pieces* pieces,
-                 FindingLog* log) {
+  void JudgeStep(const Dop853::RightSide& right_side, const Instant& at, double offset, Dop853* integrator,
+                 Pieces* pieces, FindingLog* log) {
     const double from = integrator->step_start(), to = integrator->step_end(), middle = 0.5 * (from + to);
     const int n = model_.size();
     rates_.resize(2 * n);
-    // Between its ends the step is the quintic through them; where that is not good enough, the integrator's continuous extension of
-    // order 7, which costs three evaluations more.
+    // Between its ends the step is the quintic through them; where that is not good enough, the integrator's continuous
+    // extension of order 7, which costs three evaluations more.
     quintic_.Evaluate(middle, &state_);
     right_side(middle, state_, &rates_);
     const double fastest = std::max(1.0, state_.tail(n).cwiseAbs().maxCoeff());

@@ -51,12 +51,12 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   MeasureJointLimits(scene.model, trajectory, &log);
   const OverlapFindings overlap = MeasureOverlap(scene, dynamics, trajectory);
   log.Raise(Criterion::kOverlap, overlap.worst.value, overlap.worst.where, {overlap.worst.phase, overlap.worst.time});
-  for (int k = 0; k < intervals; ++k) log.RaiseInterval(Criterion::kOverlap, overlap.intervals[static_cast<size_t>(k)], k);
+  for (int k = 0; k < intervals; ++k)
+    log.RaiseInterval(Criterion::kOverlap, overlap.intervals[static_cast<size_t>(k)], k);
 
   // Impulses as forces of a tenth of a second.
   ForceExtremes impulses(0.1 * weight);
-  const JumpErrors jumps =
-      MeasureJumps(scene, dynamics, trajectory, options.friction_coefficient, &impulses, &log);
+  const JumpErrors jumps = MeasureJumps(scene, dynamics, trajectory, options.friction_coefficient, &impulses, &log);
   MeasureApproach(scene, dynamics, trajectory, &log);
 
   AccuracyReport report;

@@ -129,7 +129,8 @@ void Agent::Drain() {
   const std::string mark = DataDir{options_.work_dir}.AgentDraining(owner_);
   const int fd = open(mark.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   if (fd < 0) {
-    LogEvent(spdlog::level::warn, "agent.mark_failed", {{"path", mark}, {"reason", std::strerror(errno)}});  // the next agent may start more than its slots
+    LogEvent(spdlog::level::warn, "agent.mark_failed",
+             {{"path", mark}, {"reason", std::strerror(errno)}});  // the next agent may start more than its slots
   } else {
     close(fd);
   }

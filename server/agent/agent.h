@@ -32,9 +32,9 @@ class Agent {
     std::string solver_fingerprint = {};  // SHA-256 of the solver; see SolveRun::Context
     std::chrono::milliseconds lease = kLeaseDuration;
     std::chrono::milliseconds look{kNotifyPollMillis};  // between looks into the store without a hint
-    int stop_fd = -1;                            // readable: stop, give the solves back
-    int lifeline_fd = -1;                        // at its end: claim nothing more, finish what runs
-    std::chrono::milliseconds kill_after{2000};  // see SolveRun::Context
+    int stop_fd = -1;                                   // readable: stop, give the solves back
+    int lifeline_fd = -1;                               // at its end: claim nothing more, finish what runs
+    std::chrono::milliseconds kill_after{2000};         // see SolveRun::Context
     std::chrono::milliseconds wall_grace{60'000};
   };
 

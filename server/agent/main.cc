@@ -77,9 +77,12 @@ struct AgentPlace {
 // Where the solves are; sets what follows for the agent. kInvalidArgument names the flag that is missing or too much.
 Outcome<StoreLocation> Locate(const AgentPlace& place, Agent::Options& options) {
   const auto refuse = [](const std::string& why) { return Error{ErrorCode::kInvalidArgument, why}; };
-  if (place.store.empty() && place.data_dir.empty()) return refuse("give --data-dir of rollgaitd, or --store postgresql://...");
-  if (place.store.empty() && !place.work_dir.empty()) return refuse("--work-dir goes with --store; the spool is in --data-dir");
-  if (!place.store.empty() && place.work_dir.empty()) return refuse("--store needs --work-dir, a directory for the spool");
+  if (place.store.empty() && place.data_dir.empty())
+    return refuse("give --data-dir of rollgaitd, or --store postgresql://...");
+  if (place.store.empty() && !place.work_dir.empty())
+    return refuse("--work-dir goes with --store; the spool is in --data-dir");
+  if (!place.store.empty() && place.work_dir.empty())
+    return refuse("--store needs --work-dir, a directory for the spool");
   Outcome<StoreLocation> location = LocateStore(place.store, place.data_dir);
   if (!location.ok()) return location;
   location.value().connections = 1;  // one thread
@@ -99,9 +102,11 @@ int Main(int argc, char** argv) {
   AgentPlace place;
   app.add_option("--data-dir", place.data_dir, "Directory of rollgaitd, whose SQLite file holds the solves")
       ->check(CLI::ExistingDirectory);
-  app.add_option("--store", place.store, "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir")
+  app.add_option("--store", place.store,
+                 "postgresql://USER@HOST[,HOST2]/DATABASE instead of an SQLite file in --data-dir")
       ->envname(kStoreVariable);
-  app.add_option("--work-dir", place.work_dir, "With --store: directory of this agent's spool, made if need be; must last");
+  app.add_option("--work-dir", place.work_dir,
+                 "With --store: directory of this agent's spool, made if need be; must last");
   int store_wait_s = kDefaultStoreWaitSeconds;
   app.add_option("--store-wait-s", store_wait_s, kStoreWaitHelp)->check(CLI::Range(0, 86400))->capture_default_str();
   int lease_s = 15;

@@ -23,7 +23,8 @@ constexpr double kDefaultWallTime = 600;  // s, of SolverLimits
 constexpr double kMaxWallTime = 86400;
 
 milliseconds WallTime(const v1::SolveSpec& spec) {
-  double seconds = spec.solver_limits().has_max_wall_time_s() ? spec.solver_limits().max_wall_time_s() : kDefaultWallTime;
+  double seconds =
+      spec.solver_limits().has_max_wall_time_s() ? spec.solver_limits().max_wall_time_s() : kDefaultWallTime;
   if (!(seconds >= 0)) seconds = 0;  // NaN too; the solver refuses it
   return milliseconds(std::llround(1000 * std::min(seconds, kMaxWallTime)));
 }
@@ -35,7 +36,8 @@ void Warn(const char* event, const std::string& reason) { LogEvent(spdlog::level
 SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
     : context_(context),
       lease_(std::move(claimed.lease)),
-      fields_{{"solve", lease_.solve_id}, {"traceparent", claimed.record.traceparent}, {"tenant", claimed.record.tenant}},
+      fields_{
+          {"solve", lease_.solve_id}, {"traceparent", claimed.record.traceparent}, {"tenant", claimed.record.tenant}},
       other_solver_(!context.solver_fingerprint.empty() && !claimed.record.solver_fingerprint.empty() &&
                     claimed.record.solver_fingerprint != context.solver_fingerprint),
       process_(std::move(process)),
@@ -142,7 +144,8 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
   flush_at_.reset();
   if (!appended.ok() && appended.error().code == ErrorCode::kLeaseLost) return LoseLease(appended.error().message);
   if (!appended.ok()) {
-    LogEvent(spdlog::level::warn, "solve.events_wait", {{"events", pending_.size()}, {"reason", appended.error().message}});
+    LogEvent(spdlog::level::warn, "solve.events_wait",
+             {{"events", pending_.size()}, {"reason", appended.error().message}});
     flush_at_ = now + kRetry;
     return;
   }

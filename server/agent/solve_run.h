@@ -28,10 +28,10 @@ class SolveRun {
     SolveStore& store;
     const Spool& spool;
     const Clock& clock;
-    std::function<void(const std::string& id)> poke;  // tells rollgaitd that the solve has new events
-    std::chrono::milliseconds batch{20};              // how long events wait for company
-    std::chrono::milliseconds kill_after{2000};       // from the request to stop to SIGKILL
-    std::chrono::milliseconds wall_grace{60'000};     // from max_wall_time_s to SIGKILL
+    std::function<void(const std::string& id)> poke;   // tells rollgaitd that the solve has new events
+    std::chrono::milliseconds batch{20};               // how long events wait for company
+    std::chrono::milliseconds kill_after{2000};        // from the request to stop to SIGKILL
+    std::chrono::milliseconds wall_grace{60'000};      // from max_wall_time_s to SIGKILL
     std::chrono::milliseconds lease = kLeaseDuration;  // renewed when a third of it is over
     double cpu_limit_s = 86400;
     std::string solver_fingerprint = {};  // results for keys of another solver are not reused; empty: unknown
@@ -77,7 +77,7 @@ class SolveRun {
 
   const Context& context_;
   Lease lease_;
-  const LogFields fields_;  // of every line about this run
+  const LogFields fields_;   // of every line about this run
   const bool other_solver_;  // the key was made for another one than ours
   SolverProcess process_;
   State state_ = State::kSolving;

@@ -217,7 +217,8 @@ void SolverProcess::LogLines(std::string_view text) {
     const std::string line = std::exchange(line_, std::string());
     if (line.empty() || logged_lines_ > kMaxLoggedLines) continue;
     const bool last = logged_lines_++ == kMaxLoggedLines;
-    LogEvent(spdlog::level::warn, "solver.printed", {{"pid", pid_}, {"text", last ? std::string("more lines are not logged") : line}});
+    LogEvent(spdlog::level::warn, "solver.printed",
+             {{"pid", pid_}, {"text", last ? std::string("more lines are not logged") : line}});
   }
 }
 

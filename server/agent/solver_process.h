@@ -55,7 +55,8 @@ class SolverProcess {
   // Appends the payloads that have arrived. kNeedMore: the stream goes on; else its end: kEnd, kTruncated, kGarbage,
   // kTooLarge, kError.
   FrameStatus Receive(std::vector<std::string>* payloads);
-  // Reads what the child has printed; whole lines go to the log too (event "solver.printed"), at most kMaxLoggedLines of them.
+  // Reads what the child has printed; whole lines go to the log too (event "solver.printed"), at most kMaxLoggedLines
+  // of them.
   void ReadOutput();
   // The last of what the child has printed, in one line of printable characters.
   std::string LastOutput() const;

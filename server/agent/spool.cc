@@ -11,8 +11,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "server/base/logging.h"
 #include "server/base/framing.h"
+#include "server/base/logging.h"
 #include "server/base/wire.pb.h"
 
 namespace rollgait::server {

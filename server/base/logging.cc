@@ -63,7 +63,9 @@ class LogFormatter : public spdlog::formatter {
     const std::string text = std::move(line).Take() + "\n";
     destination.append(text.data(), text.data() + text.size());
   }
-  std::unique_ptr<spdlog::formatter> clone() const override { return std::make_unique<LogFormatter>(program_, format_); }
+  std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<LogFormatter>(program_, format_);
+  }
 
  private:
   const std::string program_;

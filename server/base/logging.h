@@ -15,9 +15,9 @@
 
 namespace rollgait::server {
 
-// The log of a program: standard error, one line an event, as JSON or for people. Strings of others are safe to log: control
-// characters, quotes and bytes that are no UTF-8 are escaped, so no value can end its line or its field. Secrets are not: tokens
-// and passwords are never given to a log. Threads may share everything here.
+// The log of a program: standard error, one line an event, as JSON or for people. Strings of others are safe to log:
+// control characters, quotes and bytes that are no UTF-8 are escaped, so no value can end its line or its field.
+// Secrets are not: tokens and passwords are never given to a log. Threads may share everything here.
 //
 // Plain spdlog::info("...") belongs to it as event "message".
 
@@ -46,8 +46,9 @@ struct LogField {
   LogField(std::string_view field_name, const std::string& text) : name(field_name), value(std::string_view(text)) {}
   LogField(std::string_view field_name, bool flag) : name(field_name), value(flag) {}
   template <typename Number>
-    requires(std::is_arithmetic_v<Number> && !std::same_as<Number, bool>)
-  LogField(std::string_view field_name, Number number) : name(field_name) {
+  requires(std::is_arithmetic_v<Number> && !std::same_as<Number, bool>)
+      LogField(std::string_view field_name, Number number)
+      : name(field_name) {
     if constexpr (std::is_floating_point_v<Number>) {
       value = static_cast<double>(number);
     } else {
@@ -65,8 +66,8 @@ void LogEvent(spdlog::level::level_enum level, std::string_view event, std::init
 // Fields that belong to a longer piece of work: a call, a run. Empty texts are left out of lines.
 using LogFields = std::vector<std::pair<std::string, std::string>>;
 
-// While it lives, every line of this thread carries these fields too; of fields of the same name the innermost counts. Not movable;
-// scopes of one thread end in the reverse order of their beginning. The fields outlive it.
+// While it lives, every line of this thread carries these fields too; of fields of the same name the innermost counts.
+// Not movable; scopes of one thread end in the reverse order of their beginning. The fields outlive it.
 class LogScope {
  public:
   explicit LogScope(const LogFields& fields);

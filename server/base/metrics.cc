@@ -29,20 +29,23 @@ Outcome<std::string> Metrics::Listen(const std::string& address) {
   const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
   const bool is_port = !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string::npos;
   if (colon == 0 || !is_port || std::stoi(port) > 65535) {
-    return Error{ErrorCode::kInvalidArgument, "--metrics-listen is " + address + ", must be HOST:PORT, for example 127.0.0.1:9464"};
+    return Error{ErrorCode::kInvalidArgument,
+                 "--metrics-listen is " + address + ", must be HOST:PORT, for example 127.0.0.1:9464"};
   }
   try {
     exposer_ = std::make_unique<prometheus::Exposer>(address);
   } catch (const std::exception&) {  // its text is empty or about its own options
     return Error{ErrorCode::kUnavailable,
-                 "cannot serve metrics on " + address + ": the address is in use, not of this machine, or not HOST:PORT with HOST a number"};
+                 "cannot serve metrics on " + address +
+                     ": the address is in use, not of this machine, or not HOST:PORT with HOST a number"};
   }
   exposer_->RegisterCollectable(registry_);
   for (const auto& collectable : collectables_) exposer_->RegisterCollectable(collectable);
   return address.substr(0, colon) + ":" + std::to_string(exposer_->GetListeningPorts().front());
 }
 
-prometheus::Family<prometheus::Counter>& CounterFamily(Metrics& metrics, const std::string& name, const std::string& help) {
+prometheus::Family<prometheus::Counter>& CounterFamily(Metrics& metrics, const std::string& name,
+                                                       const std::string& help) {
   return prometheus::BuildCounter().Name(name).Help(help).Register(metrics.registry());
 }
 
@@ -50,7 +53,8 @@ prometheus::Family<prometheus::Gauge>& GaugeFamily(Metrics& metrics, const std::
   return prometheus::BuildGauge().Name(name).Help(help).Register(metrics.registry());
 }
 
-prometheus::Family<prometheus::Histogram>& HistogramFamily(Metrics& metrics, const std::string& name, const std::string& help) {
+prometheus::Family<prometheus::Histogram>& HistogramFamily(Metrics& metrics, const std::string& name,
+                                                           const std::string& help) {
   return prometheus::BuildHistogram().Name(name).Help(help).Register(metrics.registry());
 }
 

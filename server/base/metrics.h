@@ -19,8 +19,8 @@
 
 namespace rollgait::server {
 
-// What a program counts, and where it can be read: GET /metrics in the Prometheus text format. Threads may share it. Counting costs
-// nothing worth mentioning and goes on when nobody listens.
+// What a program counts, and where it can be read: GET /metrics in the Prometheus text format. Threads may share it.
+// Counting costs nothing worth mentioning and goes on when nobody listens.
 class Metrics {
  public:
   // With the metrics of the process (process_*) and rollgait_build_info{program, version, build}.
@@ -30,8 +30,8 @@ class Metrics {
   // Metrics that are worked out when they are read. Held until the end; called by the threads that answer.
   void Collect(std::shared_ptr<prometheus::Collectable> collectable);
 
-  // Serves them on "HOST:PORT" (an IPv6 host in brackets; port 0: any free one) without authentication or encryption. Returns the
-  // address that was bound. kInvalidArgument: not HOST:PORT; kUnavailable: the address cannot be bound.
+  // Serves them on "HOST:PORT" (an IPv6 host in brackets; port 0: any free one) without authentication or encryption.
+  // Returns the address that was bound. kInvalidArgument: not HOST:PORT; kUnavailable: the address cannot be bound.
   Outcome<std::string> Listen(const std::string& address);
 
  private:
@@ -41,13 +41,16 @@ class Metrics {
 };
 
 // Shortcuts for families of the registry.
-prometheus::Family<prometheus::Counter>& CounterFamily(Metrics& metrics, const std::string& name, const std::string& help);
+prometheus::Family<prometheus::Counter>& CounterFamily(Metrics& metrics, const std::string& name,
+                                                       const std::string& help);
 prometheus::Family<prometheus::Gauge>& GaugeFamily(Metrics& metrics, const std::string& name, const std::string& help);
-prometheus::Family<prometheus::Histogram>& HistogramFamily(Metrics& metrics, const std::string& name, const std::string& help);
+prometheus::Family<prometheus::Histogram>& HistogramFamily(Metrics& metrics, const std::string& name,
+                                                           const std::string& help);
 // One gauge that is worked out when it is read.
 prometheus::MetricFamily GaugeNow(const std::string& name, const std::string& help, double value);
 
-// Values that a label may take: the first `most` different ones it is asked about, "other" for the rest. Threads may share it.
+// Values that a label may take: the first `most` different ones it is asked about, "other" for the rest. Threads may
+// share it.
 class BoundedLabel {
  public:
   explicit BoundedLabel(size_t most) : most_(most) {}

@@ -42,7 +42,8 @@ std::optional<std::string> ConfineProcess() {
   if (setrlimit(RLIMIT_CORE, &none) != 0) return Reason("setrlimit RLIMIT_CORE");
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return Reason("prctl PR_SET_NO_NEW_PRIVS");
   if (prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) != 0) return Reason("prctl PR_SET_PDEATHSIG");
-  if (getpriority(PRIO_PROCESS, 0) < kNiceness && setpriority(PRIO_PROCESS, 0, kNiceness) != 0) return Reason("setpriority");
+  if (getpriority(PRIO_PROCESS, 0) < kNiceness && setpriority(PRIO_PROCESS, 0, kNiceness) != 0)
+    return Reason("setpriority");
   return std::nullopt;
 }
 

@@ -3,8 +3,8 @@
 
 namespace rollgait::server {
 
-// Whether this build has the address or the thread sanitizer, which reserve terabytes of address space and ask the kernel for more
-// than the program does.
+// Whether this build has the address or the thread sanitizer, which reserve terabytes of address space and ask the
+// kernel for more than the program does.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else

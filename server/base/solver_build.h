@@ -13,8 +13,8 @@ enum class InstructionSet {
 // That of this program.
 InstructionSet OwnInstructionSet();
 
-// What made a result: version, compiler, Ipopt, kind of build and, if it is not the baseline, instruction set; for example
-// "rollgait 0.1.0 (GNU 12.2.0, Release, Ipopt 3.11.9, x86-64-v3)". The two builds round differently.
+// What made a result: version, compiler, Ipopt, kind of build and, if it is not the baseline, instruction set; for
+// example "rollgait 0.1.0 (GNU 12.2.0, Release, Ipopt 3.11.9, x86-64-v3)". The two builds round differently.
 std::string SolverBuild(InstructionSet set = OwnInstructionSet());
 
 // "0.1.0"

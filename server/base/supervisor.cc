@@ -117,7 +117,8 @@ void Supervisor::Loop() {
       if (pid.ok()) {
         pid_ = pid.value();
       } else {
-        LogEvent(spdlog::level::err, "child.start_failed", {{"reason", pid.error().message}, {"next_start_ms", pause.count()}});
+        LogEvent(spdlog::level::err, "child.start_failed",
+                 {{"reason", pid.error().message}, {"next_start_ms", pause.count()}});
       }
     }
   }

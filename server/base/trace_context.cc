@@ -15,9 +15,9 @@ bool IsId(std::string_view text) { return IsHex(text) && text.find_first_not_of(
 }  // namespace
 
 bool IsTraceparent(std::string_view text) {
-  return text.size() == kLength && text.substr(0, kTraceAt) == "00-" && text[kParentAt - 1] == '-' && text[kFlagsAt - 1] == '-' &&
-         IsId(text.substr(kTraceAt, kTraceDigits)) && IsId(text.substr(kParentAt, kParentDigits)) &&
-         IsHex(text.substr(kFlagsAt));
+  return text.size() == kLength && text.substr(0, kTraceAt) == "00-" && text[kParentAt - 1] == '-' &&
+         text[kFlagsAt - 1] == '-' && IsId(text.substr(kTraceAt, kTraceDigits)) &&
+         IsId(text.substr(kParentAt, kParentDigits)) && IsHex(text.substr(kFlagsAt));
 }
 
 std::string ContinueTrace(std::string_view received) {

@@ -150,8 +150,7 @@ Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle, bool manoeuvre) {
   }
 }
 
-GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormalization normalization,
-                                                                bool manoeuvre) {
+GaitRequest::Normalization RequestDecoder::DecodeNormalization(v1::CostNormalization normalization, bool manoeuvre) {
   switch (normalization) {
     case v1::COST_NORMALIZATION_UNSPECIFIED:
       return manoeuvre ? GaitRequest::Normalization::kNone : GaitRequest::Normalization::kPerDistance;

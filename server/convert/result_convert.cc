@@ -88,7 +88,8 @@ void EncodePhase(const TrajectoryPhase& phase, const Scene& scene, v1::Trajector
 }
 
 // `bound` infinite: not judged.
-void EncodeCriterion(const CriterionTraits& traits, const Finding& finding, double bound, v1::CriterionResult* encoded) {
+void EncodeCriterion(const CriterionTraits& traits, const Finding& finding, double bound,
+                     v1::CriterionResult* encoded) {
   encoded->set_criterion(traits.field);
   encoded->set_value(finding.value);
   if (bound != kInfinity) encoded->set_bound(bound);
@@ -132,7 +133,8 @@ v1::AccuracyReport EncodeAccuracy(const AccuracyReport& report, const GaitSoluti
   encoded.set_within_requested_accuracy(solution.within_requested_accuracy());
   encoded.set_verdict(EncodeVerdict(solution.verdict.kind));
   for (const CriterionTraits& traits : Criteria()) {
-    EncodeCriterion(traits, report.findings[static_cast<int>(traits.criterion)], bounds[traits.criterion], encoded.add_criteria());
+    EncodeCriterion(traits, report.findings[static_cast<int>(traits.criterion)], bounds[traits.criterion],
+                    encoded.add_criteria());
   }
   return encoded;
 }

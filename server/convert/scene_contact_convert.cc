@@ -56,15 +56,15 @@ Surface ContactDecoder::DecodeSurface(const std::string& field, const v1::Surfac
       decoding_.Refuse(field, "is not set; give an ellipsoid, a sphere or a superellipsoid");
   }
   if (!(surface.rounding_m() >= 0 && surface.rounding_m() <= kMaxRadius)) {
-    decoding_.Refuse(field + ".rounding_m", "is " + std::to_string(surface.rounding_m()) + "; must be within [0, 1e6] m");
+    decoding_.Refuse(field + ".rounding_m",
+                     "is " + std::to_string(surface.rounding_m()) + "; must be within [0, 1e6] m");
     return Sphere(1);
   }
   if (!decoded) return Sphere(1);
   return surface.rounding_m() > 0 ? decoded->Rounded(surface.rounding_m()) : *decoded;
 }
 
-std::optional<Surface> ContactDecoder::DecodeSuperellipsoid(const std::string& field,
-                                                            const v1::Superellipsoid& shape) {
+std::optional<Surface> ContactDecoder::DecodeSuperellipsoid(const std::string& field, const v1::Superellipsoid& shape) {
   const Vector3 axes = DecodeVector(shape.semi_axes_m());
   const auto take = [&](const auto& created) -> std::optional<Surface> {
     if (created.ok()) return Surface(created.value());
@@ -117,7 +117,7 @@ void ContactDecoder::DecodeOther(const std::string& path, const v1::SceneContact
   }
   if (contact->other_link == contact->link) {
     decoding_.Refuse(path + (encoded.has_plane() ? "plane.joint" : "other_body.joint"),
-           "is the joint of the contact's own body; a body does not touch itself");
+                     "is the joint of the contact's own body; a body does not touch itself");
   }
 }
 
@@ -141,7 +141,8 @@ SceneContact ContactDecoder::Decode(const v1::SceneContact& encoded, int k) {
       contact.grip = Grip::kFrictionless;
       break;
     default:
-      decoding_.Refuse(path + "grip", "enum value " + std::to_string(encoded.grip()) + " is not known; use a named one");
+      decoding_.Refuse(path + "grip",
+                       "enum value " + std::to_string(encoded.grip()) + " is not known; use a named one");
   }
   contact.along = decoding_.Direction(path + "along", encoded.has_along(), encoded.along(), Vector3::UnitX());
   const auto* plane = std::get_if<rollgait::PlacedPlane>(&contact.other);
@@ -164,8 +165,8 @@ SceneContact ContactDecoder::Decode(const v1::SceneContact& encoded, int k) {
       decoded.friction_loss = FrictionLoss::kSlide;
       break;
     default:
-      decoding_.Refuse(path + "friction_loss", "enum value " + std::to_string(encoded.friction_loss()) +
-                                         " is not known; use a named one");
+      decoding_.Refuse(path + "friction_loss",
+                       "enum value " + std::to_string(encoded.friction_loss()) + " is not known; use a named one");
   }
   for (int g = 0; g < encoded.gates_size(); ++g) {
     const v1::SceneContact::Gate& gate = encoded.gates(g);

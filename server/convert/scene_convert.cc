@@ -1,9 +1,8 @@
 #include "server/convert/scene_convert.h"
 
+#include <Eigen/Geometry>
 #include <map>
 #include <utility>
-
-#include <Eigen/Geometry>
 
 #include "server/convert/scene_decoding.h"
 
@@ -12,9 +11,11 @@ namespace {
 
 // How Model::Create names fields, and how the scene does.
 std::string SceneField(std::string field) {
-  static const std::map<std::string, std::string> kNames = {
-      {"p_PJ", "origin_m"},   {"R_PJ", "orientation"}, {"mass", "mass_kg"}, {"center_of_mass", "center_of_mass_m"},
-      {"inertia", "inertia_kg_m2"}};
+  static const std::map<std::string, std::string> kNames = {{"p_PJ", "origin_m"},
+                                                            {"R_PJ", "orientation"},
+                                                            {"mass", "mass_kg"},
+                                                            {"center_of_mass", "center_of_mass_m"},
+                                                            {"inertia", "inertia_kg_m2"}};
   const size_t dot = field.rfind('.');
   if (dot == std::string::npos) return field;
   const auto name = kNames.find(field.substr(dot + 1));
@@ -36,7 +37,8 @@ class SceneDecoder {
     if (!decoding_.violations().empty()) return decoding_.violations();
     Result<Model> model = Model::Create(std::move(joints));
     if (!model.ok()) {
-      for (const Violation& violation : model.violations()) decoding_.Refuse(SceneField(violation.field), violation.message);
+      for (const Violation& violation : model.violations())
+        decoding_.Refuse(SceneField(violation.field), violation.message);
       return decoding_.violations();
     }
     SimulationScene scene{message_.name(), std::move(model).value(), {}, {GroundMotion{}}, {}, {}, {}, {}, {}, -1, {}};
@@ -77,7 +79,7 @@ class SceneDecoder {
         break;
       default:
         decoding_.Refuse(path + "type", "enum value " + std::to_string(encoded.type()) +
-                                  "; must be TYPE_REVOLUTE, TYPE_PRISMATIC or TYPE_FREE");
+                                            "; must be TYPE_REVOLUTE, TYPE_PRISMATIC or TYPE_FREE");
     }
     if (!encoded.parent().empty()) joint.parent = decoding_.Joint(path + "parent", encoded.parent());
     joint.p_PJ = decoding_.Point(path + "origin_m", encoded.origin_m());
@@ -91,7 +93,7 @@ class SceneDecoder {
       joint.inertia << e[0], e[3], e[4], e[3], e[1], e[5], e[4], e[5], e[2];
     } else if (encoded.inertia_kg_m2_size() != 0) {
       decoding_.Refuse(path + "inertia_kg_m2", "has " + std::to_string(encoded.inertia_kg_m2_size()) +
-                                         " entries; must have 6 (xx, yy, zz, xy, xz, yz) or none");
+                                                   " entries; must have 6 (xx, yy, zz, xy, xz, yz) or none");
     }
     if (!encoded.mirror_joint().empty()) {
       joint.mirror_joint = decoding_.Joint(path + "mirror_joint", encoded.mirror_joint());
@@ -113,7 +115,7 @@ class SceneDecoder {
         continue;
       }
       const Eigen::Quaterniond rotation = decoding_.Rotation("joints[" + std::to_string(i) + "].initial.orientation",
-                                                         state.has_orientation(), state.orientation());
+                                                             state.has_orientation(), state.orientation());
       scene->q.segment<4>(iq) << rotation.w(), rotation.x(), rotation.y(), rotation.z();
       scene->q.segment<3>(iq + 4) = DecodeVector(state.position_m());
       scene->v.segment<3>(iv) = DecodeVector(state.angular_velocity_rad_s());
@@ -129,8 +131,8 @@ class SceneDecoder {
     motion.amplitude = DecodeVector(frame.amplitude_m());
     motion.frequency = frame.frequency_hz();
     motion.phase = frame.phase_rad();
-    motion.axis = decoding_.Direction("ground[" + std::to_string(i) + "].axis", frame.has_axis(), frame.axis(),
-                                  Vector3::UnitZ());
+    motion.axis =
+        decoding_.Direction("ground[" + std::to_string(i) + "].axis", frame.has_axis(), frame.axis(), Vector3::UnitZ());
     motion.pivot = DecodeVector(frame.pivot_m());
     motion.rate = frame.rate_rad_s();
     motion.angular_acceleration = frame.angular_acceleration_rad_s2();

@@ -8,8 +8,8 @@
 
 namespace rollgait::server {
 
-// Translates a scene and checks it (CheckScene); the violations name paths relative to the scene. Whether the state at t = 0
-// agrees with the contacts is found by Simulate.
+// Translates a scene and checks it (CheckScene); the violations name paths relative to the scene. Whether the state at
+// t = 0 agrees with the contacts is found by Simulate.
 Result<SimulationScene> DecodeScene(const v1::SimulationScene& scene);
 
 v1::SimulationSample EncodeSample(const SimulationSample& sample);

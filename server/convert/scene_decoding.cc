@@ -21,7 +21,7 @@ SceneDecoding::SceneDecoding(const v1::SimulationScene& message) {
 }
 
 int SceneDecoding::Find(const std::map<std::string, int>& names, const std::string& field, const std::string& name,
-         const char* what) {
+                        const char* what) {
   const auto found = names.find(name);
   if (found != names.end()) return found->second;
   std::string known;
@@ -41,8 +41,7 @@ Eigen::Quaterniond SceneDecoding::Rotation(const std::string& field, bool given,
   return rotation.normalized();
 }
 
-Vector3 SceneDecoding::Direction(const std::string& field, bool given, const v1::Vector3& v,
-                                 const Vector3& otherwise) {
+Vector3 SceneDecoding::Direction(const std::string& field, bool given, const v1::Vector3& v, const Vector3& otherwise) {
   if (!given) return otherwise;
   const Vector3 direction = DecodeVector(v);
   const double norm = direction.stableNorm();

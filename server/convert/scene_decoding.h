@@ -1,10 +1,9 @@
 #ifndef ROLLGAIT_SERVER_CONVERT_SCENE_DECODING_H_
 #define ROLLGAIT_SERVER_CONVERT_SCENE_DECODING_H_
 
+#include <Eigen/Geometry>
 #include <map>
 #include <string>
-
-#include <Eigen/Geometry>
 
 #include "core/base/result.h"
 #include "core/base/types.h"

@@ -12,7 +12,8 @@ namespace {
 
 Violations Refuse(const std::string& reason) { return {{"warm_start", "its solution " + reason}}; }
 
-// Rows are times in the message, columns here. False if the message has not rows × columns finite values of these numbers.
+// Rows are times in the message, columns here. False if the message has not rows × columns finite values of these
+// numbers.
 bool DecodeTimes(const v1::Matrix& matrix, size_t rows, size_t columns, MatrixX* decoded) {
   if (matrix.rows() != static_cast<int64_t>(rows) || matrix.columns() != static_cast<int64_t>(columns) ||
       static_cast<size_t>(matrix.values_size()) != rows * columns) {
@@ -87,7 +88,8 @@ std::optional<SolutionMultipliers> DecodeMultipliers(const v1::Multipliers& mult
   if (multipliers.rows().empty()) return std::nullopt;
   SolutionMultipliers decoded;
   decoded.rows = Eigen::Map<const Eigen::VectorXf>(multipliers.rows().data(), multipliers.rows_size()).cast<double>();
-  decoded.bounds = Eigen::Map<const Eigen::VectorXf>(multipliers.bounds().data(), multipliers.bounds_size()).cast<double>();
+  decoded.bounds =
+      Eigen::Map<const Eigen::VectorXf>(multipliers.bounds().data(), multipliers.bounds_size()).cast<double>();
   if (!decoded.rows.allFinite() || !decoded.bounds.allFinite()) return std::nullopt;
   return decoded;
 }
@@ -96,7 +98,8 @@ std::optional<SolutionMultipliers> DecodeMultipliers(const v1::Multipliers& mult
 std::optional<std::vector<int>> DecodeIndices(const google::protobuf::RepeatedField<int32_t>& indices, size_t count) {
   std::vector<int> decoded(indices.begin(), indices.end());
   const bool ascending = std::is_sorted(decoded.begin(), decoded.end(), std::less_equal<int>());
-  if (!ascending || (!decoded.empty() && (decoded.front() < 0 || decoded.back() >= static_cast<int>(count)))) return std::nullopt;
+  if (!ascending || (!decoded.empty() && (decoded.front() < 0 || decoded.back() >= static_cast<int>(count))))
+    return std::nullopt;
   return decoded;
 }
 
@@ -119,7 +122,8 @@ std::optional<AddedConstraints> DecodeAdded(const v1::Multipliers& multipliers, 
 
 }  // namespace
 
-Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Multipliers& multipliers, const GaitSpec& spec) {
+Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Multipliers& multipliers,
+                                  const GaitSpec& spec) {
   const Model& model = spec.scene.model;
   std::vector<std::string> joints;
   for (const Joint& joint : model.joints()) joints.push_back(joint.name);

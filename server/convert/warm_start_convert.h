@@ -7,9 +7,11 @@
 
 namespace rollgait::server {
 
-// What a solve of the spec can start from. Violations, all with the field "warm_start": the trajectory is not one of the spec's
-// joints, contacts, cycle and scheme (CheckWarmStart), or its sizes do not fit together. Multipliers without rows count as none.
-Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Multipliers& multipliers, const GaitSpec& spec);
+// What a solve of the spec can start from. Violations, all with the field "warm_start": the trajectory is not one of
+// the spec's joints, contacts, cycle and scheme (CheckWarmStart), or its sizes do not fit together. Multipliers without
+// rows count as none.
+Result<WarmStart> DecodeWarmStart(const v1::Trajectory& trajectory, const v1::Multipliers& multipliers,
+                                  const GaitSpec& spec);
 
 }  // namespace rollgait::server
 

@@ -35,7 +35,8 @@ bool IsRequestId(const std::string& text) {
 }
 
 bool OnlyReads(const MethodMetrics& method) {
-  return method.service != "rollgait.v1.GaitService" || method.method.starts_with("Get") || method.method.starts_with("List");
+  return method.service != "rollgait.v1.GaitService" || method.method.starts_with("Get") ||
+         method.method.starts_with("List");
 }
 
 bool IsDefect(grpc::StatusCode code) {
@@ -59,7 +60,10 @@ bool CallObserver::Shared::MayLogRefusal(int64_t* held_back) {
 class CallObserver::Call : public grpc::experimental::Interceptor {
  public:
   Call(std::shared_ptr<Shared> shared, grpc::experimental::ServerRpcInfo* info)
-      : shared_(std::move(shared)), info_(*info), context_(*info->server_context()), method_(shared_->rpc.Of(info->method())) {
+      : shared_(std::move(shared)),
+        info_(*info),
+        context_(*info->server_context()),
+        method_(shared_->rpc.Of(info->method())) {
     method_.started->Increment();
   }
 
@@ -71,7 +75,8 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
   void Intercept(grpc::experimental::InterceptorBatchMethods* batch) override {
     const auto at = [&](InterceptionHookPoints point) { return batch->QueryInterceptionHookPoint(point); };
     if (at(InterceptionHookPoints::POST_RECV_INITIAL_METADATA)) Begin(*batch->GetRecvInitialMetadata());
-    if (at(InterceptionHookPoints::POST_RECV_MESSAGE) && batch->GetRecvMessage() != nullptr) method_.messages_received->Increment();
+    if (at(InterceptionHookPoints::POST_RECV_MESSAGE) && batch->GetRecvMessage() != nullptr)
+      method_.messages_received->Increment();
     if (at(InterceptionHookPoints::PRE_SEND_MESSAGE)) method_.messages_sent->Increment();
     if (at(InterceptionHookPoints::PRE_SEND_STATUS) && !ended_) End(batch->GetSendStatus());
     batch->Proceed();
@@ -98,18 +103,22 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     const bool refused = !status.ok() && !IsDefect(status.error_code());
     int64_t suppressed = 0;
     if (record_ == nullptr || (refused && !shared_->MayLogRefusal(&suppressed))) return;
-    const auto level = IsDefect(status.error_code())        ? spdlog::level::err
-                       : refused || !OnlyReads(method_)     ? spdlog::level::info
-                                                            : spdlog::level::debug;
+    const auto level = IsDefect(status.error_code())    ? spdlog::level::err
+                       : refused || !OnlyReads(method_) ? spdlog::level::info
+                                                        : spdlog::level::debug;
     const LogFields fields = record_->Fields();
     const LogScope scope(fields);
     const std::string code = CodeName(status.error_code());
     if (status.ok()) {
-      LogEvent(level, "call.finished", {{"code", code}, {"duration_s", duration.count()}, {"peer", record_->origin().peer}});
+      LogEvent(level, "call.finished",
+               {{"code", code}, {"duration_s", duration.count()}, {"peer", record_->origin().peer}});
     } else {
       LogEvent(level, "call.finished",
-               {{"code", code}, {"duration_s", duration.count()}, {"peer", record_->origin().peer},
-                {"reason", status.error_message()}, {"suppressed", suppressed}});
+               {{"code", code},
+                {"duration_s", duration.count()},
+                {"peer", record_->origin().peer},
+                {"reason", status.error_message()},
+                {"suppressed", suppressed}});
     }
   }
 

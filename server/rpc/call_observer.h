@@ -11,12 +11,15 @@
 
 namespace rollgait::server {
 
-// Sees every call of a server, whatever serves it: counts it, gives it a CallRecord while it lives and a line in the log at its end
-// ("call.finished"). Each call gets a request id and a traceparent: the client's metadata x-request-id (at most 128 printable
-// characters) and traceparent (W3C) where they are good, else new ones. The request id goes back in the initial metadata.
+// Sees every call of a server, whatever serves it: counts it, gives it a CallRecord while it lives and a line in the
+// log at its end
+// ("call.finished"). Each call gets a request id and a traceparent: the client's metadata x-request-id (at most 128
+// printable characters) and traceparent (W3C) where they are good, else new ones. The request id goes back in the
+// initial metadata.
 //
-// Level of the line: error for INTERNAL, UNKNOWN and DATA_LOSS; info for refusals and for what changes or watches a solve; debug for
-// what only reads. Of refusals at most 50 lines a second are written; `suppressed` tells how many were not.
+// Level of the line: error for INTERNAL, UNKNOWN and DATA_LOSS; info for refusals and for what changes or watches a
+// solve; debug for what only reads. Of refusals at most 50 lines a second are written; `suppressed` tells how many were
+// not.
 class CallObserver : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
   // Metrics outlive the server.

@@ -31,7 +31,7 @@ void CallRecord::SetSolve(const std::string& id) {
 
 LogFields CallRecord::Fields() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {{"method", origin_.method},     {"solve", solve_},    {"request_id", origin_.request_id},
+  return {{"method", origin_.method},           {"solve", solve_},   {"request_id", origin_.request_id},
           {"traceparent", origin_.traceparent}, {"tenant", tenant_}, {"token", token_id_}};
 }
 

@@ -26,7 +26,8 @@ class CallRecord {
   // Who calls, once that is known, and which solve it is about. For the log.
   void SetCaller(const std::string& tenant, const std::string& token_id);
   void SetSolve(const std::string& id);
-  // method, request_id, traceparent, and tenant, token, solve where they are known: for a LogScope around the call's work.
+  // method, request_id, traceparent, and tenant, token, solve where they are known: for a LogScope around the call's
+  // work.
   LogFields Fields() const;
 
  private:

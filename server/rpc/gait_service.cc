@@ -27,7 +27,8 @@ grpc::Status Report(const std::string& peer, const Error& error) {
 // A slice that keeps the bytes, which are not copied.
 grpc::Slice Owning(std::string bytes) {
   auto* const owned = new std::string(std::move(bytes));
-  return grpc::Slice(owned->data(), owned->size(), [](void* text) { delete static_cast<std::string*>(text); }, owned);
+  return grpc::Slice(
+      owned->data(), owned->size(), [](void* text) { delete static_cast<std::string*>(text); }, owned);
 }
 
 Error TooManyCalls() {
@@ -39,13 +40,15 @@ Error TooManyCalls() {
 
 }  // namespace
 
-Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule, const grpc::CallbackServerContext& context) {
+Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule,
+                                                     const grpc::CallbackServerContext& context) {
   Outcome<std::shared_ptr<void>> place = gatekeeper_.Check(rule);
   if (!place.ok()) return place.error();
   Presented presented = ReadIdentity(context, certificate_tenant_);
   std::shared_ptr<CallRecord> record = RecordOf(context);
   if (record != nullptr) presented.traceparent = record->origin().traceparent;
-  return Admit([this, &rule, presented = std::move(presented), held = std::move(place).value(), record = std::move(record)]() mutable {
+  return Admit([this, &rule, presented = std::move(presented), held = std::move(place).value(),
+                record = std::move(record)]() mutable {
     Outcome<std::shared_ptr<Admission>> admitted = gatekeeper_.Admit(rule, presented, std::exchange(held, nullptr));
     if (admitted.ok() && record != nullptr) {
       record->SetCaller(admitted.value()->caller().tenant, admitted.value()->caller().identity);
@@ -55,31 +58,32 @@ Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule, con
 }
 
 template <typename Serve>
-grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve) {
+grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context,
+                                                   Serve serve) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   Outcome<Admit> admit = Enter(rule, *context);
   if (!admit.ok()) {
     reactor->Finish(Report(context->peer(), admit.error()));
     return reactor;
   }
-  const bool taken = executor_.TryPost([&gatekeeper = gatekeeper_, decide = std::move(admit).value(), context, reactor,
-                                        serve = std::move(serve)] {
-    const Outcome<std::shared_ptr<Admission>> admitted = decide();
-    const LogFields fields = FieldsOf(*context);
-    const LogScope scope(fields);
-    if (!admitted.ok()) {
-      reactor->Finish(Report(context->peer(), admitted.error()));
-      return;
-    }
-    const Caller& caller = admitted.value()->caller();
-    const Outcome<Done> served = serve(caller);
-    if (served.ok()) {
-      reactor->Finish(grpc::Status::OK);
-    } else {
-      gatekeeper.Note(caller, served.error());
-      reactor->Finish(Report(context->peer(), served.error()));
-    }
-  });
+  const bool taken = executor_.TryPost(
+      [&gatekeeper = gatekeeper_, decide = std::move(admit).value(), context, reactor, serve = std::move(serve)] {
+        const Outcome<std::shared_ptr<Admission>> admitted = decide();
+        const LogFields fields = FieldsOf(*context);
+        const LogScope scope(fields);
+        if (!admitted.ok()) {
+          reactor->Finish(Report(context->peer(), admitted.error()));
+          return;
+        }
+        const Caller& caller = admitted.value()->caller();
+        const Outcome<Done> served = serve(caller);
+        if (served.ok()) {
+          reactor->Finish(grpc::Status::OK);
+        } else {
+          gatekeeper.Note(caller, served.error());
+          reactor->Finish(Report(context->peer(), served.error()));
+        }
+      });
   if (!taken) reactor->Finish(ToStatus(TooManyCalls()));
   return reactor;
 }
@@ -87,17 +91,21 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
 template <typename Request, typename Response>
 grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::CallbackServerContext* context,
                                                  const Request* request, Response* response,
-                                                 Outcome<Response> (SolveService::*method)(const Caller&, const Request&)) {
-  // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method) otherwise.
-  return AnswerBy(rule, context, [&service = service_, request, response, method](const Caller& caller) -> Outcome<Done> {
-    Outcome<Response> outcome = (service.*method)(caller, *request);
-    if (!outcome.ok()) return outcome.error();
-    *response = std::move(outcome).value();
-    return Done{};
-  });
+                                                 Outcome<Response> (SolveService::*method)(const Caller&,
+                                                                                           const Request&)) {
+  // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method)
+  // otherwise.
+  return AnswerBy(rule, context,
+                  [&service = service_, request, response, method](const Caller& caller) -> Outcome<Done> {
+                    Outcome<Response> outcome = (service.*method)(caller, *request);
+                    if (!outcome.ok()) return outcome.error();
+                    *response = std::move(outcome).value();
+                    return Done{};
+                  });
 }
 
-grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule,
+                                                                 grpc::CallbackServerContext* context,
                                                                  WatchStream::Find find, bool cancel_on_disconnect) {
   WatchStream::Plan plan;
   Outcome<Admit> admit = Enter(rule, *context);
@@ -148,8 +156,8 @@ grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContex
   return Answer(RuleOf("CreateSolve"), context, request, response, &SolveService::CreateSolve);
 }
 
-grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context, const grpc::ByteBuffer* request,
-                                                   grpc::ByteBuffer* response) {
+grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context,
+                                                   const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
   const auto get = [&service = service_, request, response](const Caller& caller) -> Outcome<Done> {
     v1::GetSolveRequest message;
     grpc::ByteBuffer bytes(*request);

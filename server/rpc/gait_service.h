@@ -18,13 +18,14 @@
 
 namespace rollgait::server {
 
-// rollgait.v1.GaitService on the callback API. Every call passes the gatekeeper: Check at once, Admit on the executor, where it is
-// answered.
+// rollgait.v1.GaitService on the callback API. Every call passes the gatekeeper: Check at once, Admit on the executor,
+// where it is answered.
 class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSolve<v1::GaitService::CallbackService> {
  public:
   // All outlive the gRPC server that this is registered with.
   GaitServiceRpc(SolveService& service, WatchHub& hub, Gatekeeper& gatekeeper, Executor& executor,
-                 SimulationHost& simulations, std::chrono::milliseconds slow_write, CertificateTenant certificate_tenant)
+                 SimulationHost& simulations, std::chrono::milliseconds slow_write,
+                 CertificateTenant certificate_tenant)
       : service_(service),
         hub_(hub),
         gatekeeper_(gatekeeper),
@@ -65,7 +66,8 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
 
   // The first half of the decision; an error of the gatekeeper becomes the answer of the second.
   Outcome<Admit> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
-  // Answers a unary call: `serve` is called on the executor with the caller, fills the response and returns Outcome<Done>.
+  // Answers a unary call: `serve` is called on the executor with the caller, fills the response and returns
+  // Outcome<Done>.
   template <typename Serve>
   grpc::ServerUnaryReactor* AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve);
   // Answers a unary call with (service_.*method)(caller, request).
@@ -75,7 +77,8 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
                                    Outcome<Response> (SolveService::*method)(const Caller&, const Request&));
   grpc::ServerWriteReactor<v1::SolveEvent>* Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
                                                    WatchStream::Find find, bool cancel_on_disconnect);
-  grpc::ServerWriteReactor<v1::SimulationMessage>* Simulation(const MethodRule& rule, grpc::CallbackServerContext* context,
+  grpc::ServerWriteReactor<v1::SimulationMessage>* Simulation(const MethodRule& rule,
+                                                              grpc::CallbackServerContext* context,
                                                               wire::SimulatorRequest request);
 
   SolveService& service_;

@@ -15,7 +15,8 @@ void Log(gpr_log_func_args* said) {
                      : said->severity == GPR_LOG_SEVERITY_INFO ? spdlog::level::info
                                                                : spdlog::level::debug;
   const std::string file = said->file;
-  LogEvent(level, "grpc.said", {{"text", said->message}, {"at", file.substr(file.rfind('/') + 1)}, {"line", said->line}});
+  LogEvent(level, "grpc.said",
+           {{"text", said->message}, {"at", file.substr(file.rfind('/') + 1)}, {"line", said->line}});
 }
 
 }  // namespace

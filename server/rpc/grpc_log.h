@@ -3,8 +3,8 @@
 
 namespace rollgait::server {
 
-// From now on what gRPC itself has to say (a handshake that failed, say) goes to the log of this process, as event "grpc.said". Its
-// errors are warnings here: most are a client's doing.
+// From now on what gRPC itself has to say (a handshake that failed, say) goes to the log of this process, as event
+// "grpc.said". Its errors are warnings here: most are a client's doing.
 void LogWhatGrpcSays();
 
 }  // namespace rollgait::server

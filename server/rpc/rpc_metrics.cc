@@ -36,12 +36,16 @@ RpcMetrics::RpcMetrics(Metrics& metrics)
   auto& started = CounterFamily(metrics, "grpc_server_started_total", "Calls that began");
   auto& received = CounterFamily(metrics, "grpc_server_msg_received_total", "Messages read from clients");
   auto& sent = CounterFamily(metrics, "grpc_server_msg_sent_total", "Messages written to clients");
-  auto& seconds = HistogramFamily(metrics, "grpc_server_handling_seconds", "From the beginning of a call to its status, in s");
-  const auto add = [&](const std::string& path, const std::string& service, const std::string& method, const std::string& type) {
+  auto& seconds =
+      HistogramFamily(metrics, "grpc_server_handling_seconds", "From the beginning of a call to its status, in s");
+  const auto add = [&](const std::string& path, const std::string& service, const std::string& method,
+                       const std::string& type) {
     const prometheus::Labels labels = {{"grpc_service", service}, {"grpc_method", method}, {"grpc_type", type}};
-    const MethodMetrics& added =
-        methods_.insert({path, {service, method, type, &started.Add(labels), &received.Add(labels), &sent.Add(labels),
-                                &seconds.Add(labels, kSeconds)}}).first->second;
+    const MethodMetrics& added = methods_
+                                     .insert({path,
+                                              {service, method, type, &started.Add(labels), &received.Add(labels),
+                                               &sent.Add(labels), &seconds.Add(labels, kSeconds)}})
+                                     .first->second;
     // Series that exist from the beginning show their first increase.
     Handled(added, grpc::StatusCode::OK);
   };
@@ -72,9 +76,10 @@ prometheus::Counter& RpcMetrics::Handled(const MethodMetrics& method, grpc::Stat
 
 std::string CodeName(grpc::StatusCode code) {
   constexpr std::array<const char*, 17> kNames = {
-      "OK",       "Canceled",          "Unknown",            "InvalidArgument", "DeadlineExceeded", "NotFound",    "AlreadyExists",
-      "PermissionDenied", "ResourceExhausted", "FailedPrecondition", "Aborted",         "OutOfRange",       "Unimplemented", "Internal",
-      "Unavailable", "DataLoss", "Unauthenticated"};
+      "OK",       "Canceled",       "Unknown",          "InvalidArgument",   "DeadlineExceeded",
+      "NotFound", "AlreadyExists",  "PermissionDenied", "ResourceExhausted", "FailedPrecondition",
+      "Aborted",  "OutOfRange",     "Unimplemented",    "Internal",          "Unavailable",
+      "DataLoss", "Unauthenticated"};
   const auto index = static_cast<size_t>(code);
   return index < kNames.size() ? kNames[index] : "Unknown";
 }

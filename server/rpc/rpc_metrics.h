@@ -20,8 +20,8 @@ struct MethodMetrics {
 };
 
 // grpc_server_started_total, grpc_server_handled_total (by grpc_code too), grpc_server_handling_seconds,
-// grpc_server_msg_received_total, grpc_server_msg_sent_total. The labels of a call come from a table of known methods, so that
-// nobody can make series by inventing names. Threads may share it.
+// grpc_server_msg_received_total, grpc_server_msg_sent_total. The labels of a call come from a table of known methods,
+// so that nobody can make series by inventing names. Threads may share it.
 class RpcMetrics {
  public:
   explicit RpcMetrics(Metrics& metrics);

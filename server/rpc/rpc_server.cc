@@ -35,8 +35,8 @@ void SetLimits(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 5'000);
-  // Who connects and says nothing is let go soon; a connection without calls after five minutes. After an hour new calls go over a new
-  // connection, with the certificates of then; streams on the old one go on as long as they last.
+  // Who connects and says nothing is let go soon; a connection without calls after five minutes. After an hour new
+  // calls go over a new connection, with the certificates of then; streams on the old one go on as long as they last.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 8'000);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 300'000);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, 3'600'000);
@@ -88,7 +88,8 @@ Outcome<Done> RpcServer::Open(const RpcOptions& options) {
   if (is_unix) {
     builder.AddListeningPort(options.listen, credentials_, &port);
   } else {
-    Outcome<std::unique_ptr<ConnectionAcceptor>> acceptor = ConnectionAcceptor::Listen(options.listen, options.connections);
+    Outcome<std::unique_ptr<ConnectionAcceptor>> acceptor =
+        ConnectionAcceptor::Listen(options.listen, options.connections);
     if (!acceptor.ok()) return acceptor.error();
     acceptor_ = std::move(acceptor).value();
     port = acceptor_->port();
@@ -97,10 +98,12 @@ Outcome<Done> RpcServer::Open(const RpcOptions& options) {
   }
   server_ = builder.BuildAndStart();
   if (server_ == nullptr || port == 0) {
-    return Error{ErrorCode::kUnavailable, "cannot listen on " + options.listen + ": gRPC refuses; is the path writable?"};
+    return Error{ErrorCode::kUnavailable,
+                 "cannot listen on " + options.listen + ": gRPC refuses; is the path writable?"};
   }
   if (options.discovery) server_->GetHealthCheckService()->SetServingStatus(v1::GaitService::service_full_name(), true);
-  address_ = is_unix ? options.listen : options.listen.substr(0, options.listen.rfind(':')) + ":" + std::to_string(port);
+  address_ =
+      is_unix ? options.listen : options.listen.substr(0, options.listen.rfind(':')) + ":" + std::to_string(port);
   if (!options.admin_directory.empty()) {
     Outcome<std::unique_ptr<AdminServer>> admin = AdminServer::Start(options.admin_directory);
     if (!admin.ok()) return admin.error();
@@ -122,7 +125,8 @@ void RpcServer::Stop(std::chrono::milliseconds grace) {
   // Shutdown would end streams with CANCELLED whose last words are still to be written, so they are waited for.
   const auto deadline = std::chrono::steady_clock::now() + grace;
   const auto left = [&] {
-    const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    const auto time =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     return std::max(time, std::chrono::milliseconds(0));
   };
   const bool idle = executor_.WaitIdle(left()) && gatekeeper_.WaitUntilLeft(left());

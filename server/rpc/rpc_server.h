@@ -22,8 +22,8 @@
 namespace rollgait::server {
 
 struct RpcOptions {
-  std::string listen = "127.0.0.1:0";         // HOST:PORT, port 0: any free one; or unix:PATH
-  TlsFiles tls;                               // without a certificate: plain text
+  std::string listen = "127.0.0.1:0";  // HOST:PORT, port 0: any free one; or unix:PATH
+  TlsFiles tls;                        // without a certificate: plain text
   CertificateTenant certificate_tenant = CertificateTenant::kNone;
   ConnectionLimits connections;               // not of unix sockets
   std::string admin_directory;                // admin.sock is made there; empty: none
@@ -31,23 +31,23 @@ struct RpcOptions {
   int executor_threads = 8;                   // calls that may touch the store at once
   size_t max_waiting_calls = 4096;            // more are refused with RESOURCE_EXHAUSTED
   std::chrono::milliseconds slow_write{250};  // a longer write marks its reader as slow
-  Metrics* metrics = nullptr;                 // counts calls; outlives the server; null: calls are neither counted nor logged
-  SimulationHostOptions simulation;           // without a program: Simulate answers UNAVAILABLE
+  Metrics* metrics = nullptr;        // counts calls; outlives the server; null: calls are neither counted nor logged
+  SimulationHostOptions simulation;  // without a program: Simulate answers UNAVAILABLE
 };
 
 // The listening gRPC server: GaitService, and grpc.health.v1.Health and reflection where they are offered.
 class RpcServer {
  public:
-  // Binds and serves. kUnavailable if the address cannot be bound, kInvalidArgument for TLS files. Service, hub and gatekeeper
-  // outlive it.
+  // Binds and serves. kUnavailable if the address cannot be bound, kInvalidArgument for TLS files. Service, hub and
+  // gatekeeper outlive it.
   static Outcome<std::unique_ptr<RpcServer>> Start(const RpcOptions& options, SolveService& service, WatchHub& hub,
                                                    Gatekeeper& gatekeeper);
   ~RpcServer();
 
   // "HOST:PORT" with the port that was bound.
   const std::string& address() const { return address_; }
-  // Health says NOT_SERVING, new calls are refused and streams end with UNAVAILABLE, unary calls have `grace` to finish; then
-  // everything is cancelled. Returns when no call is left.
+  // Health says NOT_SERVING, new calls are refused and streams end with UNAVAILABLE, unary calls have `grace` to
+  // finish; then everything is cancelled. Returns when no call is left.
   void Stop(std::chrono::milliseconds grace);
 
  private:

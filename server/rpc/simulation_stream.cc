@@ -47,8 +47,9 @@ Violations CheckRequest(const wire::SimulatorRequest& request) {
 
 }  // namespace
 
-SimulationStream* SimulationStream::Start(SimulationHost& host, Executor& executor, grpc::CallbackServerContext* context,
-                                          wire::SimulatorRequest request, Admit admit) {
+SimulationStream* SimulationStream::Start(SimulationHost& host, Executor& executor,
+                                          grpc::CallbackServerContext* context, wire::SimulatorRequest request,
+                                          Admit admit) {
   std::shared_ptr<SimulationStream> stream(new SimulationStream(host, context, std::move(request)));
   stream->self_ = stream;
   if (!executor.TryPost([stream, admit = std::move(admit)] { stream->Launch(admit); })) {
@@ -158,8 +159,6 @@ void SimulationStream::End(const grpc::Status& status) {
   Finish(status);
 }
 
-void SimulationStream::OnDone() {
-  const std::shared_ptr<SimulationStream> last = std::move(self_);
-}
+void SimulationStream::OnDone() { const std::shared_ptr<SimulationStream> last = std::move(self_); }
 
 }  // namespace rollgait::server

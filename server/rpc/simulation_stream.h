@@ -18,8 +18,9 @@
 
 namespace rollgait::server {
 
-// The stream of one Simulate or FindPeriodicGait call. The host's thread hands message after message over and waits until each
-// is written, so a slow reader slows its own simulation down and nothing piles up. A client that goes away ends the run.
+// The stream of one Simulate or FindPeriodicGait call. The host's thread hands message after message over and waits
+// until each is written, so a slow reader slows its own simulation down and nothing piles up. A client that goes away
+// ends the run.
 class SimulationStream : public grpc::ServerWriteReactor<v1::SimulationMessage>,
                          public std::enable_shared_from_this<SimulationStream> {
  public:

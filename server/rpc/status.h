@@ -8,8 +8,9 @@
 namespace rollgait::server {
 
 // The RPC status of an error. Violations go as google.rpc.BadRequest, a quota as google.rpc.QuotaFailure, a time to try
-// again as google.rpc.RetryInfo, all in grpc-status-details-bin. Clients take 8 KiB of headers by default: texts are cut to kMaxText bytes, and violations
-// are left out from where they exceed kMaxDetailBytes (the message tells how many there are).
+// again as google.rpc.RetryInfo, all in grpc-status-details-bin. Clients take 8 KiB of headers by default: texts are
+// cut to kMaxText bytes, and violations are left out from where they exceed kMaxDetailBytes (the message tells how many
+// there are).
 grpc::Status ToStatus(const Error& error);
 
 inline constexpr size_t kMaxText = 300;

@@ -8,9 +8,7 @@
 namespace rollgait::server {
 namespace {
 
-Error Stopping() {
-  return {ErrorCode::kUnavailable, "the server is stopping", {}, std::chrono::milliseconds(500)};
-}
+Error Stopping() { return {ErrorCode::kUnavailable, "the server is stopping", {}, std::chrono::milliseconds(500)}; }
 
 }  // namespace
 
@@ -179,8 +177,7 @@ void WatchStream::EndAsDisconnected() {
   if (plan_.on_disconnect != nullptr && !id_.empty() && !server_stops) {
     executor_.Post([self = shared_from_this()] { self->plan_.on_disconnect(self->admission_->caller(), self->id_); });
   }
-  End(server_stops ? ToStatus(Stopping())
-                   : grpc::Status(grpc::StatusCode::CANCELLED, "the client has gone"));
+  End(server_stops ? ToStatus(Stopping()) : grpc::Status(grpc::StatusCode::CANCELLED, "the client has gone"));
 }
 
 void WatchStream::End(const grpc::Status& status) {

@@ -30,7 +30,7 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   // Finds or makes the solve to be watched. Runs on the executor.
   using Find = std::function<Outcome<Target>(const Caller&)>;
   struct Plan {
-    std::optional<Error> refusal;                               // the whole answer, if there is one
+    std::optional<Error> refusal;                                // the whole answer, if there is one
     std::function<Outcome<std::shared_ptr<Admission>>()> admit;  // runs on the executor
     Find find;
     // Called on the executor, with the target, if the client has gone before the terminal event was written. May be

@@ -19,8 +19,8 @@ std::string NumberText(double value) {
   return value > 0 ? "+infinity" : "-infinity";
 }
 
-// Where a walk is: a field, or an element of it, of the message that `within` leads to. Paths become text only where something is
-// wrong.
+// Where a walk is: a field, or an element of it, of the message that `within` leads to. Paths become text only where
+// something is wrong.
 struct Place {
   const Place* within;  // null: the request itself
   const FieldDescriptor& field;
@@ -46,9 +46,10 @@ class Walker {
     const Reflection& reflection = *message.GetReflection();
     const auto& unknown = reflection.GetUnknownFields(message);
     if (unknown.field_count() > 0) {
-      violations_.push_back({prefix_ + (place == nullptr ? "" : place->Text() + ".") + std::to_string(unknown.field(0).number()),
-                             "is a field number of " + std::string(message.GetDescriptor()->full_name()) +
-                                 " that this server does not know; use a client of the server's version"});
+      violations_.push_back(
+          {prefix_ + (place == nullptr ? "" : place->Text() + ".") + std::to_string(unknown.field(0).number()),
+           "is a field number of " + std::string(message.GetDescriptor()->full_name()) +
+               " that this server does not know; use a client of the server's version"});
     }
     std::vector<const FieldDescriptor*> fields;
     reflection.ListFields(message, &fields);
@@ -113,7 +114,7 @@ class Walker {
   void CheckEnum(const FieldDescriptor& field, int value, const Place& place) {
     if (field.enum_type()->FindValueByNumber(value) != nullptr) return;
     violations_.push_back({prefix_ + place.Text(), "is " + std::to_string(value) + ", which " +
-                                     std::string(field.enum_type()->full_name()) + " does not have"});
+                                                       std::string(field.enum_type()->full_name()) + " does not have"});
   }
 
   const std::string prefix_;

@@ -19,8 +19,8 @@ std::vector<prometheus::MetricFamily> ServiceMetrics::Collect() const {
   families.push_back(GaugeNow("rollgait_queue_depth", "Solves that wait", counts.value().queued));
   const int64_t oldest = counts.value().oldest_queued_us;
   const double waited_s = oldest == 0 ? 0 : 1e-6 * static_cast<double>(clock_.WallMicros() - oldest);
-  families.push_back(GaugeNow("rollgait_queue_oldest_seconds", "How long the oldest of the solves that wait has waited, in s",
-                              std::max(0.0, waited_s)));
+  families.push_back(GaugeNow("rollgait_queue_oldest_seconds",
+                              "How long the oldest of the solves that wait has waited, in s", std::max(0.0, waited_s)));
   families.push_back(GaugeNow("rollgait_running", "Solves that run", counts.value().running));
   return families;
 }

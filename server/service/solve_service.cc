@@ -81,7 +81,8 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
     *solve.mutable_spec() = request.spec();
     return solve;
   }
-  NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key, options_.max_queued};
+  NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key,
+                 options_.max_queued};
   solve.actor = caller.actor();
   solve.traceparent = caller.traceparent;
   solve.max_queued_tenant = caller.limits.max_queued;
@@ -142,7 +143,8 @@ Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::Can
   return ToSolve(record.value());
 }
 
-Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request) {
+Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller,
+                                                           const v1::DeleteSolveRequest& request) {
   const Outcome<std::string> id = FindOwn(caller, request.name());
   if (!id.ok()) return id.error();
   const Outcome<Done> done = store_.Delete(id.value(), caller.actor());
@@ -178,8 +180,7 @@ Outcome<v1::Model> SolveService::GetModel(const Caller&, const v1::GetModelReque
 
 Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest&) {
   // How busy others are is the administrator's to know.
-  const Outcome<SolveCounts> counts =
-      store_.Counts((caller.scopes & kScopeAdmin) != 0 ? std::nullopt : caller.sees());
+  const Outcome<SolveCounts> counts = store_.Counts((caller.scopes & kScopeAdmin) != 0 ? std::nullopt : caller.sees());
   if (!counts.ok()) return counts.error();
   v1::ServerInfo info;
   info.set_version(options_.version);

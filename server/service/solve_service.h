@@ -27,8 +27,9 @@ struct ServiceOptions {
 };
 
 // The use cases, one method an RPC; what the errors mean is in gait_service.proto. Requests are refused with every
-// violation found, before anything is stored. A solve belongs to its creator's tenant: for others it does not exist, and neither their
-// results nor their warm starts come from it. Scopes are not looked at here. Any thread may call; every call may block on the store.
+// violation found, before anything is stored. A solve belongs to its creator's tenant: for others it does not exist,
+// and neither their results nor their warm starts come from it. Scopes are not looked at here. Any thread may call;
+// every call may block on the store.
 class SolveService {
  public:
   // `announce(id)` is called after a solve was created or cancelled: the agent and watchers want to look. Store

@@ -15,8 +15,8 @@ namespace rollgait::server {
 namespace {
 
 constexpr double kSlopeUnit = std::numbers::pi / 180;  // rad
-constexpr double kSpeedUnit = 0.05;                     // m/s
-constexpr double kFarthest = 5;                         // in these units
+constexpr double kSpeedUnit = 0.05;                    // m/s
+constexpr double kFarthest = 5;                        // in these units
 constexpr int kMostConsidered = 1000;
 
 Error Refuse(const v1::SolveSpec& spec, const std::string& reason) {
@@ -27,7 +27,8 @@ std::optional<double> PrescribedSpeed(const v1::SolveSpec& spec) {
   const v1::Motion& motion = spec.motion();
   if (motion.free_speed()) return std::nullopt;
   if (motion.has_speed_m_s()) return motion.speed_m_s();
-  if (motion.has_step_length_m() && motion.has_step_duration_s()) return motion.step_length_m() / motion.step_duration_s();
+  if (motion.has_step_length_m() && motion.has_step_duration_s())
+    return motion.step_length_m() / motion.step_duration_s();
   return DefaultSpeed(spec.has_gravity_m_s2() ? spec.gravity_m_s2() : kDefaultGravity);
 }
 
@@ -63,7 +64,8 @@ Outcome<std::string> Nearest(SolveStore& store, const v1::SolveSpec& spec, const
       // Its record has no result; one that is not optimal is no neighbour.
       const Outcome<SolveRecord> full = store.Get(record.id);
       v1::SolveResult result;
-      if (!full.ok() || !result.ParseFromString(full.value().result) || result.termination() != v1::TERMINATION_OPTIMAL) continue;
+      if (!full.ok() || !result.ParseFromString(full.value().result) || result.termination() != v1::TERMINATION_OPTIMAL)
+        continue;
       least = *distance;
       nearest = record.id;
     }
@@ -74,7 +76,8 @@ Outcome<std::string> Nearest(SolveStore& store, const v1::SolveSpec& spec, const
 }
 
 // The part of the message that the solver needs.
-wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1::SolveSpec& source, v1::SolveResult result) {
+wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1::SolveSpec& source,
+                     v1::SolveResult result) {
   wire::WarmStart start;
   start.mutable_source()->set_name(SolveName(id));
   start.mutable_source()->set_slope_difference_rad(spec.slope_rad() - source.slope_rad());
@@ -122,12 +125,14 @@ Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const Ga
     return Error{ErrorCode::kInternal, "the stored solve " + SolveName(id) + " cannot be read"};
   }
   if (result.termination() != v1::TERMINATION_OPTIMAL) {
-    return Refuse(spec, "that solve ended " + v1::Termination_Name(result.termination()) + "; it must be TERMINATION_OPTIMAL");
+    return Refuse(
+        spec, "that solve ended " + v1::Termination_Name(result.termination()) + "; it must be TERMINATION_OPTIMAL");
   }
   const Violations violations = knowledge.check_warm_start(spec, result);
   if (!violations.empty()) return Refuse(spec, violations.front().message);
   const std::string& key = record.value().solve_key;
-  return std::optional(FoundWarmStart{Take(spec, id, source, std::move(result)).SerializeAsString(), key.empty() ? id : key});
+  return std::optional(
+      FoundWarmStart{Take(spec, id, source, std::move(result)).SerializeAsString(), key.empty() ? id : key});
 }
 
 }  // namespace rollgait::server

@@ -29,7 +29,8 @@ Error FromProcess(const v1::SolveError& error) {
 
 Error FromRefusal(const wire::SimulatorMessage::Refusal& refusal) {
   Error error{ErrorCode::kInvalidArgument, "the scene cannot be simulated"};
-  for (const auto& violation : refusal.violations()) error.violations.push_back({violation.field(), violation.message()});
+  for (const auto& violation : refusal.violations())
+    error.violations.push_back({violation.field(), violation.message()});
   return error;
 }
 
@@ -41,8 +42,8 @@ class Exchange {
         cancel_(cancel),
         emit_(emit),
         max_wall_s_(max_wall_s),
-        deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_wall_s))) {
-  }
+        deadline_(Clock::now() +
+                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_wall_s))) {}
 
   Outcome<Done> Serve() {
     while (true) {
@@ -67,9 +68,10 @@ class Exchange {
 
  private:
   void Wait() {
-    pollfd watched[3] = {{process_.stream_fd(), static_cast<short>(process_.wants_to_write() ? POLLIN | POLLOUT : POLLIN), 0},
-                         {cancel_.fd(), POLLIN, 0},
-                         {process_.output_fd(), POLLIN, 0}};
+    pollfd watched[3] = {
+        {process_.stream_fd(), static_cast<short>(process_.wants_to_write() ? POLLIN | POLLOUT : POLLIN), 0},
+        {cancel_.fd(), POLLIN, 0},
+        {process_.output_fd(), POLLIN, 0}};
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count() + 1;
     poll(watched, process_.output_fd() >= 0 ? 3 : 2, static_cast<int>(std::clamp<int64_t>(left, 0, 60'000)));
   }

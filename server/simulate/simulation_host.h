@@ -39,8 +39,8 @@ class SimulationCancel {
   std::atomic<bool> cancelled_{false};
 };
 
-// Runs simulations in processes of their own, each watched by a thread of its own: numerics never run in the server. Any
-// thread may call.
+// Runs simulations in processes of their own, each watched by a thread of its own: numerics never run in the server.
+// Any thread may call.
 class SimulationHost {
  public:
   // Runs a simulation; what it returns is called when the slot is free again, to tell the client of the end.
@@ -51,11 +51,12 @@ class SimulationHost {
   explicit SimulationHost(SimulationHostOptions options) : options_(std::move(options)) {}
   ~SimulationHost() { Stop(); }
 
-  // Runs the job on a thread of its own. kUnavailable without a program or while stopping; kResourceExhausted without a slot.
+  // Runs the job on a thread of its own. kUnavailable without a program or while stopping; kResourceExhausted without a
+  // slot.
   Outcome<std::shared_ptr<SimulationCancel>> Start(Job job);
-  // For a job: serves the request with a process and waits for its end, at most max_wall_s. kInvalidArgument: refused by the
-  // process; kDeadlineExceeded; kResourceExhausted: memory limit; kUnavailable: cancelled or not to be started; kInternal: it
-  // crashed or failed.
+  // For a job: serves the request with a process and waits for its end, at most max_wall_s. kInvalidArgument: refused
+  // by the process; kDeadlineExceeded; kResourceExhausted: memory limit; kUnavailable: cancelled or not to be started;
+  // kInternal: it crashed or failed.
   Outcome<Done> Run(const wire::SimulatorRequest& request, double max_wall_s, SimulationCancel& cancel,
                     const Emit& emit) const;
   // Cancels what runs and waits for its end. Start refuses from now on.

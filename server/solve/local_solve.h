@@ -11,10 +11,10 @@ namespace rollgait::server {
 
 // Exit codes of `rollgait-solve --spec`.
 enum LocalExit : int {
-  kLocalSolved = 0,      // termination OPTIMAL or ACCEPTABLE, verdict WITHIN or NOT_JUDGED
-  kLocalFailed = 1,      // the result cannot be written
-  kLocalBadRequest = 2,  // every violation is on `progress`
-  kLocalNoSolution = 3,  // a result with another termination
+  kLocalSolved = 0,       // termination OPTIMAL or ACCEPTABLE, verdict WITHIN or NOT_JUDGED
+  kLocalFailed = 1,       // the result cannot be written
+  kLocalBadRequest = 2,   // every violation is on `progress`
+  kLocalNoSolution = 3,   // a result with another termination
   kLocalMissesBound = 8,  // OPTIMAL or ACCEPTABLE, verdict EXCEEDED
 };
 

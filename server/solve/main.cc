@@ -82,9 +82,10 @@ int Main(int argc, char** argv) {
   Flags flags;
   CLI::App app("Solves one gait request in this process.", "rollgait-solve");
   app.set_version_flag("--version", SolverBuild());
-  auto* spec = app.add_option("--spec", flags.spec_file,
-                              "SolveSpec as proto3 JSON, - for standard input. Result on standard output, progress on "
-                              "standard error. Exit code 0: solved, 2: bad request, 3: no solution, 8: an accuracy bound is missed");
+  auto* spec = app.add_option(
+      "--spec", flags.spec_file,
+      "SolveSpec as proto3 JSON, - for standard input. Result on standard output, progress on "
+      "standard error. Exit code 0: solved, 2: bad request, 3: no solution, 8: an accuracy bound is missed");
   auto* fd = app.add_option("--fd", flags.fd, "For rollgait-agent: connected stream to serve one framed request on")
                  ->check(CLI::Range(3, 1 << 20));
   app.add_option("--memory-limit-mb", flags.memory_limit_mb, "With --fd: bound of the address space in MiB")

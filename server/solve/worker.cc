@@ -45,14 +45,16 @@ std::optional<wire::WarmStart> ReadWarmStart(int fd, GaitSpec* spec) {
   Result<WarmStart> start = DecodeWarmStart(sent.trajectory(), sent.multipliers(), *spec);
   if (!start.ok()) {
     const Violation& first = start.violations().front();
-    SendError(fd, v1::SolveError::KIND_INTERNAL, "this solver refuses the start: " + first.field + ": " + first.message);
+    SendError(fd, v1::SolveError::KIND_INTERNAL,
+              "this solver refuses the start: " + first.field + ": " + first.message);
     return std::nullopt;
   }
   spec->warm_start = std::move(start).value();
   return sent;
 }
 
-WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, GaitSolver& solver, StopFlag& stop) {
+WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, GaitSolver& solver,
+                        StopFlag& stop) {
   SolveControl control;
   control.stop = &stop;
   control.observer = [&](const IterationInfo& iteration) {

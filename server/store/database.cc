@@ -39,7 +39,8 @@ Error ToError(const SqlFailure& failure) {
       return {ErrorCode::kUnavailable, std::string("the store cannot do this now: ") + failure.what()};
     case Kind::kUnknown:
       return {ErrorCode::kUnavailable,
-              std::string("the store was asked to commit and did not answer, so this has happened, happens yet or does not: ") +
+              std::string(
+                  "the store was asked to commit and did not answer, so this has happened, happens yet or does not: ") +
                   failure.what() + "; make the same call again, CreateSolve with its request_id"};
     case Kind::kInternal:
       break;
@@ -60,7 +61,8 @@ std::unique_ptr<SqlConnection> Database::Take(SqlConnection::Access access) {
     }
     // As many again as may be in use: enough for those of a host that is gone.
     if (static_cast<int>(pool.overdue.size()) >= 2 * most) {
-      throw SqlFailure(Kind::kUnavailable, std::to_string(pool.overdue.size()) + " earlier calls are still waiting for the database");
+      throw SqlFailure(Kind::kUnavailable,
+                       std::to_string(pool.overdue.size()) + " earlier calls are still waiting for the database");
     }
     if (!returned_.wait_for(lock, kWaitForConnection, [&] { return !pool.idle.empty() || pool.open < most; })) {
       throw SqlFailure(Kind::kUnavailable, "all " + std::to_string(most) + " connections were busy for too long");

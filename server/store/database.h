@@ -30,8 +30,8 @@ class Database {
 
   // Runs `body(SqlConnection&)`, which returns an Outcome, in a transaction; commits if the outcome is good. The body
   // may run more than once: again after a conflict with another transaction and, if the connection was lost before the
-  // commit was asked for, over a new one. kUnavailable also when it is not known whether the commit has happened, and when
-  // no connection was free in time.
+  // commit was asked for, over a new one. kUnavailable also when it is not known whether the commit has happened, and
+  // when no connection was free in time.
   template <typename Body>
   auto Write(Body body) {
     return Run(SqlConnection::Access::kWrite, body);

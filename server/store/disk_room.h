@@ -9,7 +9,8 @@
 
 namespace rollgait::server {
 
-// Room that is kept on a disk for the ends of solves that were accepted: new ones are refused while less is free. Immutable.
+// Room that is kept on a disk for the ends of solves that were accepted: new ones are refused while less is free.
+// Immutable.
 class DiskRoom {
  public:
   // Of a disk that is none of ours: nothing is refused.

@@ -6,9 +6,11 @@ namespace rollgait::server {
 namespace {
 
 const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
-                                                          0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
-constexpr const char* kOperations[] = {"create", "get", "list", "delete", "request_cancel", "read_events", "counts", "read_audit", "claim", "renew_lease",
-                                       "append_events", "finish", "give_back", "cancel_requests", "lease_owners", "reclaim", "retain"};
+                                                              0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
+constexpr const char* kOperations[] = {"create",        "get",    "list",       "delete",          "request_cancel",
+                                       "read_events",   "counts", "read_audit", "claim",           "renew_lease",
+                                       "append_events", "finish", "give_back",  "cancel_requests", "lease_owners",
+                                       "reclaim",       "retain"};
 
 }  // namespace
 
@@ -29,7 +31,8 @@ auto MeasuredStore::Measure(const char* op, Call call) -> decltype(call()) {
   auto outcome = call();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
   seconds_.Add({{"op", op}}, kCallSeconds).Observe(duration.count());
-  const bool failed = !outcome.ok() && (outcome.error().code == ErrorCode::kUnavailable || outcome.error().code == ErrorCode::kInternal);
+  const bool failed = !outcome.ok() &&
+                      (outcome.error().code == ErrorCode::kUnavailable || outcome.error().code == ErrorCode::kInternal);
   if (failed) errors_.Add({{"op", op}}).Increment();
   return outcome;
 }
@@ -83,7 +86,8 @@ Outcome<Removed> MeasuredStore::Retain(const RetentionLimits& limits) {
   return Measure("retain", [&] { return store_.Retain(limits); });
 }
 
-Outcome<std::optional<ClaimedSolve>> MeasuredStore::ClaimNext(const std::string& owner, std::chrono::milliseconds duration) {
+Outcome<std::optional<ClaimedSolve>> MeasuredStore::ClaimNext(const std::string& owner,
+                                                              std::chrono::milliseconds duration) {
   auto outcome = Measure("claim", [&] { return store_.ClaimNext(owner, duration); });
   if (outcome.ok() && outcome.value()) solves_.Claimed(*outcome.value());
   return outcome;

@@ -10,8 +10,9 @@
 
 namespace rollgait::server {
 
-// A store that counts and times what is asked of another: rollgait_store_seconds{op}, rollgait_store_errors_total{op} (what the store
-// could not do: kUnavailable, kInternal), and what becomes of solves (SolveMetrics). Answers and errors are those of the other.
+// A store that counts and times what is asked of another: rollgait_store_seconds{op}, rollgait_store_errors_total{op}
+// (what the store could not do: kUnavailable, kInternal), and what becomes of solves (SolveMetrics). Answers and errors
+// are those of the other.
 class MeasuredStore : public SolveStore {
  public:
   // Both outlive it.

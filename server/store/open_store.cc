@@ -31,7 +31,8 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
   return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, std::move(room));
 }
 
-Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock, std::chrono::seconds wait,
+Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock,
+                                              std::chrono::seconds wait,
                                               const std::function<bool(std::chrono::milliseconds)>& sleep) {
   const auto give_up = std::chrono::steady_clock::now() + wait;
   while (true) {

@@ -13,14 +13,15 @@
 
 namespace rollgait::server {
 
-// Opens the store, making what is missing. kUnavailable with the reason if another try may help, else another code. The clock
-// outlives it.
+// Opens the store, making what is missing. kUnavailable with the reason if another try may help, else another code. The
+// clock outlives it.
 Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, const Clock& clock);
 
-// As OpenStore, but a PostgreSQL that is unavailable is tried again every second for as long as `wait`: after a start of machines the
-// database, the network or its names may come later than their users. Every failure is a warning in the log. `sleep` returns early,
-// and false, when the program is told to stop.
-Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock, std::chrono::seconds wait,
+// As OpenStore, but a PostgreSQL that is unavailable is tried again every second for as long as `wait`: after a start
+// of machines the database, the network or its names may come later than their users. Every failure is a warning in the
+// log. `sleep` returns early, and false, when the program is told to stop.
+Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock,
+                                              std::chrono::seconds wait,
                                               const std::function<bool(std::chrono::milliseconds)>& sleep);
 constexpr int kDefaultStoreWaitSeconds = 60;
 constexpr const char* kStoreWaitHelp = "Seconds to wait at the start for a PostgreSQL that cannot be reached yet";

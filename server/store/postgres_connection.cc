@@ -30,7 +30,8 @@ constexpr char kLockSchema[] = "SELECT pg_advisory_xact_lock(7310279081)";
 // Settings of every session. Whoever stops in the middle of a transaction does not hold its locks for long, and no
 // statement works on for somebody who has given up.
 constexpr char kSettings[] =
-    "SELECT set_config('synchronous_commit', 'on', false) WHERE current_setting('synchronous_commit') IN ('off', 'local');"
+    "SELECT set_config('synchronous_commit', 'on', false) WHERE current_setting('synchronous_commit') IN ('off', "
+    "'local');"
     "SET lock_timeout = '10s'; SET statement_timeout = '25s'; SET idle_in_transaction_session_timeout = '15s';"
     "SELECT current_setting('max_connections')";
 
@@ -97,7 +98,8 @@ class PostgresStatement : public SqlStatement {
     return size == 4 ? static_cast<int32_t>(value) : static_cast<int64_t>(value);
   }
   double Double(int column) const override {
-    return std::bit_cast<double>(FromBigEndian(PQgetvalue(result(), row_, column), PQgetlength(result(), row_, column)));
+    return std::bit_cast<double>(
+        FromBigEndian(PQgetvalue(result(), row_, column), PQgetlength(result(), row_, column)));
   }
   std::string Bytes(int column) const override {
     return std::string(PQgetvalue(result(), row_, column), static_cast<size_t>(PQgetlength(result(), row_, column)));
@@ -132,14 +134,20 @@ class PostgresStatement : public SqlStatement {
 
 PGconn* ConnectPostgres(const std::string& url, const char* application_name) {
   // What stands before dbname is overridden by the URL.
-  constexpr std::array kNames = {"connect_timeout",     "target_session_attrs", "keepalives_idle", "keepalives_interval",
-                                 "keepalives_count",    "tcp_user_timeout",     "client_encoding", "fallback_application_name",
-                                 "dbname",              static_cast<const char*>(nullptr)};
-  const std::array values = {"3",     "read-write",     "5",         "2", "3", "10000", "UTF8", application_name,
+  constexpr std::array kNames = {"connect_timeout",  "target_session_attrs",
+                                 "keepalives_idle",  "keepalives_interval",
+                                 "keepalives_count", "tcp_user_timeout",
+                                 "client_encoding",  "fallback_application_name",
+                                 "dbname",           static_cast<const char*>(nullptr)};
+  const std::array values = {"3",         "read-write",
+                             "5",         "2",
+                             "3",         "10000",
+                             "UTF8",      application_name,
                              url.c_str(), static_cast<const char*>(nullptr)};
   PGconn* handle = PQconnectdbParams(kNames.data(), values.data(), 1);
   ROLLGAIT_CHECK(handle != nullptr);
-  PQsetNoticeProcessor(handle, [](void*, const char*) {}, nullptr);
+  PQsetNoticeProcessor(
+      handle, [](void*, const char*) {}, nullptr);
   return handle;
 }
 
@@ -193,7 +201,8 @@ void PostgresConnection::Commit() {
     throw;
   }
   transaction_ = Transaction::kNone;
-  const bool committed = std::strcmp(PQcmdStatus(run->result.get()), kCommit) == 0;  // else it was rolled back, without an error
+  const bool committed =
+      std::strcmp(PQcmdStatus(run->result.get()), kCommit) == 0;  // else it was rolled back, without an error
   if (!committed) throw SqlFailure(SqlFailure::Kind::kConflict, "the transaction was rolled back");
 }
 

@@ -20,8 +20,9 @@ class PostgresStatement;
 // status CONNECTION_BAD if that failed; never null.
 PGconn* ConnectPostgres(const std::string& url, const char* application_name);
 
-// A connection to PostgreSQL. Its lease clock is the database's. Statements go out together: BEGIN and all that is deferred
-// with the next one whose answer is read, the rest with COMMIT. So a transaction that reads, decides and writes waits twice.
+// A connection to PostgreSQL. Its lease clock is the database's. Statements go out together: BEGIN and all that is
+// deferred with the next one whose answer is read, the rest with COMMIT. So a transaction that reads, decides and
+// writes waits twice.
 class PostgresConnection : public SqlConnection {
  public:
   // How long an answer is waited for. A commit waits for synchronous standbys, and without limit if there is none.

@@ -106,8 +106,8 @@ bool PostgresHints::SendWaiting() {
   for (const std::string& channel : send_) {
     const char* values[] = {channel.c_str(), ids.c_str()};
     PGresult* result =
-        PQexecParams(handle_, "SELECT pg_notify($1::text, id) FROM unnest(string_to_array($2::text, ',')) AS id", 2, nullptr,
-                     values, nullptr, nullptr, 0);
+        PQexecParams(handle_, "SELECT pg_notify($1::text, id) FROM unnest(string_to_array($2::text, ',')) AS id", 2,
+                     nullptr, values, nullptr, nullptr, 0);
     const bool sent = PQresultStatus(result) == PGRES_TUPLES_OK;
     PQclear(result);
     if (!sent) return false;

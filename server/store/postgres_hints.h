@@ -1,14 +1,14 @@
 #ifndef ROLLGAIT_SERVER_STORE_POSTGRES_HINTS_H_
 #define ROLLGAIT_SERVER_STORE_POSTGRES_HINTS_H_
 
+#include <libpq-fe.h>
+
 #include <atomic>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
-
-#include <libpq-fe.h>
 
 #include "server/base/hint_channel.h"
 

@@ -51,7 +51,8 @@ std::shared_ptr<PostgresRun> PostgresPipeline::Add(PostgresPrepared& statement, 
   const int count = static_cast<int>(values.bytes.size());
   synchronized_ = false;
   if (!statement.sent) {
-    if (PQsendPrepare(handle_, statement.name.c_str(), statement.text.c_str(), count, values.types.data()) != 1) ThrowLost();
+    if (PQsendPrepare(handle_, statement.name.c_str(), statement.text.c_str(), count, values.types.data()) != 1)
+      ThrowLost();
     statement.sent = true;
     due_.push_back({statement.sql, nullptr, &statement});
   }
@@ -61,7 +62,8 @@ std::shared_ptr<PostgresRun> PostgresPipeline::Add(PostgresPrepared& statement, 
     bytes.push_back(value.data());
     lengths.push_back(static_cast<int>(value.size()));
   }
-  if (PQsendQueryPrepared(handle_, statement.name.c_str(), count, bytes.data(), lengths.data(), formats.data(), 1) != 1) {
+  if (PQsendQueryPrepared(handle_, statement.name.c_str(), count, bytes.data(), lengths.data(), formats.data(), 1) !=
+      1) {
     ThrowLost();
   }
   due_.push_back({statement.sql, std::make_shared<PostgresRun>()});

@@ -38,8 +38,9 @@ struct PostgresRun {
   PostgresResult result = nullptr;  // once it is answered
 };
 
-// Statements on their way over one connection, and the answers to them: libpq's pipeline mode. Add only sends; Settle waits
-// for all that is unanswered, once. No wait is without a limit, and all but Push throw SqlFailure. One thread at a time.
+// Statements on their way over one connection, and the answers to them: libpq's pipeline mode. Add only sends; Settle
+// waits for all that is unanswered, once. No wait is without a limit, and all but Push throw SqlFailure. One thread at
+// a time.
 class PostgresPipeline {
  public:
   // The connection is open, without statements under way; it outlives this.
@@ -48,11 +49,11 @@ class PostgresPipeline {
   PostgresPipeline& operator=(const PostgresPipeline&) = delete;
 
   std::shared_ptr<PostgresRun> Add(PostgresPrepared& statement, const PostgresValues& values);
-  // All that was added is answered afterwards. Throws the first failure; what was added after the failing statement, up to
-  // the next Push, has not been done. No answer within the limit: kUnavailable, and the connection is lost.
+  // All that was added is answered afterwards. Throws the first failure; what was added after the failing statement, up
+  // to the next Push, has not been done. No answer within the limit: kUnavailable, and the connection is lost.
   void Settle(std::chrono::milliseconds limit);
-  // Does not wait: the answers come with the next Settle, in which those to what was added so far do not count as failures.
-  // What is added afterwards runs even if one of these fails.
+  // Does not wait: the answers come with the next Settle, in which those to what was added so far do not count as
+  // failures. What is added afterwards runs even if one of these fails.
   void Push() noexcept;
   // Statements without parameters, which need not be one. Returns the first column of the last row, if there is one.
   std::string RunText(const std::string& text, std::chrono::milliseconds limit);

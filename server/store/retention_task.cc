@@ -35,7 +35,8 @@ void RetentionTask::Clean() {
     if (!Pause(std::chrono::milliseconds(20))) break;
   }
   if (all.any()) {
-    spdlog::info("retention removed {} solves, {} event logs, {} audit rows", all.solves, all.event_logs, all.audit_rows);
+    spdlog::info("retention removed {} solves, {} event logs, {} audit rows", all.solves, all.event_logs,
+                 all.audit_rows);
   }
 }
 

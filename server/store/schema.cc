@@ -155,7 +155,8 @@ ALTER TABLE results ADD COLUMN termination BIGINT NOT NULL DEFAULT 0;
 ALTER TABLE results ADD COLUMN verdict BIGINT NOT NULL DEFAULT 0;
 )";
 
-// The termination is the first field of a v1::SolveResult: the byte of its tag, then its number. Older results have no verdict.
+// The termination is the first field of a v1::SolveResult: the byte of its tag, then its number. Older results have no
+// verdict.
 void From3To4(SqlConnection& connection) {
   connection.Execute(kOutcomes);
   std::vector<std::pair<int64_t, int64_t>> terminations;

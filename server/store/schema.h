@@ -8,8 +8,8 @@ namespace rollgait::server {
 inline constexpr int kSchemaVersion = 4;
 
 // Makes the tables in an empty database and brings those of an older version up to this one, in one transaction; leaves
-// tables of this version alone. Throws SqlFailure, also for tables of a newer version. Processes may call it at the same
-// time.
+// tables of this version alone. Throws SqlFailure, also for tables of a newer version. Processes may call it at the
+// same time.
 void EnsureSchema(SqlConnection& connection);
 
 }  // namespace rollgait::server

@@ -10,7 +10,8 @@
 namespace rollgait::server {
 namespace {
 
-const prometheus::Histogram::BucketBoundaries kSolveSeconds = {0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 120, 300, 600, 1800, 3600};
+const prometheus::Histogram::BucketBoundaries kSolveSeconds = {0.05, 0.1, 0.25, 0.5, 1,   2.5,  5,   10,
+                                                               30,   60,  120,  300, 600, 1800, 3600};
 
 // "TIME_LIMIT" of TERMINATION_TIME_LIMIT or KIND_TIME_LIMIT as "time_limit".
 std::string Label(const std::string& name, const std::string& prefix) {
@@ -42,10 +43,13 @@ SolveMetrics::SolveMetrics(Metrics& metrics)
       seconds_(HistogramFamily(metrics, "rollgait_solve_seconds", "From the claim of a solve to its stored end, in s")),
       queued_(CounterFamily(metrics, "rollgait_solves_created_total", "Solves created").Add({{"source", "queue"}})),
       from_cache_(CounterFamily(metrics, "rollgait_solves_created_total", "Solves created").Add({{"source", "cache"}})),
-      cache_hits_(CounterFamily(metrics, "rollgait_cache_hits_total", "Requests answered from a stored result").Add({})),
-      lease_lost_(CounterFamily(metrics, "rollgait_lease_lost_total", "Writes refused because the lease was lost").Add({})),
+      cache_hits_(
+          CounterFamily(metrics, "rollgait_cache_hits_total", "Requests answered from a stored result").Add({})),
+      lease_lost_(
+          CounterFamily(metrics, "rollgait_lease_lost_total", "Writes refused because the lease was lost").Add({})),
       leases_(GaugeFamily(metrics, "rollgait_leases", "Solves that this process works on").Add({})) {
-  for (const char* reason : {"crash", "agent_stopped", "agent_died", "lease_expired"}) retries_.Add({{"reason", reason}});
+  for (const char* reason : {"crash", "agent_stopped", "agent_died", "lease_expired"})
+    retries_.Add({{"reason", reason}});
 }
 
 void SolveMetrics::Created(bool from_cache) {
@@ -79,7 +83,9 @@ void SolveMetrics::CountEnd(const Run& run, SolveState state, const std::string&
   seconds_.Add({{"model", run.model}, {"termination", termination}}, kSolveSeconds).Observe(duration.count());
 }
 
-void SolveMetrics::Finished(const Lease& lease, const SolveEnd& end) { CountEnd(Take(lease), end.state, TerminationOf(end)); }
+void SolveMetrics::Finished(const Lease& lease, const SolveEnd& end) {
+  CountEnd(Take(lease), end.state, TerminationOf(end));
+}
 
 void SolveMetrics::GivenBack(const Lease& lease, GiveBackReason reason, SolveState now) {
   const Run run = Take(lease);

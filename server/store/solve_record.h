@@ -34,10 +34,11 @@ struct SolveRecord {
   bool from_cache = false;
   int64_t last_sequence = 0;     // number of its newest event
   int64_t trimmed_sequence = 0;  // events up to here are no longer held
-  std::string result;         // v1::SolveResult; empty unless kSucceeded
-  // What the result says, also where it is left out: v1::Termination, v1::Verdict. 0: no result, or written before they were kept.
+  std::string result;            // v1::SolveResult; empty unless kSucceeded
+  // What the result says, also where it is left out: v1::Termination, v1::Verdict. 0: no result, or written before they
+  // were kept.
   int termination = 0, verdict = 0;
-  std::string error;          // v1::SolveError; empty unless kFailed or kCancelled
+  std::string error;  // v1::SolveError; empty unless kFailed or kCancelled
 };
 
 struct NewSolve {
@@ -45,7 +46,7 @@ struct NewSolve {
   std::string request_id;  // of its tenant; empty: none
   std::string spec;
   std::string solve_key;
-  int max_queued = 1000;       // refuse with kResourceExhausted if so many are queued already
+  int max_queued = 1000;        // refuse with kResourceExhausted if so many are queued already
   std::string warm_start = {};  // wire::WarmStart, kept until the solve ends; empty: none
   Actor actor = {};             // its tenant is the solve's
   int max_queued_tenant = 0;    // the same limit for the tenant alone; 0: none

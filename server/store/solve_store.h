@@ -13,8 +13,8 @@
 namespace rollgait::server {
 
 // Where solves live. Every call is one transaction and durable when it returns; any number of threads and processes may
-// call. Every call may also fail with kUnavailable (also: it may have happened), kResourceExhausted (no room on the disk)
-// or kInternal. What a person or an agent changes leaves a row in `audit` with it.
+// call. Every call may also fail with kUnavailable (also: it may have happened), kResourceExhausted (no room on the
+// disk) or kInternal. What a person or an agent changes leaves a row in `audit` with it.
 //
 // Single flight: a queued solve is not claimed while a solve of the same key runs; when that one ends with a reusable
 // result, the queued ones of its key end with it (from_cache).

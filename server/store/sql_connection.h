@@ -32,7 +32,8 @@ struct Blob {
   const std::string& bytes;
 };
 
-// A prepared statement of one connection, in one run at a time. Parameters count from 1, columns from 0. All but Reset throw.
+// A prepared statement of one connection, in one run at a time. Parameters count from 1, columns from 0. All but Reset
+// throw.
 class SqlStatement {
  public:
   virtual ~SqlStatement() = default;
@@ -40,8 +41,8 @@ class SqlStatement {
   virtual void Bind(int index, double value) = 0;
   virtual void Bind(int index, const std::string& text) = 0;
   virtual void Bind(int index, const Blob& blob) = 0;
-  // All is bound, and Step will follow or not. An engine that is far away is asked now and answers with the first Step of
-  // any statement: so questions that are put before the first of them is read cost one wait together.
+  // All is bound, and Step will follow or not. An engine that is far away is asked now and answers with the first Step
+  // of any statement: so questions that are put before the first of them is read cost one wait together.
   virtual void Ask() = 0;
   // All is bound, and nobody wants to see the answer: the statement takes effect after those before it and before those
   // after it, and fails (the transaction with it) at once, with a later Step, or with Commit. Resets.
@@ -95,8 +96,8 @@ class SqlConnection {
   virtual bool HasSchema() = 0;
 };
 
-// One run of a prepared statement: Query(connection, "... ? ... ?", text, number).Step(). The text must be a literal. Queries
-// made one after the other before the first Step share its wait.
+// One run of a prepared statement: Query(connection, "... ? ... ?", text, number).Step(). The text must be a literal.
+// Queries made one after the other before the first Step share its wait.
 class Query {
  public:
   template <typename... Values>
@@ -111,8 +112,7 @@ class Query {
   bool Step() { return statement_.Step(); }
   // Runs to the end and returns the number of rows changed.
   int Run() {
-    while (statement_.Step()) {
-    }
+    while (statement_.Step()) continue;
     return statement_.changes();
   }
   // Runs a statement whose answer nobody wants; see SqlStatement::Defer.

@@ -87,8 +87,8 @@ void SaveSolve(SqlConnection& connection, const SolveRow& row) {
             "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
             "owner = NULLIF(?, ''), epoch = ?, bytes = ? WHERE number = ?",
             static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
-            record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error}, row.owner,
-            row.epoch, row.bytes, row.number);
+            record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error},
+            row.owner, row.epoch, row.bytes, row.number);
 }
 
 void CountEvent(SolveRow& row, const std::string& payload) {
@@ -97,8 +97,8 @@ void CountEvent(SolveRow& row, const std::string& payload) {
 }
 
 void InsertEvent(SqlConnection& connection, int64_t solve, const StoredEvent& event) {
-  Query::Do(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", solve, event.sequence,
-            static_cast<int>(event.kind), Blob{event.payload});
+  Query::Do(connection, "INSERT INTO events (solve, sequence, kind, payload) VALUES (?, ?, ?, ?)", solve,
+            event.sequence, static_cast<int>(event.kind), Blob{event.payload});
 }
 
 void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const std::string& payload) {
@@ -120,8 +120,8 @@ void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, con
   AppendEvent(connection, row, EventKind::kStateChange, StateChangeEvent(row, detail, now_us));
 }
 
-void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
-              const std::string& error, int64_t now_us) {
+void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id, const std::string& error,
+              int64_t now_us) {
   row.record.state = state;
   row.record.end_time_us = now_us;
   row.record.error = error;
@@ -155,8 +155,8 @@ void AddAudit(SqlConnection& connection, const AuditEntry& entry, int64_t now_us
   Query::Do(connection,
             "INSERT INTO audit (time_us, tenant, token_id, peer, action, solve, outcome, detail) "
             "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-            now_us, entry.actor.tenant, entry.actor.token_id, entry.actor.peer, entry.action, entry.solve, entry.outcome,
-            entry.detail);
+            now_us, entry.actor.tenant, entry.actor.token_id, entry.actor.peer, entry.action, entry.solve,
+            entry.outcome, entry.detail);
 }
 
 std::string CancelledError() {

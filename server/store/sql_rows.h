@@ -10,8 +10,8 @@
 
 namespace rollgait::server {
 
-// A row of `solves` but for when its lease ends, which means something while it runs only. Read, changed and written back
-// (SaveSolve) within one transaction. The record's `result` is not part of it.
+// A row of `solves` but for when its lease ends, which means something while it runs only. Read, changed and written
+// back (SaveSolve) within one transaction. The record's `result` is not part of it.
 struct SolveRow {
   int64_t number = 0;
   int64_t result_id = 0;  // 0: none
@@ -24,11 +24,11 @@ struct SolveRow {
 // Columns of `solves` in the order that ReadSolve takes them.
 #define ROLLGAIT_SOLVE_COLUMNS                                                                          \
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
-  "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, " \
+  "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, "                       \
   "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
 inline constexpr int kSolveColumns = 22;
 // Behind them, where a query asks for them: what is known of the result without reading it.
-#define ROLLGAIT_OUTCOME_COLUMNS                                       \
+#define ROLLGAIT_OUTCOME_COLUMNS                                      \
   ", (SELECT r.termination FROM results AS r WHERE r.id = result_id)" \
   ", (SELECT r.verdict FROM results AS r WHERE r.id = result_id) "
 inline constexpr int kSolveAndOutcomeColumns = kSolveColumns + 2;
@@ -48,7 +48,8 @@ std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& 
 // Writes everything that can change. Nothing here that writes waits for the answer (Query::Do).
 void SaveSolve(SqlConnection& connection, const SolveRow& row);
 
-// Counts an event with this payload, which has row.record.last_sequence from then on; the row is to be saved afterwards.
+// Counts an event with this payload, which has row.record.last_sequence from then on; the row is to be saved
+// afterwards.
 void CountEvent(SolveRow& row, const std::string& payload);
 void InsertEvent(SqlConnection& connection, int64_t solve, const StoredEvent& event);
 // Both.
@@ -58,12 +59,11 @@ void AppendEvent(SqlConnection& connection, SolveRow& row, EventKind kind, const
 std::string StateChangeEvent(const SolveRow& row, const std::string& detail, int64_t now_us);
 
 // Sets the state and appends its event.
-void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail,
-                 int64_t now_us);
+void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail, int64_t now_us);
 
 // Ends the solve: state, end time, terminal event, no lease; saves the row. `result_id` 0 and `error` empty: none.
-void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id,
-              const std::string& error, int64_t now_us);
+void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id, const std::string& error,
+              int64_t now_us);
 
 // Puts a running solve back into the queue, or ends it if it was to be cancelled; saves the row.
 void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us);

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "server/store/page_token.h"
-#include "server/store/sql_rows.h"
 #include "server/store/schema.h"
+#include "server/store/sql_rows.h"
 
 namespace rollgait::server {
 namespace {
@@ -71,7 +71,7 @@ Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) 
 }  // namespace
 
 Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> database, const Clock& clock,
-                                                           DiskRoom room) {
+                                                  DiskRoom room) {
   const Outcome<Done> ready = database->PrepareSchema();
   if (!ready.ok()) {
     return Error{ready.error().code, "cannot use the store " + database->name() + ": " + ready.error().message};
@@ -175,10 +175,10 @@ Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_seq
     page.state = static_cast<SolveState>(solve.Int(1));
     const int64_t trimmed = solve.Int(2);
     if (after_sequence >= 0 && after_sequence < trimmed) {
-      return Error{ErrorCode::kOutOfRange,
-                   "after_sequence is " + std::to_string(after_sequence) + ", the oldest event held of solves/" + id +
-                       " is " + std::to_string(trimmed + 1) + "; watch after " + std::to_string(trimmed) +
-                       " or a later one"};
+      return Error{ErrorCode::kOutOfRange, "after_sequence is " + std::to_string(after_sequence) +
+                                               ", the oldest event held of solves/" + id + " is " +
+                                               std::to_string(trimmed + 1) + "; watch after " +
+                                               std::to_string(trimmed) + " or a later one"};
     }
     if (after_sequence < 0 || after_sequence > page.last_sequence) {
       return Error{ErrorCode::kOutOfRange,

@@ -17,8 +17,8 @@ namespace rollgait::server {
 // SQLite, on any for PostgreSQL. Leases expire by {now_ns} of sql_dialect.h.
 class SqlStore : public SolveStore {
  public:
-  // Makes the tables or brings them up to date; kUnavailable with the reason if that fails. New solves are refused when there is no
-  // room. The clock outlives the store.
+  // Makes the tables or brings them up to date; kUnavailable with the reason if that fails. New solves are refused when
+  // there is no room. The clock outlives the store.
   static Outcome<std::unique_ptr<SqlStore>> Open(std::unique_ptr<Database> database, const Clock& clock,
                                                  DiskRoom room = {});
 

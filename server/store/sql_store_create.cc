@@ -14,12 +14,12 @@ using LockMode = SqlConnection::LockMode;
 struct Questions {
   Questions(SqlConnection& connection, const NewSolve& solve);
 
-  std::optional<Query> earlier;       // the solve that its tenant made before with this request_id, with its result
-  std::optional<Query> reusable;      // a result of the same key
-  std::optional<Query> equal;         // a solve of the same key that has not ended
-  std::optional<Query> queued;        // how many are
+  std::optional<Query> earlier;        // the solve that its tenant made before with this request_id, with its result
+  std::optional<Query> reusable;       // a result of the same key
+  std::optional<Query> equal;          // a solve of the same key that has not ended
+  std::optional<Query> queued;         // how many are
   std::optional<Query> queued_tenant;  // how many of the tenant
-  std::optional<Query> number;        // of the new one
+  std::optional<Query> number;         // of the new one
 };
 
 Questions::Questions(SqlConnection& connection, const NewSolve& solve) {
@@ -31,9 +31,10 @@ Questions::Questions(SqlConnection& connection, const NewSolve& solve) {
                     solve.actor.tenant, solve.request_id);
   }
   if (!solve.solve_key.empty()) {
-    reusable.emplace(connection,
-                     "SELECT id, payload, termination, verdict FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1",
-                     solve.solve_key);
+    reusable.emplace(
+        connection,
+        "SELECT id, payload, termination, verdict FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1",
+        solve.solve_key);
     equal.emplace(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
                   solve.solve_key);
   }
@@ -106,12 +107,13 @@ void Insert(SqlConnection& connection, const NewSolve& solve, const std::string&
   SolveRecord& record = row.record;
   const std::string event = StateChangeEvent(row, detail, record.create_time_us);
   CountEvent(row, event);
-  Query::Do(connection,
-            "INSERT INTO solves (number, id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
-            "create_time_us, last_sequence, bytes) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, ?)",
-            row.number, record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
-            record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
-            record.last_sequence, row.bytes);
+  Query::Do(
+      connection,
+      "INSERT INTO solves (number, id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
+      "create_time_us, last_sequence, bytes) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, ?)",
+      row.number, record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
+      record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
+      record.last_sequence, row.bytes);
   InsertEvent(connection, row.number, {record.last_sequence, EventKind::kStateChange, event});
   if (solve.warm_start.empty()) return;
   Query::Do(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start});

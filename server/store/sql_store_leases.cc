@@ -20,8 +20,8 @@ Error LeaseLost(const Lease& lease) {
 
 // Asks for the solve of a lease, if that is still held.
 Query AskLeased(SqlConnection& connection, const Lease& lease) {
-  return Query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves " ROLLGAIT_IS_LEASED "{for_update}", lease.solve_id,
-               lease.owner, lease.epoch);
+  return Query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves " ROLLGAIT_IS_LEASED "{for_update}",
+               lease.solve_id, lease.owner, lease.epoch);
 }
 
 // Those that are not held already; see SolveStore::AppendEvents. The row is to be saved afterwards.
@@ -38,7 +38,8 @@ class Appender {
   // Only what events change is read: a spec may be large.
   void Ask(SqlConnection& connection, const Lease& lease) {
     leased_.emplace_back(connection,
-                         "SELECT number, last_sequence, bytes, cancel_requested FROM solves " ROLLGAIT_IS_LEASED "{for_update}",
+                         "SELECT number, last_sequence, bytes, cancel_requested FROM solves " ROLLGAIT_IS_LEASED
+                         "{for_update}",
                          lease.solve_id, lease.owner, lease.epoch);
   }
   // Of the first that was asked for and not written. Writes nothing if the lease is lost.
@@ -100,7 +101,8 @@ struct Candidate {
 std::optional<Candidate> NextQueued(SqlConnection& connection) {
   Query query(connection,
               "SELECT " ROLLGAIT_SOLVE_COLUMNS
-              ", (SELECT MIN(r.id) FROM results AS r WHERE r.solve_key = s.solve_key AND s.solve_key <> '' AND r.reusable = 1), "
+              ", (SELECT MIN(r.id) FROM results AS r WHERE r.solve_key = s.solve_key AND s.solve_key <> '' AND "
+              "r.reusable = 1), "
               "COALESCE((SELECT t.max_running FROM tenants AS t WHERE t.tenant = s.tenant), -1), "
               "(SELECT w.payload FROM warm_starts AS w WHERE w.solve = s.number) "
               "FROM solves AS s WHERE state = 1 AND (solve_key = '' OR NOT EXISTS "
@@ -109,7 +111,8 @@ std::optional<Candidate> NextQueued(SqlConnection& connection) {
               "AND t.max_running <= (SELECT COUNT(*) FROM solves AS b WHERE b.tenant = s.tenant AND b.state = 2)) "
               "ORDER BY number LIMIT 1 {skip_locked}");
   if (!query.Step()) return std::nullopt;
-  return Candidate{ReadSolve(query), query.Int(kSolveColumns), query.Int(kSolveColumns + 1), query.Bytes(kSolveColumns + 2)};
+  return Candidate{ReadSolve(query), query.Int(kSolveColumns), query.Int(kSolveColumns + 1),
+                   query.Bytes(kSolveColumns + 2)};
 }
 
 // Others may have claimed for the same tenant meanwhile: counts again, alone (the count comes after the lock). Throws a
@@ -124,8 +127,7 @@ void CheckTenantHasRoom(SqlConnection& connection, const std::string& tenant) {
 
 }  // namespace
 
-Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owner,
-                                                            std::chrono::milliseconds duration) {
+Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owner, std::chrono::milliseconds duration) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<ClaimedSolve>> {
     const int64_t now_us = clock_.WallMicros();
     std::optional<Candidate> next = NextQueued(connection);
@@ -186,7 +188,8 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
   ROLLGAIT_CHECK(IsTerminal(end.state));
   const bool succeeded = end.state == SolveState::kSucceeded;
   v1::SolveResult result;
-  if (!result.ParseFromString(end.result)) result.Clear();  // stored all the same; whoever reads it says that it cannot be read
+  if (!result.ParseFromString(end.result))
+    result.Clear();  // stored all the same; whoever reads it says that it cannot be read
   return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
     Query leased = AskLeased(connection, lease);
     std::optional<Query> next_result, equal;
@@ -207,7 +210,9 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
     if (next_result.has_value()) {
       ROLLGAIT_CHECK(next_result->Step());
       result_id = next_result->Int(0);
-      Query::Do(connection, "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, ?, ?, ?, ?, ?)",
+      Query::Do(connection,
+                "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, "
+                "?, ?, ?, ?, ?)",
                 result_id, key, end.reusable && !key.empty(), Blob{end.result}, static_cast<int>(result.termination()),
                 static_cast<int>(result.accuracy().verdict()));
       row.bytes += static_cast<int64_t>(end.result.size());
@@ -259,10 +264,9 @@ Outcome<std::vector<LeaseOwner>> SqlStore::LeaseOwners() {
 
 Outcome<std::vector<std::string>> SqlStore::ReclaimExpired() {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
-    Query query(connection,
-                "SELECT " ROLLGAIT_SOLVE_COLUMNS
-                "FROM solves WHERE state = 2 AND (lease_boot_id <> {boot_id} OR lease_end_ns < {now_ns}) "
-                "ORDER BY number {skip_locked}");
+    Query query(connection, "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                            "FROM solves WHERE state = 2 AND (lease_boot_id <> {boot_id} OR lease_end_ns < {now_ns}) "
+                            "ORDER BY number {skip_locked}");
     return RequeueAll(connection, AllRows(query), "its lease expired", clock_.WallMicros());
   });
 }
@@ -270,7 +274,8 @@ Outcome<std::vector<std::string>> SqlStore::ReclaimExpired() {
 Outcome<std::vector<std::string>> SqlStore::ReclaimOwner(const std::string& owner) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::vector<std::string>> {
     Query query(connection,
-                "SELECT " ROLLGAIT_SOLVE_COLUMNS "FROM solves WHERE state = 2 AND owner = ? ORDER BY number {skip_locked}",
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                "FROM solves WHERE state = 2 AND owner = ? ORDER BY number {skip_locked}",
                 owner);
     return RequeueAll(connection, AllRows(query), "its agent died", clock_.WallMicros());
   });

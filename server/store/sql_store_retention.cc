@@ -66,7 +66,8 @@ int TrimEvents(SqlConnection& connection, int64_t before_us) {
   for (const SolveRow& row : rows) {
     const int64_t last = row.record.last_sequence - 1;
     Query::Do(connection,
-              "UPDATE solves SET trimmed_sequence = ?, bytes = bytes - CAST(COALESCE((SELECT SUM(LENGTH(payload)) FROM events "
+              "UPDATE solves SET trimmed_sequence = ?, bytes = bytes - CAST(COALESCE((SELECT SUM(LENGTH(payload)) FROM "
+              "events "
               "WHERE solve = ? AND sequence <= ?), 0) AS BIGINT) WHERE number = ?",
               last, row.number, last, row.number);
     Query::Do(connection, "DELETE FROM events WHERE solve = ? AND sequence <= ?", row.number, last);

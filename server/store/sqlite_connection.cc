@@ -122,8 +122,10 @@ SqliteConnection::~SqliteConnection() {
 
 void SqliteConnection::AddClockFunctions() {
   void* clock = const_cast<Clock*>(&clock_);
-  if (sqlite3_create_function_v2(handle_, "boot_id", 0, SQLITE_UTF8, clock, PutBootId, nullptr, nullptr, nullptr) != SQLITE_OK ||
-      sqlite3_create_function_v2(handle_, "boot_ns", 0, SQLITE_UTF8, clock, PutBootNanos, nullptr, nullptr, nullptr) != SQLITE_OK) {
+  if (sqlite3_create_function_v2(handle_, "boot_id", 0, SQLITE_UTF8, clock, PutBootId, nullptr, nullptr, nullptr) !=
+          SQLITE_OK ||
+      sqlite3_create_function_v2(handle_, "boot_ns", 0, SQLITE_UTF8, clock, PutBootNanos, nullptr, nullptr, nullptr) !=
+          SQLITE_OK) {
     Throw("boot_id, boot_ns");
   }
 }
@@ -136,7 +138,9 @@ void SqliteConnection::Execute(const std::string& sql) {
   if (sqlite3_exec(handle_, Translate(sql, kSqliteDialect).c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Throw(sql);
 }
 
-void SqliteConnection::Begin(Access access) { Query(*this, access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN").Run(); }
+void SqliteConnection::Begin(Access access) {
+  Query(*this, access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN").Run();
+}
 
 void SqliteConnection::Commit() { Query(*this, "COMMIT").Run(); }
 

@@ -17,8 +17,8 @@ class SqliteStatement;
 // A connection to an SQLite file. Its lease clock is the machine's time since boot.
 class SqliteConnection : public SqlConnection {
  public:
-  // Opens or creates the file in WAL mode with synchronous=FULL; waits up to five seconds for other writers. Throws. The
-  // clock outlives it.
+  // Opens or creates the file in WAL mode with synchronous=FULL; waits up to five seconds for other writers. Throws.
+  // The clock outlives it.
   SqliteConnection(const std::string& path, const Clock& clock);
   SqliteConnection(const SqliteConnection&) = delete;
   SqliteConnection& operator=(const SqliteConnection&) = delete;

@@ -14,8 +14,9 @@ Outcome<StoreLocation> LocateStore(const std::string& flag, const std::string& d
     return location;
   }
   if (!IsPostgresUrl(flag)) {
-    return Error{ErrorCode::kInvalidArgument, "--store " + WithoutPassword(flag) +
-                                                  " is not postgresql://...; leave it out for an SQLite file in --data-dir"};
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "--store " + WithoutPassword(flag) + " is not postgresql://...; leave it out for an SQLite file in --data-dir"};
   }
   const Outcome<Done> readable = CheckPostgresUrl(flag);
   if (!readable.ok()) {

@@ -14,7 +14,7 @@ struct StoreLocation {
   std::string postgres_url = {};  // empty: SQLite
   int connections = 8;            // most at once for writing, and as many for reading; SQLite has one writer
 
-  int64_t reserve_bytes = 0;       // SQLite: new solves are refused while the disk has less free
+  int64_t reserve_bytes = 0;  // SQLite: new solves are refused while the disk has less free
 
   bool is_postgres() const { return !postgres_url.empty(); }
   // For logs: without a password.

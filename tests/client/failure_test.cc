@@ -62,9 +62,11 @@ TEST(DescribeTest, ARefusedSlopeNamesTheUnitInWhichItWasGiven) {
   }
   google::rpc::Status rich;
   rich.add_details()->PackFrom(refused);
-  const std::string text =
-      Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "", rich.SerializeAsString()), "create the solve", "host:1");
-  EXPECT_THAT(text, testing::HasSubstr("\n  spec.slope_rad: 2 is outside its range (1 rad = 57.3 degrees, in which --slope is given)\n"));
+  const std::string text = Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "", rich.SerializeAsString()),
+                                    "create the solve", "host:1");
+  EXPECT_THAT(text,
+              testing::HasSubstr(
+                  "\n  spec.slope_rad: 2 is outside its range (1 rad = 57.3 degrees, in which --slope is given)\n"));
   EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 2 is outside its range\n"));
 }
 
@@ -94,7 +96,8 @@ TEST(FailureTest, WhatTlsRefusesIsSaidInWords) {
   const auto text = [](const std::string& message) {
     return Describe({grpc::StatusCode::UNAVAILABLE, message}, "ask the server", "gait.example:50051");
   };
-  EXPECT_NE(text("Ssl handshake failed: error:0A000086:SSL routines::certificate verify failed").find("--tls-ca"), std::string::npos);
+  EXPECT_NE(text("Ssl handshake failed: error:0A000086:SSL routines::certificate verify failed").find("--tls-ca"),
+            std::string::npos);
   EXPECT_NE(text("error:0A00010B:SSL routines::wrong version number").find("does not speak TLS"), std::string::npos);
   EXPECT_NE(text("Peer name gait.example is not in peer certificate").find("another name"), std::string::npos);
   EXPECT_NE(text("Socket closed").find("If it speaks TLS"), std::string::npos);

@@ -78,8 +78,8 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
     return Refusal(
         {{"slope_rad", "is 0.873, must be in [-0.785, 0.785]"}, {"motion.speed_m_s", "is 9, must be in (0, 4]"}});
   }
-  if (model != "planar" && model != "infeasible" && model != "crash" && model != "endless" &&
-      model != "inaccurate" && model != "draft") {
+  if (model != "planar" && model != "infeasible" && model != "crash" && model != "endless" && model != "inaccurate" &&
+      model != "draft") {
     return Refusal({{"model.name", "is \"" + model + "\", must be one of planar"}});
   }
   Record record;

@@ -21,8 +21,8 @@ namespace rollgait::client {
 // model's name. Thread-safe.
 class FakeGaitService : public v1::GaitService::Service {
  public:
-  // Streams break after the event with this number, once for each entry: with UNAVAILABLE, and every other time with CANCELLED,
-  // as gRPC ends what a stopping server has not taken up.
+  // Streams break after the event with this number, once for each entry: with UNAVAILABLE, and every other time with
+  // CANCELLED, as gRPC ends what a stopping server has not taken up.
   void BreakAfter(std::multiset<int64_t> sequences);
   // Number of iterations of every solve made from now on; 5 if not called.
   void SetIterations(int iterations) { iterations_ = iterations; }

@@ -43,10 +43,11 @@ v1::AccuracyReport SampleAccuracy() {
   accuracy.set_verdict(v1::VERDICT_WITHIN);
   AddCriterion(accuracy, "max_gap_m", "gap of a contact that rolls", "m", 3.2e-5, 1e-4, "left_foot");
   AddCriterion(accuracy, "max_slip_m_s", "slip of a contact that rolls", "m/s", 4.1e-4, 1e-3, "left_foot");
-  AddCriterion(accuracy, "max_position_defect", "difference of positions after re-integration of an interval", "rad or m", 2.1e-6,
-               5e-3, "knee_l");
+  AddCriterion(accuracy, "max_position_defect", "difference of positions after re-integration of an interval",
+               "rad or m", 2.1e-6, 5e-3, "knee_l");
   AddCriterion(accuracy, "max_range_excess", "joint past its range", "rad or m", 1.1e-4, 8.7266e-4, "knee_l");
-  AddCriterion(accuracy, "max_pull_bw", "normal force below its least value, over body weight", "1", 2e-4, 1e-3, "right_foot");
+  AddCriterion(accuracy, "max_pull_bw", "normal force below its least value, over body weight", "1", 2e-4, 1e-3,
+               "right_foot");
   return accuracy;
 }
 

@@ -10,8 +10,8 @@ void SetShape(v1::Matrix* matrix, int columns) {
   matrix->set_columns(columns);
 }
 
-// The right foot takes over the weight in the first tenth of the cycle and gives it back between 50 and 60 %; the left foot does so
-// half a cycle later. The centre of pressure goes forward by 0.2 m through stance.
+// The right foot takes over the weight in the first tenth of the cycle and gives it back between 50 and 60 %; the left
+// foot does so half a cycle later. The centre of pressure goes forward by 0.2 m through stance.
 void FillFoot(const v1::Model& model, v1::Foot side, v1::FootOnGround& foot) {
   foot.set_foot(side);
   foot.add_contacts(side == v1::FOOT_RIGHT ? "right_foot" : "left_foot");

@@ -34,7 +34,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "--normalize time --scheme hermite-simpson --intervals 32 --double-intervals 9 --accuracy fine --tolerance 1e-8 "
       "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 "
       "--warm-start nearest --cost effort --cost muscle-work --cost passive-load "
-      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 --lift-off-point 0.7 --allow-overlap");
+      "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 "
+      "--lift-off-point 0.7 --allow-overlap");
   EXPECT_TRUE(spec.limits().allow_body_overlap());
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);
@@ -83,10 +84,11 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
 
 // What the server must refuse must reach it.
 TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
-  const v1::ModelSelection body =
-      Parse("--model human29 --segment thigh=0.45 --segment foot=0.3 --feet two --ranges walking --toes --sagittal --drop-arms --rigid-trunk "
-            "--lock knee_l=20 --lock elbow_r=-1.5")
-          .model();
+  const v1::ModelSelection body = Parse(
+                                      "--model human29 --segment thigh=0.45 --segment foot=0.3 --feet two --ranges "
+                                      "walking --toes --sagittal --drop-arms --rigid-trunk "
+                                      "--lock knee_l=20 --lock elbow_r=-1.5")
+                                      .model();
   EXPECT_EQ(body.segment_lengths_m().at("thigh"), 0.45);
   EXPECT_EQ(body.segment_lengths_m().at("foot"), 0.3);
   EXPECT_EQ(body.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);

@@ -72,14 +72,13 @@ SurfaceCase SuperellipsoidCase(const std::string& name, const Vector3& axes, dou
 
 SurfaceCase FlattenedCase(const std::string& name, double eps1, double eps2, double delta, double angle) {
   const Vector3 axes(0.8, 1.2, 0.5);
-  return {name,
-          [=](double scale) {
-            return Surface(FlattenedSuperellipsoid::Create(scale * axes, eps1, eps2, delta).value());
-          },
-          [=](const Vector3& x) {
-            return (Barr(x, axes, eps1, eps2) + 1 + delta * x.cwiseQuotient(axes).squaredNorm()) / (1 + delta) - 1;
-          },
-          0.3, angle};
+  return {
+      name,
+      [=](double scale) { return Surface(FlattenedSuperellipsoid::Create(scale * axes, eps1, eps2, delta).value()); },
+      [=](const Vector3& x) {
+        return (Barr(x, axes, eps1, eps2) + 1 + delta * x.cwiseQuotient(axes).squaredNorm()) / (1 + delta) - 1;
+      },
+      0.3, angle};
 }
 
 std::vector<SurfaceCase> MakeCases() {
@@ -92,8 +91,8 @@ std::vector<SurfaceCase> MakeCases() {
        [](const Vector3& x) { return x.squaredNorm() - 0.49; }, 0, 1},
       {"MovedEllipsoid", [=](double scale) { return Surface(Ellipsoid(scale * axes)).MovedTo(scale * center); },
        [=](const Vector3& x) { return ellipsoid(x - center); }, 0, 0.4},
-      {"RoundedEllipsoid", [=](double scale) { return Surface(Ellipsoid(scale * axes)).Rounded(scale * 0.2); },
-       nullptr, 0, 0.4},
+      {"RoundedEllipsoid", [=](double scale) { return Surface(Ellipsoid(scale * axes)).Rounded(scale * 0.2); }, nullptr,
+       0, 0.4},
       SuperellipsoidCase("SuperellipsoidIsEllipsoid", axes, 1, 1, 0.4),
       SuperellipsoidCase("BoxySuperellipsoid", axes, 0.5, 0.7, 0.3),
       SuperellipsoidCase("PinchedSuperellipsoid", axes, 1.4, 1.2, 0.3),

@@ -25,9 +25,7 @@ struct SurfaceCase {
   double angle = 1;
 };
 
-inline std::ostream& operator<<(std::ostream& out, const SurfaceCase& surface_case) {
-  return out << surface_case.name;
-}
+inline std::ostream& operator<<(std::ostream& out, const SurfaceCase& surface_case) { return out << surface_case.name; }
 
 const std::vector<SurfaceCase>& SurfaceCases();
 

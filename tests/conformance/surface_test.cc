@@ -1,11 +1,10 @@
 // What every kind of surface promises, whatever it is: see core/geometry/surface.h.
-#include <algorithm>
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "tests/conformance/surface_cases.h"
 #include "tests/support/high_order_difference.h"
@@ -158,8 +157,8 @@ TEST_P(SurfaceConformance, ScalesWithTheBody) {
     EXPECT_TRUE(MatrixNear(other.x / scale, jet.x, kRounding * Size()));
     EXPECT_TRUE(MatrixNear(other.S / scale, jet.S, kRounding * jet.S.norm()));
     EXPECT_TRUE(MatrixNear(other.Third(u) / scale, jet.Third(u), kRounding * (jet.Third(u).norm() + jet.S.norm())));
-    EXPECT_TRUE(MatrixNear(other.Fourth(u, u) / scale, jet.Fourth(u, u),
-                           kRounding * (jet.Fourth(u, u).norm() + jet.S.norm())));
+    EXPECT_TRUE(
+        MatrixNear(other.Fourth(u, u) / scale, jet.Fourth(u, u), kRounding * (jet.Fourth(u, u).norm() + jet.S.norm())));
   }
 }
 

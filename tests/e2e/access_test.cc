@@ -111,7 +111,8 @@ TEST_F(AccessTest, BadTlsFilesAreRefusedAtTheStart) {
 TEST_F(AccessTest, ARevokedTokenEndsItsStream) {
   const Daemon daemon(Options({"--require-token"}));
   ASSERT_NE(daemon.address(), "");
-  const std::string token = OutputOfRollgaitd("token create --data-dir " + path("data") + " --tenant acme --scopes read,solve");
+  const std::string token =
+      OutputOfRollgaitd("token create --data-dir " + path("data") + " --tenant acme --scopes read,solve");
   const auto stub = Connect(daemon.address(), authority_.cert);
   v1::ServerInfo info;
   ASSERT_TRUE(Ask(*stub, token, &info).ok());

@@ -72,7 +72,8 @@ Daemon::Daemon(const Options& options) : data_dir_(options.data_dir) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   if (!options.log_file.empty()) {
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, options.log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, options.log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND,
+                                     0600);
   }
   std::vector<std::string> arguments = options.launcher;
   arguments.insert(arguments.end(), {ROLLGAITD, "--data-dir", options.data_dir, "--listen", options.listen});

@@ -21,7 +21,7 @@ class Daemon {
     std::string solver;              // path
     std::vector<std::string> flags;  // more of them
     std::vector<std::string> launcher =
-        {};  // a command that the server's own is put behind and that becomes it: env, prlimit …
+        {};                     // a command that the server's own is put behind and that becomes it: env, prlimit …
     std::string log_file = {};  // of its and its agent's standard error; empty: that of the test
   };
   // Starts the server and waits until it listens. If it does not, address() is empty and ExitCode() tells why.
@@ -47,7 +47,8 @@ class Daemon {
   std::string address_;
 };
 
-// The standard output of `rollgaitd ARGUMENTS`, without its last line feed; throws std::runtime_error if the command fails.
+// The standard output of `rollgaitd ARGUMENTS`, without its last line feed; throws std::runtime_error if the command
+// fails.
 std::string OutputOfRollgaitd(const std::string& arguments);
 // Agents that work on a data directory, that of a dead server included.
 std::vector<pid_t> AgentsOf(const std::string& data_dir);

@@ -55,7 +55,8 @@ bool AnotherUserConnects(const std::string& socket_path) {
 
 TEST_F(DoorsTest, TheAdministrationSocketIsItsOwnersAlone) {
   const std::string socket_path = path("data") + "/admin.sock";
-  struct stat socket_is {}, folder_is {};
+  struct stat socket_is {
+  }, folder_is{};
   ASSERT_EQ(stat(socket_path.c_str(), &socket_is), 0);
   ASSERT_EQ(stat(path("data").c_str(), &folder_is), 0);
   EXPECT_EQ(socket_is.st_mode & 0777, 0600u);
@@ -88,7 +89,8 @@ std::set<int> ListeningPorts(pid_t pid) {
       words >> number >> local >> remote >> state;
       for (int i = 0; i < 5; ++i) words >> skipped;
       words >> inode;
-      if (state == "0A" && sockets.count(inode) != 0) ports.insert(std::stoi(local.substr(local.rfind(':') + 1), nullptr, 16));
+      if (state == "0A" && sockets.count(inode) != 0)
+        ports.insert(std::stoi(local.substr(local.rfind(':') + 1), nullptr, 16));
     }
   }
   return ports;
@@ -101,7 +103,8 @@ TEST_F(DoorsTest, ThereIsNoOtherDoorAndMetricsNameNobody) {
   std::string metrics;
   for (std::string line; std::getline(log, line);) {
     const size_t event = line.find("\"metrics.served\""), address = line.find("127.0.0.1:");
-    if (event != std::string::npos && address != std::string::npos) metrics = line.substr(address, line.find('"', address) - address);
+    if (event != std::string::npos && address != std::string::npos)
+      metrics = line.substr(address, line.find('"', address) - address);
   }
   ASSERT_NE(metrics, "");
   EXPECT_EQ(ListeningPorts(daemon_->pid()), (std::set<int>{port_of(daemon_->address()), port_of(metrics)}));

@@ -16,9 +16,8 @@ void GuardedServer::SetUp() {
   Daemon::Options options;
   options.data_dir = path("data");
   options.solver = SLOW_SOLVER;
-  options.flags = {"--tls-cert",      path("server.pem"), "--tls-key",        path("server.key"),
-                   "--tls-client-ca", path("ca.pem"),     "--metrics-listen", "127.0.0.1:0",
-                   "--require-token"};
+  options.flags = {"--tls-cert",   path("server.pem"), "--tls-key",   path("server.key"), "--tls-client-ca",
+                   path("ca.pem"), "--metrics-listen", "127.0.0.1:0", "--require-token"};
   options.log_file = path("log");
   daemon_ = std::make_unique<Daemon>(options);
   ASSERT_NE(daemon_->address(), "");
@@ -42,7 +41,7 @@ void GuardedServer::SetUp() {
 
 std::string GuardedServer::Token(const std::string& tenant, const std::string& scopes, const std::string& expires) {
   return OutputOfRollgaitd("token create --data-dir " + path("data") + " --tenant " + tenant + " --scopes " + scopes +
-                " --expires " + expires);
+                           " --expires " + expires);
 }
 
 grpc::StatusCode GuardedServer::Call(const Visitor& visitor, const std::string& method, const std::string& bytes) {
@@ -54,8 +53,8 @@ grpc::StatusCode GuardedServer::Call(const Visitor& visitor, const std::string& 
   return Call(channel, visitor.token, method, bytes);
 }
 
-grpc::StatusCode GuardedServer::Call(const std::shared_ptr<grpc::Channel>& channel, const std::string& token, const std::string& method,
-                       const std::string& bytes) {
+grpc::StatusCode GuardedServer::Call(const std::shared_ptr<grpc::Channel>& channel, const std::string& token,
+                                     const std::string& method, const std::string& bytes) {
   grpc::GenericStub stub(channel);
   grpc::ClientContext context;
   if (!token.empty()) context.AddMetadata("authorization", "Bearer " + token);

@@ -32,8 +32,8 @@ class GuardedServer : public testing::Test {
   std::string Token(const std::string& tenant, const std::string& scopes, const std::string& expires = "1d");
   // Sends one message and returns how the call ended; one that is answered is left after its first answer.
   grpc::StatusCode Call(const Visitor& visitor, const std::string& method, const std::string& bytes);
-  static grpc::StatusCode Call(const std::shared_ptr<grpc::Channel>& channel, const std::string& token, const std::string& method,
-                               const std::string& bytes);
+  static grpc::StatusCode Call(const std::shared_ptr<grpc::Channel>& channel, const std::string& token,
+                               const std::string& method, const std::string& bytes);
   // The good caller's stub, on a connection of its own, and what each of his calls carries.
   std::unique_ptr<v1::GaitService::Stub> GoodStub() const;
   std::unique_ptr<grpc::ClientContext> GoodContext() const;
@@ -42,10 +42,10 @@ class GuardedServer : public testing::Test {
 
   TemporaryDirectory directory_;
   std::unique_ptr<Daemon> daemon_;
-  Visitor good_, other_;                    // of two tenants
-  Visitor reader_, solver_;                 // of the good one's tenant, with one scope each
-  std::vector<Visitor> strangers_;          // whom TLS refuses
-  std::vector<Visitor> unknown_;            // whom the server does not know by their tokens
+  Visitor good_, other_;            // of two tenants
+  Visitor reader_, solver_;         // of the good one's tenant, with one scope each
+  std::vector<Visitor> strangers_;  // whom TLS refuses
+  std::vector<Visitor> unknown_;    // whom the server does not know by their tokens
   std::map<std::string, std::shared_ptr<grpc::Channel>> channels_;
 };
 

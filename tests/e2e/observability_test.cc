@@ -27,8 +27,12 @@ class ObservabilityTest : public testing::Test {
  protected:
   ObservabilityTest()
       : log_(directory_.path() + "/log"),
-        daemon_({directory_.path() + "/data", "127.0.0.1:0", SLOW_SOLVER,
-                 {"--metrics-listen", "127.0.0.1:0", "--agent-metrics-listen", "127.0.0.1:0", "--log-format", "json"}, {}, log_}) {}
+        daemon_({directory_.path() + "/data",
+                 "127.0.0.1:0",
+                 SLOW_SOLVER,
+                 {"--metrics-listen", "127.0.0.1:0", "--agent-metrics-listen", "127.0.0.1:0", "--log-format", "json"},
+                 {},
+                 log_}) {}
 
   void SetUp() override {
     ASSERT_NE(daemon_.address(), "");

@@ -22,8 +22,9 @@ using Stub = v1::GaitService::Stub;
 class FarAgent {
  public:
   FarAgent(const std::string& url, const std::string& work_dir) {
-    std::vector<std::string> arguments = {ROLLGAIT_AGENT, "--store", url, "--work-dir", work_dir, "--slots", "2",
-                                          "--solver", SLOW_SOLVER, "--lease-s", "3", "--log-level", "error"};
+    std::vector<std::string> arguments = {
+        ROLLGAIT_AGENT, "--store",   url,         "--work-dir", work_dir,      "--slots", "2",
+        "--solver",     SLOW_SOLVER, "--lease-s", "3",          "--log-level", "error"};
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);

@@ -104,11 +104,13 @@ TEST(RealSolverTest, ANeighbourStartsFromAStoredSolve) {
   const Answer nearest = RunSolve(*stub, neighbour);
   ASSERT_EQ(nearest.solve.result().termination(), v1::TERMINATION_OPTIMAL);
   EXPECT_EQ(nearest.solve.result().warm_started_from().name(), level.name());
-  EXPECT_TRUE(RunSolve(*stub, [&] {
-    v1::RunSolveRequest again = neighbour;
-    again.mutable_spec()->set_warm_start(level.name());
-    return again;
-  }()).solve.from_cache());  // the same start by its name
+  EXPECT_TRUE(RunSolve(*stub,
+                       [&] {
+                         v1::RunSolveRequest again = neighbour;
+                         again.mutable_spec()->set_warm_start(level.name());
+                         return again;
+                       }())
+                  .solve.from_cache());  // the same start by its name
 
   neighbour.mutable_spec()->mutable_model()->set_name("human29");
   neighbour.mutable_spec()->set_warm_start(level.name());
@@ -144,7 +146,8 @@ TEST(RealSolverTest, EachInstructionSetHasItsProgramAndItsResults) {
   }
   EXPECT_NE(best.result().solver_build().find("x86-64-v3"), std::string::npos);
   EXPECT_FALSE(best.from_cache());  // one solver's result is not the other's
-  // Both meet the KKT tolerance of 1e-6; at a minimum the objective follows to its square, the barrier to a like fraction.
+  // Both meet the KKT tolerance of 1e-6; at a minimum the objective follows to its square, the barrier to a like
+  // fraction.
   EXPECT_NEAR(best.result().objective(), baseline.result().objective(), 1e-5 * baseline.result().objective());
 }
 

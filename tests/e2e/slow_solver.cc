@@ -1,5 +1,6 @@
 // Stands in for rollgait-solve in tests of the whole server: as many iterations as solver_limits.max_iterations allows
-// (default 60), 10 ms apart, then an optimal result; on kCancelSignal a cancelled one. Its iterations fall from objective 1.
+// (default 60), 10 ms apart, then an optimal result; on kCancelSignal a cancelled one. Its iterations fall from
+// objective 1.
 #include <signal.h>
 #include <unistd.h>
 

@@ -46,8 +46,8 @@ struct Round {
   double seconds = 0;
 };
 
-// Many short solves, so that the primary dies with creates, claims, events and ends in flight; `pause` after all clients have
-// ended one.
+// Many short solves, so that the primary dies with creates, claims, events and ends in flight; `pause` after all
+// clients have ended one.
 Round FailOver(std::chrono::milliseconds pause) {
   PostgresCluster primary({.durable = true});
   PostgresCluster standby({.durable = true, .primary = &primary});

@@ -14,8 +14,8 @@ std::chrono::system_clock::time_point Within(std::chrono::milliseconds time) {
   return std::chrono::system_clock::now() + time;
 }
 
-// The same call may succeed later. CANCELLED, which no call of this load asks for, is how gRPC ends those that a stopping server
-// has not taken up.
+// The same call may succeed later. CANCELLED, which no call of this load asks for, is how gRPC ends those that a
+// stopping server has not taken up.
 bool TryAgain(grpc::StatusCode code) {
   return code == grpc::StatusCode::UNAVAILABLE || code == grpc::StatusCode::DEADLINE_EXCEEDED ||
          code == grpc::StatusCode::RESOURCE_EXHAUSTED || code == grpc::StatusCode::CANCELLED;
@@ -60,9 +60,9 @@ std::unique_ptr<Stub> Connect(const std::string& address) {
 }
 
 void Verdict::Add(const Verdict& other) {
-  for (int64_t Verdict::*count : {&Verdict::acknowledged, &Verdict::succeeded, &Verdict::dead_letters, &Verdict::lost,
-                                  &Verdict::duplicated, &Verdict::gaps, &Verdict::changed, &Verdict::retried,
-                                  &Verdict::reattached, &Verdict::unexpected}) {
+  for (int64_t Verdict::*count :
+       {&Verdict::acknowledged, &Verdict::succeeded, &Verdict::dead_letters, &Verdict::lost, &Verdict::duplicated,
+        &Verdict::gaps, &Verdict::changed, &Verdict::retried, &Verdict::reattached, &Verdict::unexpected}) {
     this->*count += other.*count;
   }
   longest_retry_s = std::max(longest_retry_s, other.longest_retry_s);

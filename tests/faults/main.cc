@@ -15,9 +15,9 @@ struct Fault {
 };
 
 constexpr Fault kFaults[] = {
-    {"kill-server", KillServer}, {"stop-server", StopServer},   {"kill-agent", KillAgent},
-    {"kill-solver", KillSolver}, {"freeze-agent", FreezeAgent}, {"fill-disk", FillDisk},
-    {"jump-clocks", JumpClocks}, {"cut-network", CutNetwork},   {"flood-descriptors", FloodDescriptors},
+    {"kill-server", KillServer},    {"stop-server", StopServer},   {"kill-agent", KillAgent},
+    {"kill-solver", KillSolver},    {"freeze-agent", FreezeAgent}, {"fill-disk", FillDisk},
+    {"jump-clocks", JumpClocks},    {"cut-network", CutNetwork},   {"flood-descriptors", FloodDescriptors},
     {"fail-over", FailOverPostgres}};
 
 int Run(const Fault& fault, const FaultOptions& options) {

@@ -45,8 +45,22 @@ class MessageMutator {
   using Reflection = google::protobuf::Reflection;
 
   double Number() {
-    static constexpr double kNumbers[] = {0,     -1,  1, 1e-300, 1e300, -1e9, 1e9,  1e-9,
-                                          1e6,   -1e-6, 0.5, 2,  1e-15, 100,  1e-3, 3.14,
+    static constexpr double kNumbers[] = {0,
+                                          -1,
+                                          1,
+                                          1e-300,
+                                          1e300,
+                                          -1e9,
+                                          1e9,
+                                          1e-9,
+                                          1e6,
+                                          -1e-6,
+                                          0.5,
+                                          2,
+                                          1e-15,
+                                          100,
+                                          1e-3,
+                                          3.14,
                                           std::numeric_limits<double>::quiet_NaN(),
                                           std::numeric_limits<double>::infinity()};
     if (reach_ == Reach::kEverything && Pick(4) == 0)

@@ -1,7 +1,7 @@
 // Eq. (2.10): ¹x = −A⁻¹ ¹n₂ / √(¹n₂ᵀ A⁻¹ ¹n₂), as printed: the point of the ellipsoid that lies lowest along n₂.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/paper/moving_ellipsoid.h"
 #include "tests/support/matrix_near.h"

@@ -1,5 +1,5 @@
-// Eq. (2.11): Ȧ⁻¹ = ω × A⁻¹ − A⁻¹ ω ×, right in axes fixed to the world, where A⁻¹ = R B Rᵀ. In body axes A⁻¹ is constant and
-// the normal moves: ¹ṅ₂ = −ω × ¹n₂.
+// Eq. (2.11): Ȧ⁻¹ = ω × A⁻¹ − A⁻¹ ω ×, right in axes fixed to the world, where A⁻¹ = R B Rᵀ. In body axes A⁻¹ is
+// constant and the normal moves: ¹ṅ₂ = −ω × ¹n₂.
 #include <gtest/gtest.h>
 
 #include "tests/paper/moving_ellipsoid.h"

@@ -3,9 +3,9 @@
 // The quotient rule gives the denominator nᵀ A⁻¹ n, the square of the printed root; and the left side is the absolute
 // derivative of the vector CP, in world axes, not the rate of its body coordinates. The library uses S (ω × n) for the
 // motion along the surface, which is the corrected value minus ω × CP without the cancellation.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/paper/moving_ellipsoid.h"
 #include "tests/support/matrix_near.h"
@@ -37,8 +37,8 @@ TEST(Equation2_12, TheDenominatorIsTheSquareOfThePrintedRoot) {
   EXPECT_LT(forms.printed.norm(), 0.2 * rate.norm());
 }
 
-// In units in which every length is ten times larger as a number, a velocity must grow tenfold; the printed form grows a
-// hundredfold.
+// In units in which every length is ten times larger as a number, a velocity must grow tenfold; the printed form grows
+// a hundredfold.
 TEST(Equation2_12, ThePrintedFormHasTheWrongDimension) {
   MovingEllipsoid body;
   const Forms metres = Evaluate(body);
@@ -51,8 +51,7 @@ TEST(Equation2_12, ThePrintedFormHasTheWrongDimension) {
 TEST(Equation2_12, IsAnAbsoluteDerivativeNotTheRateOfBodyCoordinates) {
   const MovingEllipsoid body;
   const Vector3 corrected = Evaluate(body).corrected;
-  const Vector3 body_rate =
-      Derivative([&](double t) { return Vector3(body.ellipsoid.SupportPoint(body.nu(t))); });
+  const Vector3 body_rate = Derivative([&](double t) { return Vector3(body.ellipsoid.SupportPoint(body.nu(t))); });
   const Vector3 along_surface = body.S() * body.omega.cross(body.n);
   EXPECT_TRUE(MatrixNear(body.R0 * body_rate, along_surface, kDerivativeTolerance));
   EXPECT_TRUE(MatrixNear(corrected - body.omega.cross(body.CP(0)), along_surface, 1e-13));

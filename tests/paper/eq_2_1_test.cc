@@ -1,8 +1,8 @@
-// Eq. (2.1): contact points as the minimum of ½ |x₁ − x₂|². That is the distance of separated bodies; of overlapping ones
-// it is 0 and the points are not unique. The library's gap is signed: n · (c − o) − h(−n).
-#include <algorithm>
-
+// Eq. (2.1): contact points as the minimum of ½ |x₁ − x₂|². That is the distance of separated bodies; of overlapping
+// ones it is 0 and the points are not unique. The library's gap is signed: n · (c − o) − h(−n).
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "tests/paper/rolling_tree.h"
 #include "tests/support/seeded_random.h"
@@ -24,8 +24,9 @@ Distances At(double height) {
   double least = kInfinity;
   for (int i = 0; i < 20000; ++i) {
     const Vector3 x = random.Uniform(0, 1) < 0.5 ? random.Unit() : Vector3(random.Uniform(0, 1) * random.Unit());
-    const Vector3 p = link.p_WL + link.R_WL * (tree.surface.p_LE + tree.surface.R_LE *
-                                                   tree.surface.surface.ellipsoid()->semi_axes().cwiseProduct(x));
+    const Vector3 p =
+        link.p_WL + link.R_WL * (tree.surface.p_LE +
+                                 tree.surface.R_LE * tree.surface.surface.ellipsoid()->semi_axes().cwiseProduct(x));
     least = std::min(least, std::max(p.z(), 0.0));  // distance to the half-space z <= 0
   }
   return {ComputeRollingContact(tree.surface, state).gap, least};

@@ -1,5 +1,5 @@
-// Eq. (2.2): v(P) ≜ d(OP)/dt = v(C) + ω × CP. The right-hand side is the velocity of the material point at P; the middle is
-// that of the geometric point, which also runs over the surface: d(OP)/dt = v(P) + S (ω × n).
+// Eq. (2.2): v(P) ≜ d(OP)/dt = v(C) + ω × CP. The right-hand side is the velocity of the material point at P; the
+// middle is that of the geometric point, which also runs over the surface: d(OP)/dt = v(P) + S (ω × n).
 #include <gtest/gtest.h>
 
 #include "tests/paper/moving_ellipsoid.h"

@@ -1,5 +1,5 @@
-// Eq. (2.3): d(P₂P₁)/dt = 0 = v(P₁) − v(P₂). Only the second equality is rolling: the geometric points of a body that slides
-// along the plane stay together, and its material point moves.
+// Eq. (2.3): d(P₂P₁)/dt = 0 = v(P₁) − v(P₂). Only the second equality is rolling: the geometric points of a body that
+// slides along the plane stay together, and its material point moves.
 #include <gtest/gtest.h>
 
 #include "tests/paper/moving_ellipsoid.h"

@@ -1,5 +1,5 @@
-// Eq. (2.5): dv(P)/dt = a(C) + ω̇ × CP + ω × d(CP)/dt, with the absolute derivative d(CP)/dt = ω × CP + S (ω × n). The paper
-// calls it the acceleration of a fixed material point; that one lacks the S term.
+// Eq. (2.5): dv(P)/dt = a(C) + ω̇ × CP + ω × d(CP)/dt, with the absolute derivative d(CP)/dt = ω × CP + S (ω × n). The
+// paper calls it the acceleration of a fixed material point; that one lacks the S term.
 #include <gtest/gtest.h>
 
 #include "tests/paper/moving_ellipsoid.h"

@@ -1,5 +1,5 @@
-// Eq. (2.7): ∇Φ(¹x) = −λ ¹T₂ n₂ with λ > 0. A normal turns with the rotation part only, ¹n₂ = ¹R₂ n₂, and "iff" is "if":
-// a body that hovers satisfies it too; contact needs gap = 0 besides.
+// Eq. (2.7): ∇Φ(¹x) = −λ ¹T₂ n₂ with λ > 0. A normal turns with the rotation part only, ¹n₂ = ¹R₂ n₂, and "iff" is
+// "if": a body that hovers satisfies it too; contact needs gap = 0 besides.
 #include <gtest/gtest.h>
 
 #include "tests/paper/moving_ellipsoid.h"

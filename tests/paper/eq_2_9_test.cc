@@ -1,7 +1,7 @@
 // Eq. (2.9): λ = 2 / √(¹n₂ᵀ A⁻¹ ¹n₂). The fraction bar is lost in the available text; the product reading is wrong.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/paper/moving_ellipsoid.h"
 #include "tests/support/matrix_near.h"

@@ -1,5 +1,5 @@
-// Eq. (3.10): the contact force as multiplier of Gauss's principle, min ½ |q̈ − M⁻¹(Sᵀu − b)|²_M subject to J q̈ + γ = 0. The
-// printed text lacks the brackets and the ½; without ½ the multiplier is twice the force.
+// Eq. (3.10): the contact force as multiplier of Gauss's principle, min ½ |q̈ − M⁻¹(Sᵀu − b)|²_M subject to J q̈ + γ = 0.
+// The printed text lacks the brackets and the ½; without ½ the multiplier is twice the force.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>

@@ -1,5 +1,5 @@
-// Eq. (3.2): â = J q̈ + J̇ q̇, and (3.1) its parts (ω̇, v̇). Here six-vectors are [angular; linear], always; the paper's text
-// stacks velocities the other way round. J̇ q̇ is the spatial acceleration at q̈ = 0.
+// Eq. (3.2): â = J q̈ + J̇ q̇, and (3.1) its parts (ω̇, v̇). Here six-vectors are [angular; linear], always; the paper's
+// text stacks velocities the other way round. J̇ q̇ is the spatial acceleration at q̈ = 0.
 #include <gtest/gtest.h>
 
 #include "tests/paper/rolling_tree.h"
@@ -25,16 +25,16 @@ TEST(Equation3_2, SpatialAccelerationIsTheRateOfTheTwistInLinkAxes) {
   EXPECT_GT(bias.linear.norm(), 0.1);
 }
 
-// The first three components are the rate of the angular velocity, in any axes; the last three are that of the components of
-// v(C) in link axes, which is not the acceleration of C.
+// The first three components are the rate of the angular velocity, in any axes; the last three are that of the
+// components of v(C) in link axes, which is not the acceleration of C.
 TEST(Equation3_1, AngularFirstThenLinear) {
   RollingTree tree;
   tree.a.setZero();
   const BodyDynamics::Link link = tree.StateAt(0).back();
   const Vector3 omega_rate = Derivative([&](double t) { return tree.Omega(t); });
   EXPECT_TRUE(MatrixNear(link.R_WL * link.bias.angular, omega_rate, kDerivativeTolerance));
-  const Vector3 component_rate = Derivative(
-      [&](double t) { return Vector3(tree.StateAt(t).back().R_WL.transpose() * tree.VelocityOfC(t)); });
+  const Vector3 component_rate =
+      Derivative([&](double t) { return Vector3(tree.StateAt(t).back().R_WL.transpose() * tree.VelocityOfC(t)); });
   EXPECT_TRUE(MatrixNear(link.bias.linear, component_rate, kDerivativeTolerance));
   const Vector3 acceleration = Derivative([&](double t) { return tree.VelocityOfC(t); });
   EXPECT_GT((link.R_WL * link.bias.linear - acceleration).norm(), 0.1);

@@ -1,4 +1,5 @@
-// Eq. (3.3): a(C) = v̇_C + ω × v(C), right for the spatial v̇_C; the derivative of the velocity in world axes is a(C) already.
+// Eq. (3.3): a(C) = v̇_C + ω × v(C), right for the spatial v̇_C; the derivative of the velocity in world axes is a(C)
+// already.
 #include <gtest/gtest.h>
 
 #include "tests/paper/rolling_tree.h"

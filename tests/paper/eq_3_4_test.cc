@@ -1,5 +1,5 @@
-// Eq. (3.4): dv(P)/dt = a_tP + ω × v(C) + ω × d(CP)/dt with the spatial a_tP = v̇_C + ω̇ × CP. It is v(C), not v(P); the last
-// two terms together are ω × ṗ.
+// Eq. (3.4): dv(P)/dt = a_tP + ω × v(C) + ω × d(CP)/dt with the spatial a_tP = v̇_C + ω̇ × CP. It is v(C), not v(P); the
+// last two terms together are ω × ṗ.
 #include <gtest/gtest.h>
 
 #include "tests/paper/rolling_tree.h"

@@ -1,5 +1,6 @@
-// Eq. (3.7): γ = J̇ᵗ q̇ + ω₁ × (v(C₁) + d(C₁P₁)/dt) − ω₂ × (v(C₂) + d(C₂P₂)/dt). On a fixed plane the last term is absent. Right if J̇ᵗ q̇ is the spatial acceleration at q̈ = 0 (linear part
-// at the point P); the bracket is ṗ. With the classical acceleration of the material point the last term is ω × ẋ_rel only.
+// Eq. (3.7): γ = J̇ᵗ q̇ + ω₁ × (v(C₁) + d(C₁P₁)/dt) − ω₂ × (v(C₂) + d(C₂P₂)/dt). On a fixed plane the last term is
+// absent. Right if J̇ᵗ q̇ is the spatial acceleration at q̈ = 0 (linear part at the point P); the bracket is ṗ. With the
+// classical acceleration of the material point the last term is ω × ẋ_rel only.
 #include <gtest/gtest.h>
 
 #include "tests/paper/rolling_tree.h"

@@ -1,5 +1,5 @@
-// Eqs (3.8) and (3.9): M q̈ + b = Sᵀτ + Jᵀλ with J q̈ + γ = 0, as printed; λ is the force on the body. The solution of the
-// library's saddle-point solver satisfies both.
+// Eqs (3.8) and (3.9): M q̈ + b = Sᵀτ + Jᵀλ with J q̈ + γ = 0, as printed; λ is the force on the body. The solution of
+// the library's saddle-point solver satisfies both.
 #include <gtest/gtest.h>
 
 #include "tests/paper/contact_solution.h"

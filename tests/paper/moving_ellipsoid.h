@@ -29,7 +29,7 @@ struct MovingEllipsoid {
   Ellipsoid ellipsoid{Vector3(0.7, 0.23, 1.9)};
   Vector3 n = Vector3(0.3, -0.5, 0.8).normalized();
   Matrix3 R0 = Rotation({0.4, -1.1, 0.7});
-  Vector3 omega{0.9, -1.3, 1.2}, alpha{-0.6, 0.5, 0.8};          // at t = 0
+  Vector3 omega{0.9, -1.3, 1.2}, alpha{-0.6, 0.5, 0.8};  // at t = 0
   Vector3 c0{0.2, -0.1, 1.5}, v{0.7, 0.3, -0.4}, a{-0.2, 0.9, 0.6};
 
   Matrix3 R(double t) const { return Rotation(omega * t + alpha * (t * t / 2)) * R0; }
@@ -39,9 +39,7 @@ struct MovingEllipsoid {
   // The vector CP in world axes.
   Vector3 CP(double t) const { return R(t) * ellipsoid.SupportPoint(nu(t)); }
   // A⁻¹ in world axes.
-  Matrix3 InverseA(double t) const {
-    return R(t) * ellipsoid.semi_axes().cwiseAbs2().asDiagonal() * R(t).transpose();
-  }
+  Matrix3 InverseA(double t) const { return R(t) * ellipsoid.semi_axes().cwiseAbs2().asDiagonal() * R(t).transpose(); }
   // Inverse Weingarten map at P in world axes.
   Matrix3 S() const { return R0 * ellipsoid.SupportHessian(nu(0)) * R0.transpose(); }
 };

@@ -10,9 +10,9 @@
 
 namespace rollgait {
 
-// A tree of seven joints of both types on the motion q(t) = q + v t + a t²/2, whose last link carries an ellipsoid (frame
-// origin C away from the ellipsoid's centre) over the plane z = 0. Nothing is in contact or rolls: the equations of
-// section 3 hold all the same. World axes, SI units.
+// A tree of seven joints of both types on the motion q(t) = q + v t + a t²/2, whose last link carries an ellipsoid
+// (frame origin C away from the ellipsoid's centre) over the plane z = 0. Nothing is in contact or rolls: the equations
+// of section 3 hold all the same. World axes, SI units.
 struct RollingTree {
   static constexpr int kSize = 7;
 

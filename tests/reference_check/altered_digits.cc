@@ -22,9 +22,12 @@ namespace {
 constexpr int kRows = 12;  // of a table that are kept
 
 // Names, counts and what the references say of themselves.
-const std::set<std::string> kNotComputed = {
-    "id", "digits", "max_abs_energy_change", "reference_error_bound_orientation",
-    "independent_check_max_abs_difference", "sensitivity_amplification_at_quarters"};
+const std::set<std::string> kNotComputed = {"id",
+                                            "digits",
+                                            "max_abs_energy_change",
+                                            "reference_error_bound_orientation",
+                                            "independent_check_max_abs_difference",
+                                            "sensitivity_amplification_at_quarters"};
 
 const Family& FamilyOf(const Document& document) {
   return *std::find_if(kFamilies, kFamilies + kFamilyCount,
@@ -162,9 +165,8 @@ int Main(const std::string& path, const std::string& work) {
     Document whole = ReadDocument(path);
     for (const Place& place : of_the_whole) whole.json[0][place.at] = place.changed;
     const std::set<std::string> exceeded = Exceeded(whole);
-    std::erase_if(of_the_whole, [&](const Place& place) {
-      return exceeded.count(place.key.substr(place.key.rfind('.') + 1)) > 0;
-    });
+    std::erase_if(of_the_whole,
+                  [&](const Place& place) { return exceeded.count(place.key.substr(place.key.rfind('.') + 1)) > 0; });
   }
   for (const Place& place : of_the_whole) miss(place.key + " -> " + place.changed.dump());
   std::cout << altered << " numbers altered, " << missed << " not noticed\n";

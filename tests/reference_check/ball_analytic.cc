@@ -1,8 +1,7 @@
 // Balls that roll on a tilted plane, a turntable, an accelerated plane: closed forms.
+#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
-
-#include <Eigen/Geometry>
 
 #include "core/math/integrator.h"
 #include "core/simulation/initial_state.h"
@@ -25,7 +24,7 @@ void CheckStated(Fields* item, const std::string& type, double kappa, const Vect
   } else if (type == "turntable") {
     report->Number("precession_rate", kappa / (1 + kappa) * omega, item->Number("precession_rate"),
                    8 * kEpsilon * std::abs(omega));
-    item->Skip("drift_velocity");     // describe the path that the samples are on
+    item->Skip("drift_velocity");  // describe the path that the samples are on
     item->Skip("circle_center_t0");
     item->Skip("circle_radius");
   }
@@ -70,7 +69,8 @@ void CheckSamples(const SimulationScene& scene, std::vector<Fields> samples, dou
     if (sample.Has("plane_v")) {
       report->Norm("plane_v", MotionAt(scene.ground[1], t).v_WB, sample.Vector3("plane_v"), 8 * kEpsilon * (1 + t));
     }
-    report->Norm("force_on_ball", dynamics.contacts().Force(0), force, unit * (force.norm() + m * scene.gravity.norm()));
+    report->Norm("force_on_ball", dynamics.contacts().Force(0), force,
+                 unit * (force.norm() + m * scene.gravity.norm()));
     sample.Finish();
   }
 }

@@ -4,10 +4,9 @@
 // a_max), normal 10 ε k, normal_dot 50 ε k and point velocity 10 ε k relative. For what it does not name: slip and
 // distance_dot like points times the spins plus ε of the velocities; S 300 ε relative plus k times the normal's
 // tolerance; accelerations follow the points' velocities.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_tangent.h"
 #include "core/contact/surface_pair.h"
@@ -28,8 +27,12 @@ Body ReadBody(Fields* item, const std::string& number) {
   body.axes = vector("semi_axes_");
   if (!(body.axes.minCoeff() > 0)) throw ReadError(item->where() + ".semi_axes_" + number + " must be > 0");
   body.surface.surface = Ellipsoid(body.axes);
-  body.frame = {item->Rotation("quat_wxyz_" + number).cast<double>(), vector("center_"), vector("omega_"),
-                vector("v_center_"), vector("alpha_"), vector("a_center_")};
+  body.frame = {item->Rotation("quat_wxyz_" + number).cast<double>(),
+                vector("center_"),
+                vector("omega_"),
+                vector("v_center_"),
+                vector("alpha_"),
+                vector("a_center_")};
   return body;
 }
 
@@ -51,8 +54,7 @@ void CheckCase(Fields item, Report* all) {
   const Separation& separation = pair.separation();
 
   const double k = std::max(one.axes.maxCoeff() / one.axes.minCoeff(), two.axes.maxCoeff() / two.axes.minCoeff());
-  const double length = (two.frame.p_WB - one.frame.p_WB).norm() +
-                        std::max(one.axes.maxCoeff(), two.axes.maxCoeff());
+  const double length = (two.frame.p_WB - one.frame.p_WB).norm() + std::max(one.axes.maxCoeff(), two.axes.maxCoeff());
   const double origin = one.frame.p_WB.norm();
   const double point = 10 * kEpsilon * length;
   const RealVector3 nu_dot = expect.Vector3("normal_dot");
@@ -61,8 +63,8 @@ void CheckCase(Fields item, Report* all) {
   const double speed = one.frame.v_WB.norm() + two.frame.v_WB.norm() + spin * length;
   const Real centripetal = one.frame.w_WB.norm() * (v_1.norm() + one.frame.v_WB.norm()) +
                            two.frame.w_WB.norm() * (v_2.norm() + two.frame.v_WB.norm());
-  const Real acceleration = one.frame.a_WB.norm() + two.frame.a_WB.norm() +
-                            (one.frame.alpha_WB.norm() + two.frame.alpha_WB.norm()) * length;
+  const Real acceleration =
+      one.frame.a_WB.norm() + two.frame.a_WB.norm() + (one.frame.alpha_WB.norm() + two.frame.alpha_WB.norm()) * length;
 
   report.Norm("normal_1_to_2", separation.nu, expect.Vector3("normal_1_to_2"), 10 * kEpsilon * k);
   report.Number("distance", at.gap, expect.Number("distance"), point);
@@ -72,8 +74,7 @@ void CheckCase(Fields item, Report* all) {
   report.Norm("point_1_velocity", at.p_dot_1, v_1, 10 * kEpsilon * k * v_1.norm());
   report.Norm("point_2_velocity", at.p_dot_2, v_2, 10 * kEpsilon * k * v_2.norm());
   report.Number("distance_dot", at.gap_rate, expect.Number("distance_dot"), 10 * kEpsilon * k * speed);
-  report.Norm("slip_velocity_1_minus_2", at.slip, expect.Vector3("slip_velocity_1_minus_2"),
-              10 * kEpsilon * speed);
+  report.Norm("slip_velocity_1_minus_2", at.slip, expect.Vector3("slip_velocity_1_minus_2"), 10 * kEpsilon * speed);
   report.Norm("slip_velocity_dot", at.drift, expect.Vector3("slip_velocity_dot"),
               10 * kEpsilon * (acceleration + k * centripetal));
   report.Number("distance_ddot", at.gap_acceleration, expect.Number("distance_ddot"),
@@ -88,8 +89,8 @@ void CheckCase(Fields item, Report* all) {
   const Real condition = expect.Number("tangent_condition");  // follows S
   report.Number("tangent_condition", tangent.curvature.maxCoeff() / tangent.curvature.minCoeff(), condition,
                 (1e-5 + bend) * condition);
-  report.Number("tangent_positive_definite", tangent.curvature.minCoeff() > 0,
-                expect.Bool("tangent_positive_definite"), 0);
+  report.Number("tangent_positive_definite", tangent.curvature.minCoeff() > 0, expect.Bool("tangent_positive_definite"),
+                0);
   expect.Finish();
   item.Finish();
 }
@@ -98,8 +99,6 @@ void CheckCase(Fields item, Report* all) {
 
 bool IsEllipsoidPair(const Document& document) { return FirstCaseHas(document, "semi_axes_1", "normal_1_to_2"); }
 
-void CheckEllipsoidPair(const Document& document, Report* report) {
-  CheckCases(document, CheckCase, report);
-}
+void CheckEllipsoidPair(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
 
 }  // namespace rollgait::reference

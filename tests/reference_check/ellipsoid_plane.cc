@@ -1,9 +1,8 @@
 // Pointwise kinematics of an ellipsoid over a fixed or moving plane, and the rolling of the same body on the fixed
 // plane.
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/contact/pair_kinematics.h"
 #include "tests/reference_check/families.h"
@@ -32,12 +31,12 @@ Input ReadInput(Fields* item) {
   input.surface.surface = Ellipsoid(input.axes);
   input.R = item->Rotation("quat_wxyz");
   input.n = item->Vector3("plane_normal").normalized();
-  input.body = {input.R.cast<double>(), vector("center"), vector("omega"), vector("v_center"),
-                vector("alpha"), vector("a_center")};
+  input.body = {input.R.cast<double>(), vector("center"), vector("omega"),
+                vector("v_center"),     vector("alpha"),  vector("a_center")};
   // The plane's frame stands at its point with world axes.
   input.plane.n_B = input.n.cast<double>();
-  input.ground = {Matrix3::Identity(), vector("plane_point"), vector("plane_omega"), vector("plane_v"),
-                  vector("plane_alpha"), vector("plane_a")};
+  input.ground = {Matrix3::Identity(), vector("plane_point"), vector("plane_omega"),
+                  vector("plane_v"),   vector("plane_alpha"), vector("plane_a")};
   return input;
 }
 
@@ -110,16 +109,14 @@ void CheckCase(Fields item, Report* all) {
   const Real size = r_expected.norm();
   const Real turning = (omega.norm() + omega_2.norm()) * size, speed = x_rel_expected.norm() + turning;
   const Real velocity = body.v_WB.norm() + ground.v_WB.norm() + omega.norm() * size + omega_2.norm() * lever.norm();
-  const Real centripetal = omega.norm() * speed +
-                           omega_2.norm() * (body.v_WB.norm() + ground.v_WB.norm() + speed);
+  const Real centripetal = omega.norm() * speed + omega_2.norm() * (body.v_WB.norm() + ground.v_WB.norm() + speed);
   const Real acceleration = body.a_WB.norm() + body.alpha_WB.norm() * size + ground.a_WB.norm() +
                             ground.alpha_WB.norm() * lever.norm() + centripetal;
   const Real point = 4 * kEpsilon * k * size;
 
   report.Norm("r", r, r_expected, point);
   report.Norm("contact_point", pair.p_1, expect.Vector3("contact_point"), point + kEpsilon * body.p_WB.norm());
-  report.Number("gap", pair.gap, expect.Number("gap"),
-                10 * kEpsilon * ((body.p_WB - ground.p_WB).norm() + size));
+  report.Number("gap", pair.gap, expect.Number("gap"), 10 * kEpsilon * ((body.p_WB - ground.p_WB).norm() + size));
   report.Norm("S_world", S, S_expected, 300 * kEpsilon * S_expected.norm());
   report.Norm("x_rel_world", x_rel, x_rel_expected, 300 * kEpsilon * x_rel_expected.norm());
   report.Norm("r_dot", r_dot, expect.Vector3("r_dot"), 300 * kEpsilon * speed);
@@ -142,8 +139,6 @@ void CheckCase(Fields item, Report* all) {
 
 bool IsEllipsoidPlane(const Document& document) { return FirstCaseHas(document, "plane_omega", "S_world"); }
 
-void CheckEllipsoidPlane(const Document& document, Report* report) {
-  CheckCases(document, CheckCase, report);
-}
+void CheckEllipsoidPlane(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
 
 }  // namespace rollgait::reference

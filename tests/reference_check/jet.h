@@ -1,10 +1,9 @@
 #ifndef ROLLGAIT_TESTS_REFERENCE_CHECK_JET_H_
 #define ROLLGAIT_TESTS_REFERENCE_CHECK_JET_H_
 
-#include <array>
-
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
 
 namespace rollgait::reference {
 

@@ -1,12 +1,11 @@
 // Periodic gaits of planar passive walkers: fixed point, heel strike, step map and trajectory.
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include "core/simulation/periodic_gait.h"
 #include "tests/reference_check/families.h"
@@ -16,8 +15,8 @@ namespace rollgait::reference {
 namespace {
 
 constexpr double kFixedPoint = 2e-11, kEigenvalue = 1e-8;
-// The limit of massless feet: what feet of m and 2 m give, extrapolated to 0. Feet of this many hip masses change the gait
-// by about as much, their square is below rounding.
+// The limit of massless feet: what feet of m and 2 m give, extrapolated to 0. Feet of this many hip masses change the
+// gait by about as much, their square is below rounding.
 constexpr double kLightFoot = 1e-8;
 
 // "(0.34 - 0.18j)" or "4.0".
@@ -57,8 +56,8 @@ PassiveWalker ReadWalker(Fields parameters, bool* massless) {
 
 // Everything that a file states about a gait, computed.
 struct Observed {
-  // Fixed point and state before the heel strike (φ stance, φ̇ stance, φ swing, φ̇ swing each), period, step length, impulse
-  // x, z, lift velocity, energy loss, least normal force.
+  // Fixed point and state before the heel strike (φ stance, φ̇ stance, φ swing, φ̇ swing each), period, step length,
+  // impulse x, z, lift velocity, energy loss, least normal force.
   VectorX numbers;
   Eigen::Matrix3d jacobian;  // of the step map in (φ stance, φ̇ stance, φ̇ swing)
   MatrixX samples;           // without the row at the heel strike
@@ -169,13 +168,20 @@ void CheckSamples(const RealMatrixX& expected, const MatrixX& computed, double r
   const struct {
     const char* field;
     double tolerance;
-  } columns[] = {{"t", 10 * kFixedPoint / rate},   {"phi_stance", kFixedPoint},  {"phi_stance_dot", kFixedPoint * rate},
-                 {"phi_swing", kFixedPoint},       {"phi_swing_dot", kFixedPoint * rate}, {"x_hip", position},
-                 {"y_hip", position},              {"x_contact", position},      {"Fx", force},
+  } columns[] = {{"t", 10 * kFixedPoint / rate},
+                 {"phi_stance", kFixedPoint},
+                 {"phi_stance_dot", kFixedPoint * rate},
+                 {"phi_swing", kFixedPoint},
+                 {"phi_swing_dot", kFixedPoint * rate},
+                 {"x_hip", position},
+                 {"y_hip", position},
+                 {"x_contact", position},
+                 {"Fx", force},
                  {"Fy", force}};
   for (Eigen::Index row = 0; row < computed.rows(); ++row) {
     for (int c = 0; c < 10; ++c) {
-      report->Number(std::string("samples.") + columns[c].field, computed(row, c), expected(row, c), columns[c].tolerance);
+      report->Number(std::string("samples.") + columns[c].field, computed(row, c), expected(row, c),
+                     columns[c].tolerance);
     }
   }
 }
@@ -192,8 +198,8 @@ void CheckCase(Fields item, Report* all) {
     walker.swing = fixed.Double("phi_swing");
     walker.swing_rate = fixed.Double("phi_swing_dot");
   }
-  const std::vector<std::string> columns = {"t",         "phi_stance", "phi_stance_dot", "phi_swing", "phi_swing_dot",
-                                            "x_hip",     "y_hip",      "x_contact",      "Fx",        "Fy"};
+  const std::vector<std::string> columns = {"t",     "phi_stance", "phi_stance_dot", "phi_swing", "phi_swing_dot",
+                                            "x_hip", "y_hip",      "x_contact",      "Fx",        "Fy"};
   if (item.Get("samples_columns") != Json(columns)) throw ReadError(item.where() + ".samples_columns are not known");
   const RealMatrixX samples = item.Matrix("samples");
   if (samples.cols() != 10 || samples.rows() < 3) throw ReadError(item.where() + ".samples must have 10 columns");
@@ -209,8 +215,10 @@ void CheckCase(Fields item, Report* all) {
   CheckState("before_heelstrike", item.Object("state_before_heelstrike"), numbers.segment(4, 4), rate, &report);
   report.Number("step_period", numbers[8], item.Number("step_period"), 10 * kFixedPoint * numbers[8]);
   report.Number("step_length", numbers[9], item.Number("step_length"), kFixedPoint * length);
-  const RealVectorX impulse = item.Vector("heelstrike_impulse_xy"), energies = item.Vector("kinetic_energy_before_after");
-  if (impulse.size() != 2 || energies.size() != 2) throw ReadError(item.where() + ": impulse and energies have 2 entries");
+  const RealVectorX impulse = item.Vector("heelstrike_impulse_xy"),
+                    energies = item.Vector("kinetic_energy_before_after");
+  if (impulse.size() != 2 || energies.size() != 2)
+    throw ReadError(item.where() + ": impulse and energies have 2 entries");
   report.Norm("heelstrike_impulse_xy", numbers.segment(10, 2), impulse, 10 * kFixedPoint * mass * speed);
   report.Number("old_foot_lift_velocity_after_impact", numbers[12], item.Number("old_foot_lift_velocity_after_impact"),
                 kFixedPoint * speed);

@@ -1,9 +1,8 @@
 // The stone of Kane and Levinson (1982): trajectories, and the times at which its spin changes sign.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
-
-#include <Eigen/Geometry>
 
 #include "core/math/integrator.h"
 #include "core/simulation/scene_dynamics.h"
@@ -82,7 +81,8 @@ void CheckEvents(const RollingCase& rolling, const std::vector<double>& growth, 
     if (!events.Has(kind.field)) continue;
     const RealVectorX expected = events.Vector(kind.field);
     const std::vector<Zero> zeros = SeenBetweenRows(Zeros(rolling.scene, kind.spin), rolling.step);
-    report->Number(std::string(kind.field) + ".count", static_cast<Real>(zeros.size()), static_cast<Real>(expected.size()), 0);
+    report->Number(std::string(kind.field) + ".count", static_cast<Real>(zeros.size()),
+                   static_cast<Real>(expected.size()), 0);
     for (Eigen::Index i = 0; i < expected.size() && i < static_cast<Eigen::Index>(zeros.size()); ++i) {
       const Zero& zero = zeros[static_cast<size_t>(i)];
       const double g = GrowthAt(growth, zero.time, rolling.scene.options.duration);
@@ -96,12 +96,13 @@ void CheckEvents(const RollingCase& rolling, const std::vector<double>& growth, 
 
 void CheckCase(Fields item, const std::string& directory, Report* all) {
   Fields parameters = item.Object("parameters");
-  const RollingCase rolling = ReadRollingCase(
-      &item, GroundMotion{}, parameters.Vector3("contact_point_initial").cast<double>(), &parameters);
+  const RollingCase rolling =
+      ReadRollingCase(&item, GroundMotion{}, parameters.Vector3("contact_point_initial").cast<double>(), &parameters);
   parameters.Finish();
   CaseReport report(all, "rattleback", rolling.name);
   std::vector<double> growth;
-  for (const Real value : item.Vector("sensitivity_amplification_at_quarters")) growth.push_back(static_cast<double>(value));
+  for (const Real value : item.Vector("sensitivity_amplification_at_quarters"))
+    growth.push_back(static_cast<double>(value));
   const RollingRun run = CheckTable(rolling, ReadTable(directory + item.Text("file"), kColumns), growth, &report);
   CheckEvents(rolling, growth, item.Object("events"), &report);
   const Real energy = item.Number("energy_initial");

@@ -1,11 +1,10 @@
 #include "tests/reference_check/reader.h"
 
+#include <Eigen/Geometry>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-
-#include <Eigen/Geometry>
 
 namespace rollgait::reference {
 namespace {

@@ -1,12 +1,11 @@
 #ifndef ROLLGAIT_TESTS_REFERENCE_CHECK_READER_H_
 #define ROLLGAIT_TESTS_REFERENCE_CHECK_READER_H_
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "core/base/types.h"
 

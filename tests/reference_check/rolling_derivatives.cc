@@ -3,12 +3,12 @@
 //
 // All of θ enters through ν(θ) = exp(−[θ]) ν and the gravity in body axes; x(ν), S(ν) are expanded with the library's
 // S, T and Q, the rest is algebra on numbers that carry two derivatives. The bias is compared once more from
-// PairHessians. The reference folder's README gives no double tolerance for this family. Used here, relative to the norm
-// of the value, of the Jacobian and of the Hessian: 100 ε k, or what the README gives for ω̇, 1e-15 k², if that is more.
+// PairHessians. The reference folder's README gives no double tolerance for this family. Used here, relative to the
+// norm of the value, of the Jacobian and of the Hessian: 100 ε k, or what the README gives for ω̇, 1e-15 k², if that is
+// more.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_hessians.h"
 #include "core/geometry/surface.h"
@@ -82,20 +82,19 @@ Outputs Evaluate(const Input& input) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) about_point[i][j] = Number(input.inertia(i, j)) - m * rho[i] * rho[j];
     // ρ² − ρ_i², without the subtraction
-    about_point[i][i] = Number(input.inertia(i, i)) + m * (rho[(i + 1) % 3] * rho[(i + 1) % 3] +
-                                                           rho[(i + 2) % 3] * rho[(i + 2) % 3]);
+    about_point[i][i] =
+        Number(input.inertia(i, i)) + m * (rho[(i + 1) % 3] * rho[(i + 1) % 3] + rho[(i + 2) % 3] * rho[(i + 2) % 3]);
   }
   const Number3 moment = torque - Cross(omega, input.inertia * omega) - m * Cross(rho, bias + gravity);
   const Number3 omega_dot = Solve(about_point, moment);
   const Number3 force = Number(-input.mass) * (Cross(omega_dot, rho) + bias + gravity);
 
   const Matrix3 R = input.R.cast<double>();
-  return {omega_dot, R * Turned(theta, force, 1), R * Turned(theta, bias, 1), R * Turned(theta, x, 1),
-          Number(-1) * h};
+  return {omega_dot, R * Turned(theta, force, 1), R * Turned(theta, bias, 1), R * Turned(theta, x, 1), Number(-1) * h};
 }
 
-// The bias once more, from the Hessians of pairs on a plane at rest. Their variables are a turn and an angular velocity in
-// world axes:  θ_W = R θ,  ω_W = R exp([θ]) (ω_b + δ) = R (ω + θ × ω + δ + ½ θ × (θ × ω) + θ × δ + …).
+// The bias once more, from the Hessians of pairs on a plane at rest. Their variables are a turn and an angular velocity
+// in world axes:  θ_W = R θ,  ω_W = R exp([θ]) (ω_b + δ) = R (ω + θ × ω + δ + ½ θ × (θ × ω) + θ × δ + …).
 Number3 BiasOfPairs(const Input& input) {
   const Matrix3 R = input.R.cast<double>();
   FrameMotion body;
@@ -114,8 +113,7 @@ Number3 BiasOfPairs(const Input& input) {
     bias[i].d = (gradient * map).transpose();
     bias[i].dd = map.transpose() * at.Drift(Vector3::Unit(i)) * map;
     const Matrix3 outer = g * input.omega.transpose();
-    bias[i].dd.topLeftCorner<3, 3>() +=
-        0.5 * (outer + outer.transpose()) - g.dot(input.omega) * Matrix3::Identity();
+    bias[i].dd.topLeftCorner<3, 3>() += 0.5 * (outer + outer.transpose()) - g.dot(input.omega) * Matrix3::Identity();
     bias[i].dd.block<3, 3>(0, 3) -= Skew(g);
     bias[i].dd.block<3, 3>(3, 0) += Skew(g);
   }
@@ -208,12 +206,8 @@ void CheckCase(Fields item, Report* all) {
 
 }  // namespace
 
-bool IsRollingDerivatives(const Document& document) {
-  return FirstCaseHas(document, "com_in_body", "omega_dot_body");
-}
+bool IsRollingDerivatives(const Document& document) { return FirstCaseHas(document, "com_in_body", "omega_dot_body"); }
 
-void CheckRollingDerivatives(const Document& document, Report* report) {
-  CheckCases(document, CheckCase, report);
-}
+void CheckRollingDerivatives(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
 
 }  // namespace rollgait::reference

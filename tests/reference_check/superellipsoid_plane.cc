@@ -4,10 +4,9 @@
 // x_rel follows S. Tolerances used here, with q = the larger dual exponent 2/(2 − ε) (a power q − 1 multiplies relative
 // errors of ν by it) and a = the largest semi-axis: points 16 ε q a, gap 10 ε (|c − o| + a), S 300 ε q relative to its
 // norm, x_rel and velocities 300 ε q relative to |S| |ω| + |ω| |r|.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_kinematics.h"
 #include "tests/reference_check/families.h"
@@ -79,8 +78,6 @@ void CheckCase(Fields item, Report* all) {
 
 bool IsSuperellipsoidPlane(const Document& document) { return FirstCaseHas(document, "eps1", "body_point"); }
 
-void CheckSuperellipsoidPlane(const Document& document, Report* report) {
-  CheckCases(document, CheckCase, report);
-}
+void CheckSuperellipsoidPlane(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
 
 }  // namespace rollgait::reference

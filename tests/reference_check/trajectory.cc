@@ -1,12 +1,11 @@
 #include "tests/reference_check/trajectory.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-
-#include <Eigen/Geometry>
 
 #include "tests/support/rolling_scenes.h"
 
@@ -39,7 +38,8 @@ Table ReadTable(const std::string& path, const std::string& columns) {
     const std::vector<std::string> cells = Cells(line);
     if (cells.size() != table.columns.size()) throw ReadError(path + " has a row of another length");
     RealVectorX row(static_cast<int>(cells.size()));
-    for (size_t i = 0; i < cells.size(); ++i) row[static_cast<int>(i)] = ParseReal(cells[i], path + " " + table.columns[i]);
+    for (size_t i = 0; i < cells.size(); ++i)
+      row[static_cast<int>(i)] = ParseReal(cells[i], path + " " + table.columns[i]);
     table.rows.push_back(row);
   }
   if (table.rows.size() < 2) throw ReadError(path + " has less than two rows");
@@ -99,8 +99,9 @@ RollingCase ReadRollingCase(Fields* item, const GroundMotion& ground, const Vect
   body.orientation = Eigen::Quaterniond(Matrix3(parameters->Rotation("quat_wxyz_initial").cast<double>()));
   body.omega_body = parameters->Vector3("omega_body_initial").cast<double>();
   body.contact_point = contact;
-  RollingCase rolling{item->Text("name"), SceneOf(body), Matrix3::Zero(), axes.maxCoeff(), body.mass,
-                      body.mass * body.gravity.norm(), parameters->Double("dt")};
+  RollingCase rolling{item->Text("name"),      SceneOf(body), Matrix3::Zero(),
+                      axes.maxCoeff(),         body.mass,     body.mass * body.gravity.norm(),
+                      parameters->Double("dt")};
   rolling.scene.options.duration = parameters->Double("t_end");
   rolling.scene.options.output_step = rolling.step;
   rolling.scene.options.tolerance = 0.1 * kTrajectoryTolerance;
@@ -125,9 +126,11 @@ RollingRun CheckTable(const RollingCase& rolling, const Table& table, const std:
     return true;
   };
   Result<SimulationReport> result = Simulate(rolling.scene, observer);
-  if (!result.ok()) throw ReadError(rolling.name + ": " + result.violations()[0].field + " " + result.violations()[0].message);
+  if (!result.ok())
+    throw ReadError(rolling.name + ": " + result.violations()[0].field + " " + result.violations()[0].message);
   run.report = result.value();
-  if (run.samples.size() != table.rows.size()) throw ReadError(rolling.name + ": t_end, dt and the rows of its file disagree");
+  if (run.samples.size() != table.rows.size())
+    throw ReadError(rolling.name + ": t_end, dt and the rows of its file disagree");
   const Joint& link = rolling.scene.model.joint(0);
   const bool moving = std::find(table.columns.begin(), table.columns.end(), "nx") != table.columns.end();
   double fastest = 0, farthest = rolling.size;

@@ -9,11 +9,12 @@
 
 namespace rollgait::reference {
 
-// What the families of rolling bodies (rattleback, triaxial, moving_plane) share: a list of cases in a .json file, each with
-// a .csv file of samples beside it.
+// What the families of rolling bodies (rattleback, triaxial, moving_plane) share: a list of cases in a .json file, each
+// with a .csv file of samples beside it.
 
-// Local tolerance that trajectories are judged by: the README of the reference data allows about 10 times it, times the growth
-// of a perturbation. The integration itself is held ten times finer, so that the sum over thousands of steps stays within.
+// Local tolerance that trajectories are judged by: the README of the reference data allows about 10 times it, times the
+// growth of a perturbation. The integration itself is held ten times finer, so that the sum over thousands of steps
+// stays within.
 inline constexpr double kTrajectoryTolerance = 1e-12;
 
 // Samples of a .csv file. Throws ReadError unless the header is `columns`, comma separated.
@@ -53,8 +54,8 @@ double GrowthAt(const std::vector<double>& growth, double t, double end);
 // Directory of a path, with the slash; empty if it has none.
 std::string DirectoryOf(const std::string& path);
 
-// For a .csv file: the case in a .json file beside it that names it as its "file"; null if there is none. For a .json file:
-// the first case, to recognise the family by; null if the file is not a list of cases with parameters.
+// For a .csv file: the case in a .json file beside it that names it as its "file"; null if there is none. For a .json
+// file: the first case, to recognise the family by; null if the file is not a list of cases with parameters.
 Json TypicalCase(const Document& document);
 // The cases to check: one for a .csv file, all of a .json file.
 Json CasesOf(const Document& document);

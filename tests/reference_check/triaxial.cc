@@ -8,12 +8,13 @@ constexpr char kColumns[] = "t,qw,qx,qy,qz,wbx,wby,wbz,px,py,gx,gy,gz,vgx,vgy,vg
 
 void CheckCase(Fields item, const std::string& directory, Report* all) {
   Fields parameters = item.Object("parameters");
-  const RollingCase rolling = ReadRollingCase(
-      &item, GroundMotion{}, parameters.Vector3("contact_point_initial").cast<double>(), &parameters);
+  const RollingCase rolling =
+      ReadRollingCase(&item, GroundMotion{}, parameters.Vector3("contact_point_initial").cast<double>(), &parameters);
   parameters.Finish();
   CaseReport report(all, "triaxial", rolling.name);
   std::vector<double> growth;
-  for (const Real value : item.Vector("sensitivity_amplification_at_quarters")) growth.push_back(static_cast<double>(value));
+  for (const Real value : item.Vector("sensitivity_amplification_at_quarters"))
+    growth.push_back(static_cast<double>(value));
   const RollingRun run = CheckTable(rolling, ReadTable(directory + item.Text("file"), kColumns), growth, &report);
   const Real energy = item.Number("energy_initial");
   report.Number("energy_initial", run.report.energy_initial, energy, 100 * kEpsilon * std::abs(energy));

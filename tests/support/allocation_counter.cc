@@ -1,5 +1,6 @@
-// Matrices of Eigen come from malloc, which the linker wraps (see tests/CMakeLists.txt); everything else comes from operator new,
-// which is replaced here. In a file of its own, so that no compiler sees through to the wrong partner of operator new.
+// Matrices of Eigen come from malloc, which the linker wraps (see tests/CMakeLists.txt); everything else comes from
+// operator new, which is replaced here. In a file of its own, so that no compiler sees through to the wrong partner of
+// operator new.
 #include "tests/support/allocation_counter.h"
 
 #include <atomic>

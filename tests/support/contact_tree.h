@@ -19,7 +19,7 @@ struct ContactTree {
     q = Retract(model, NeutralConfiguration(model), RandomVector(random, model.nv()));
     v = RandomVector(random, model.nv());
     ground.resize(2);
-    ground[1] = {RandomRotation(random),   RandomVector(random, 3), RandomVector(random, 3),
+    ground[1] = {RandomRotation(random),  RandomVector(random, 3), RandomVector(random, 3),
                  RandomVector(random, 3), RandomVector(random, 3), RandomVector(random, 3)};
     contacts = MakeContacts();
   }
@@ -50,8 +50,8 @@ struct ContactTree {
     all[3].other = other;
     BodyDynamics::State state;
     BodyDynamics(model).ComputeState(q, v, &state);
-    const Vector3 target = state[0].p_WL + state[0].R_WL * other.p_BE +
-                           2.9 * Vector3(RandomVector(random, 3)).normalized();
+    const Vector3 target =
+        state[0].p_WL + state[0].R_WL * other.p_BE + 2.9 * Vector3(RandomVector(random, 3)).normalized();
     all[3].surface.p_BE = state[4].R_WL.transpose() * (target - state[4].p_WL);
     return all;
   }

@@ -45,8 +45,8 @@ struct TwoBodies {
       pair.Restart();
       pair.Compute(body_1, body_2);
       separation = pair.separation();
-      least = PairTangent(Pose(one, body_1), Pose(two, body_2), separation.nu, separation.distance)
-                  .curvature.minCoeff();
+      least =
+          PairTangent(Pose(one, body_1), Pose(two, body_2), separation.nu, separation.distance).curvature.minCoeff();
     }
   }
 

@@ -1,10 +1,9 @@
 #ifndef ROLLGAIT_TESTS_SUPPORT_EXTREME_CONTACTS_H_
 #define ROLLGAIT_TESTS_SUPPORT_EXTREME_CONTACTS_H_
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/contact_pair.h"
 #include "tests/support/seeded_random.h"

@@ -7,7 +7,8 @@
 
 namespace rollgait {
 
-// A frame and its motion mapped by Q in space (axial vectors by axial · Q), stretched by `length` and sped up by `rate`.
+// A frame and its motion mapped by Q in space (axial vectors by axial · Q), stretched by `length` and sped up by
+// `rate`.
 inline FrameMotion Mapped(const FrameMotion& body, const Matrix3& Q, double axial, double length, double rate) {
   FrameMotion mapped;
   mapped.R_WB = Q * body.R_WB * (axial < 0 ? Q.transpose() : Matrix3(Matrix3::Identity()));
@@ -21,7 +22,7 @@ inline FrameMotion Mapped(const FrameMotion& body, const Matrix3& Q, double axia
 
 // Everything mapped by Q in space, stretched by `length` and sped up by `rate`: the same bits.
 inline void ExpectMapped(const PairKinematics& one, const PairKinematics& other, const Matrix3& Q, double length,
-                  double rate) {
+                         double rate) {
   ASSERT_EQ(one.regular, other.regular);
   EXPECT_EQ(other.p_1, length * (Q * one.p_1));
   EXPECT_EQ(other.p_2, length * (Q * one.p_2));

@@ -22,8 +22,8 @@ struct PassiveWalker {
 // A point foot is a ball this much smaller than the leg.
 inline constexpr double kPointFoot = 1e-15;
 
-// Standing on foot_1, foot_2 swinging; foot_2 strikes when leg_1 has passed the normal and leg_2 is in front of it, and the
-// other way round: feet that scuff in mid-swing are let through.
+// Standing on foot_1, foot_2 swinging; foot_2 strikes when leg_1 has passed the normal and leg_2 is in front of it, and
+// the other way round: feet that scuff in mid-swing are let through.
 inline SimulationScene SceneOf(const PassiveWalker& walker) {
   std::vector<Joint> joints(4);
   joints[0].name = "base_x", joints[0].type = JointType::kPrismatic, joints[0].axis = Vector3::UnitX();

@@ -30,8 +30,8 @@ inline VectorX RandomPoint(int size) {
 
 inline double ValueAt(PointCost& cost, const VectorX& z) { return cost.Value({z.data()}); }
 
-// Gradient and Hessian against central differences (truncation 1e-10 of derivatives of order one), and the pattern against the
-// Hessian: every entry that is not zero is announced, in the triangle that is delivered.
+// Gradient and Hessian against central differences (truncation 1e-10 of derivatives of order one), and the pattern
+// against the Hessian: every entry that is not zero is announced, in the triangle that is delivered.
 inline void CheckDerivatives(PointCost& cost, const PointLayout& layout) {
   const VectorX z = RandomPoint(layout.size());
   const double step = 1e-5, weight = 1.7;

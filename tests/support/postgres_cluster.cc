@@ -92,8 +92,8 @@ PostgresCluster::PostgresCluster(const Options& options) : options_(options) {
   if (geteuid() == 0) ROLLGAIT_CHECK(chown(name.c_str(), Nobody().pw_uid, Nobody().pw_gid) == 0);
   const std::string data = directory_ + "/data";
   if (options.primary != nullptr) {
-    RunToEnd({Programs() + "/pg_basebackup", "-d", options.primary->Url(), "-D", data, "-R", "-X", "stream", "-c", "fast",
-              "--no-sync"},
+    RunToEnd({Programs() + "/pg_basebackup", "-d", options.primary->Url(), "-D", data, "-R", "-X", "stream", "-c",
+              "fast", "--no-sync"},
              directory_);
   } else {
     RunToEnd({Programs() + "/initdb", "-D", data, "-U", kUser, "-A", "trust", "-E", "UTF8", "--locale=C", "--no-sync"},
@@ -146,7 +146,8 @@ std::string PostgresCluster::Url(const std::string& schema) const {
 
 std::string PostgresCluster::Execute(const std::string& sql) const {
   PGconn* connection = PQconnectdb(Url().c_str());
-  PQsetNoticeProcessor(connection, [](void*, const char*) {}, nullptr);
+  PQsetNoticeProcessor(
+      connection, [](void*, const char*) {}, nullptr);
   PGresult* result = PQexec(connection, sql.c_str());
   const ExecStatusType status = PQresultStatus(result);
   if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) Die(sql + ": " + PQerrorMessage(connection));

@@ -8,13 +8,13 @@
 
 namespace rollgait {
 
-// A PostgreSQL server of a test's own, in a new directory under /tmp, on a Unix socket only, run by an unprivileged user
-// when the test is root. It dies with the test. Aborts with a sentence if PostgreSQL is not installed.
+// A PostgreSQL server of a test's own, in a new directory under /tmp, on a Unix socket only, run by an unprivileged
+// user when the test is root. It dies with the test. Aborts with a sentence if PostgreSQL is not installed.
 class PostgresCluster {
  public:
   struct Options {
-    bool durable = false;  // fsync; a test that does not pull the plug needs none
-    std::vector<std::string> settings = {};     // name=value
+    bool durable = false;                      // fsync; a test that does not pull the plug needs none
+    std::vector<std::string> settings = {};    // name=value
     const PostgresCluster* primary = nullptr;  // set: a streaming standby of it
   };
   PostgresCluster() : PostgresCluster(Options{}) {}

@@ -16,10 +16,10 @@ namespace rollgait {
 struct PrescribedWalk {
   using Curve = std::function<double(double percent)>;  // period 100
 
-  double stride_time = 1.1;  // s
-  double stride = 1.4;       // m
-  double toe_off = 60;       // % of the right leg, 50 … 100; the left leg is half a cycle later
-  std::map<std::string, Curve> angles;  // rad, of the right leg by the joint's name without side
+  double stride_time = 1.1;              // s
+  double stride = 1.4;                   // m
+  double toe_off = 60;                   // % of the right leg, 50 … 100; the left leg is half a cycle later
+  std::map<std::string, Curve> angles;   // rad, of the right leg by the joint's name without side
   std::map<std::string, Curve> efforts;  // N m, likewise
   Curve vertical = [](double) { return 0; }, forward = [](double) { return 0; };  // N, on the right foot
 

@@ -27,7 +27,8 @@ inline Matrix3 RandomRotation(std::mt19937& random) {
   return Eigen::Quaterniond(w.normalized()).toRotationMatrix();
 }
 
-// A branching tree of n joints of both types with random placements and physical inertias; some inner links are massless.
+// A branching tree of n joints of both types with random placements and physical inertias; some inner links are
+// massless.
 inline Model RandomTree(std::mt19937& random, int n) {
   std::vector<Joint> joints(n);
   for (int i = 0; i < n; ++i) {

@@ -15,11 +15,11 @@ struct BodyOnPlane {
   Vector3 center_of_mass = Vector3::Zero();
   Matrix3 inertia = Matrix3::Identity();
   Vector3 gravity{0, 0, -9.81};
-  double sigma = 0;                                   // N m s, couple −sigma ω
+  double sigma = 0;  // N m s, couple −sigma ω
   GroundMotion ground;
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Vector3 omega_body = Vector3::Zero();
-  Vector3 contact_point = Vector3::Zero();            // z is found
+  Vector3 contact_point = Vector3::Zero();  // z is found
 };
 
 // The scene at t = 0 in contact and rolling (the translation of the body is an adjusted joint).

@@ -25,7 +25,8 @@ inline std::string Scrape(const std::string& address) {
     const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
     if (write(fd, request.data(), request.size()) == static_cast<ssize_t>(request.size())) {
       char block[4096];
-      for (ssize_t count; (count = read(fd, block, sizeof block)) > 0;) answer.append(block, static_cast<size_t>(count));
+      for (ssize_t count; (count = read(fd, block, sizeof block)) > 0;)
+        answer.append(block, static_cast<size_t>(count));
     }
   }
   close(fd);
@@ -33,8 +34,8 @@ inline std::string Scrape(const std::string& address) {
   return body == std::string::npos ? "" : answer.substr(body + 4);
 }
 
-// The samples of a text in the Prometheus exposition format: "name{label=\"value\",...}" → value. Throws on a line that is none, and
-// on a sample whose family was not announced by a # TYPE line.
+// The samples of a text in the Prometheus exposition format: "name{label=\"value\",...}" → value. Throws on a line that
+// is none, and on a sample whose family was not announced by a # TYPE line.
 inline std::map<std::string, double> ParseExposition(const std::string& text) {
   std::map<std::string, double> samples;
   std::map<std::string, std::string> types;

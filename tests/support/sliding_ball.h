@@ -19,8 +19,8 @@ inline SimulationScene Ball(double friction, const Vector3& gravity, const Vecto
   contact.active = true;
   contact.friction = friction;
   contact.friction_loss = FrictionLoss::kSlide;
-  SimulationScene scene{"ball", Model::Create({joint}).value(), {JointForce{}}, {GroundMotion{}}, {contact}, gravity,
-                        {}, {}, {}, -1, {}};
+  SimulationScene scene{
+      "ball", Model::Create({joint}).value(), {JointForce{}}, {GroundMotion{}}, {contact}, gravity, {}, {}, {}, -1, {}};
   scene.q = NeutralConfiguration(scene.model);
   scene.q[6] = kRadius;
   scene.v.resize(6);

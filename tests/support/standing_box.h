@@ -10,7 +10,8 @@ namespace rollgait::testing {
 
 // A box of 2 kg that stands at rest on four frictional points: twelve rows of rank six.
 struct StandingBox {
-  explicit StandingBox(const Vector3& moments) : model(MakeModel(moments)), dynamics(BodyDynamics(model), MakeContacts()) {
+  explicit StandingBox(const Vector3& moments)
+      : model(MakeModel(moments)), dynamics(BodyDynamics(model), MakeContacts()) {
     VectorX q = NeutralConfiguration(model);
     q[6] = 1;
     dynamics.SetState(q, VectorX::Zero(6), {FrameMotion{}});
@@ -26,7 +27,7 @@ struct StandingBox {
     std::vector<TreeContact> contacts(4);
     for (int k = 0; k < 4; ++k) {
       contacts[static_cast<size_t>(k)].surface = {Sphere(0.1), Vector3(k % 2 == 0 ? 1 : -1, k < 2 ? 1 : -1, -0.9),
-                                                 Matrix3::Identity()};
+                                                  Matrix3::Identity()};
     }
     return contacts;
   }

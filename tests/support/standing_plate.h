@@ -10,7 +10,8 @@ namespace rollgait::testing {
 
 // A plate of 3 kg at rest on feet at `places` (m, from its centre of mass).
 struct StandingPlate {
-  StandingPlate(const std::vector<Vector3>& places, Grip grip) : dynamics(BodyDynamics(MakeModel()), Contacts(places, grip)) {
+  StandingPlate(const std::vector<Vector3>& places, Grip grip)
+      : dynamics(BodyDynamics(MakeModel()), Contacts(places, grip)) {
     VectorX q = NeutralConfiguration(MakeModel());
     q[6] = 0.5;
     dynamics.SetState(q, VectorX::Zero(6), {FrameMotion{}});

@@ -5,11 +5,13 @@
 
 namespace rollgait {
 
-// A surface that an impact stops came from above:  n · J(q) (v⁺ − v⁻) ≥ 0, m/s, one row, since J v⁺ = 0. On the z of a jump
-// (OptimalControlProblem::JumpLayout), where v⁺ − v⁻ stands in the place of the accelerations.  Source: docs/contact_changes.md.
+// A surface that an impact stops came from above:  n · J(q) (v⁺ − v⁻) ≥ 0, m/s, one row, since J v⁺ = 0. On the z of a
+// jump (OptimalControlProblem::JumpLayout), where v⁺ − v⁻ stands in the place of the accelerations.  Source:
+// docs/contact_changes.md.
 class ApproachConstraint : public PointConstraint {
  public:
-  ApproachConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact, const PointLayout& layout);
+  ApproachConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact,
+                     const PointLayout& layout);
   int rows() const override { return 1; }
   std::string Name(int) const override { return "approach " + name_; }
   std::string Unit(int) const override { return "m/s²"; }  // times s at a jump

@@ -5,10 +5,10 @@
 
 namespace rollgait {
 
-// Gap of a contact over the ground, φ(q) = n · p, m, one row. The bound is  (4 s (1 − s))³ · clearance ≤ φ  at fraction s of
-// the phase for a swinging surface, or φ = 0 where it touches down.  Source: contact-math 5. While a surface rolls, φ and its first
-// two derivatives are 0, and so are those of the bound at both ends: a bound with a slope there could be met on a mesh only, by a foot
-// that is stopped within the last interval, however short.
+// Gap of a contact over the ground, φ(q) = n · p, m, one row. The bound is  (4 s (1 − s))³ · clearance ≤ φ  at fraction
+// s of the phase for a swinging surface, or φ = 0 where it touches down.  Source: contact-math 5. While a surface
+// rolls, φ and its first two derivatives are 0, and so are those of the bound at both ends: a bound with a slope there
+// could be met on a mesh only, by a foot that is stopped within the last interval, however short.
 class GapConstraint : public PointConstraint {
  public:
   enum class Kind { kClearance, kTouching };
@@ -36,8 +36,8 @@ class GapConstraint : public PointConstraint {
   std::vector<int> path_;
 };
 
-// Where on the surface the contact point lies: its coordinate along the first axis as a fraction of the largest one, −1 … 1,
-// one row with the given range.  Source: eq. (4.3).
+// Where on the surface the contact point lies: its coordinate along the first axis as a fraction of the largest one, −1
+// … 1, one row with the given range.  Source: eq. (4.3).
 class SurfacePointConstraint : public PointConstraint {
  public:
   SurfacePointConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact,

@@ -9,9 +9,8 @@ namespace rollgait {
 class DynamicsConstraint : public PointConstraint {
  public:
   // force_size (N) and effort_size (N m) scale rows of prismatic and revolute joints.
-  DynamicsConstraint(const Model& model, const std::vector<ContactSurface>& contacts,
-                     std::vector<ActiveContact> active, const PointLayout& layout, double force_size,
-                     double effort_size);
+  DynamicsConstraint(const Model& model, const std::vector<ContactSurface>& contacts, std::vector<ActiveContact> active,
+                     const PointLayout& layout, double force_size, double effort_size);
 
   int rows() const override { return layout_.n; }
   std::string Name(int row) const override;

@@ -5,8 +5,8 @@
 
 namespace rollgait {
 
-std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
-                                   double coefficient) {
+std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts,
+                                   const std::vector<ActiveContact>& active, double coefficient) {
   std::vector<ForceRow> rows;
   for (const ActiveContact& contact : active) {
     const ContactSurface& surface = contacts[contact.contact];

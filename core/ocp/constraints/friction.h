@@ -15,10 +15,10 @@ struct ForceRow {
 };
 
 // Friction pyramids of the active contacts of a phase: for each tangent direction t of a contact  μ f_n + f_t >= 0  and
-// μ f_n − f_t >= 0, in this order. In the plane the pyramid is the cone; in space it is the inner pyramid, with μ/√2, so that the cone
-// holds as well. `contacts` are all of the problem; `active` those of the phase.
-std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts, const std::vector<ActiveContact>& active,
-                                   double coefficient);
+// μ f_n − f_t >= 0, in this order. In the plane the pyramid is the cone; in space it is the inner pyramid, with μ/√2,
+// so that the cone holds as well. `contacts` are all of the problem; `active` those of the phase.
+std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts,
+                                   const std::vector<ActiveContact>& active, double coefficient);
 
 // These rows at one instant, N or N s.
 class FrictionConstraint : public PointConstraint {

@@ -31,8 +31,9 @@ class RollingVelocityConstraint : public PointConstraint {
   VectorX path_v_;
 };
 
-// The same on acceleration level,  d/dt w = J a + γ(q, v) = 0, m/s², for a first point that is a node of which the velocity is
-// at rest already (Lobatto schemes). All derivatives come from those of w carried along (v, a).  Source: eq. (3.5).
+// The same on acceleration level,  d/dt w = J a + γ(q, v) = 0, m/s², for a first point that is a node of which the
+// velocity is at rest already (Lobatto schemes). All derivatives come from those of w carried along (v, a).  Source:
+// eq. (3.5).
 class RollingAccelerationConstraint : public PointConstraint {
  public:
   RollingAccelerationConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact,

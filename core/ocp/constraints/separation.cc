@@ -1,8 +1,7 @@
 #include "core/ocp/constraints/separation.h"
 
-#include <algorithm>
-
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "core/base/check.h"
 
@@ -71,7 +70,8 @@ Separation SeparationConstraint::Measure(const TreeDynamics& tree) {
   return FindSeparation(body_1, body_2, &start);
 }
 
-SurfaceExpansion<double> SeparationConstraint::Expand(const TreeDynamics& tree, const Separation& separation, int order) {
+SurfaceExpansion<double> SeparationConstraint::Expand(const TreeDynamics& tree, const Separation& separation,
+                                                      int order) {
   const SurfaceExpansion<double> expansion(first_.placed, frame_1_, second_.placed, frame_2_, separation, order);
   for (size_t k = 0; k < movers_.size(); ++k) {
     const Vector6& axis = tree.axis(movers_[k].joint);
@@ -98,8 +98,8 @@ void SeparationConstraint::AddHessian(const PointContext& at, const double* lamb
     for (size_t m = 0; m <= k; ++m) {
       double second = expansion.Second(changes_[m], changes_[k]).gap;
       if (movers_[m].moves_second == movers_[k].moves_second) {
-        // Joint m carries joint k: the twist of k turns with m. The distance changes by the velocity of the contact point
-        // along ν, away from it for the first body.
+        // Joint m carries joint k: the twist of k turns with m. The distance changes by the velocity of the contact
+        // point along ν, away from it for the first body.
         const bool of_second = movers_[k].moves_second;
         const Vector3 omega = at.tree->axis(movers_[m].joint).head<3>();
         const Variation<double>& carried = of_second ? changes_[k].two : changes_[k].one;

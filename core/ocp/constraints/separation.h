@@ -7,18 +7,18 @@
 
 namespace rollgait {
 
-// Signed distance of two bodies, m, one row:  clearance ≤ d(q).  d depends on the joints between the bodies only: those on
-// the two paths below the last joint that carries both; Jacobian and Hessian are dense in them. While the bodies are apart d
-// is their distance, which is unique. While they overlap it is the local maximum of g (contact-math 8) that Newton's method
-// reaches from the line of their centres, so d depends on q alone, never on what was evaluated before. Derivatives are exact:
-// the second-order expansion of the pair (SurfaceExpansion) along the joints' twists, plus
+// Signed distance of two bodies, m, one row:  clearance ≤ d(q).  d depends on the joints between the bodies only: those
+// on the two paths below the last joint that carries both; Jacobian and Hessian are dense in them. While the bodies are
+// apart d is their distance, which is unique. While they overlap it is the local maximum of g (contact-math 8) that
+// Newton's method reaches from the line of their centres, so d depends on q alone, never on what was evaluated before.
+// Derivatives are exact: the second-order expansion of the pair (SurfaceExpansion) along the joints' twists, plus
 //   d'(ζ_mk),  ζ_mk = (ω_m × ∂p/∂q_k, ½ ω_m × ω_k)  for joint m at or above joint k on one path.
 // Source: contact-math 6, 8. Reads the tree of the context only. No allocation after construction.
 // Contract: bodies on different links, with smooth surfaces (SupportJet::order 3 everywhere, as ellipsoids).
 class SeparationConstraint : public PointConstraint {
  public:
-  SeparationConstraint(const Model& model, const BodySurface& first, const BodySurface& second, const PointLayout& layout,
-                       double clearance);
+  SeparationConstraint(const Model& model, const BodySurface& first, const BodySurface& second,
+                       const PointLayout& layout, double clearance);
   int rows() const override { return 1; }
   // "distance left_shank / right_shank".
   std::string Name(int) const override { return "distance " + first_.name + " / " + second_.name; }

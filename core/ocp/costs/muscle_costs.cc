@@ -7,7 +7,8 @@
 namespace rollgait {
 namespace {
 
-// What muscles of people who walk exert, as a fraction of their strength, and as many joints of a large body that do so.
+// What muscles of people who walk exert, as a fraction of their strength, and as many joints of a large body that do
+// so.
 constexpr double kTypicalActivity = 0.2;
 constexpr double kBusyJoints = 4;
 

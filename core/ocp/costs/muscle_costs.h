@@ -9,13 +9,13 @@
 
 namespace rollgait {
 
-// One actuated joint as its muscles see it. What ligaments and stretched muscles give (`passive`) costs nothing: the muscles
-// pay for  m = τ − p(q), the rest of the joint's torque.
+// One actuated joint as its muscles see it. What ligaments and stretched muscles give (`passive`) costs nothing: the
+// muscles pay for  m = τ − p(q), the rest of the joint's torque.
 struct MuscledJoint {
   int coordinate = 0;   // index into q and v
   double strength = 1;  // N m, > 0
   double weight = 1;
-  ExponentialSpring passive;     // rad -> N m
+  ExponentialSpring passive;  // rad -> N m
 };
 
 // Σ w_j |m_j / S_j|^κ, dimensionless, κ ≥ 2: effort of muscles against their strength S_j.
@@ -36,12 +36,13 @@ class MuscleEffortCost : public PointCost {
   PointLayout layout_;
 };
 
-// Σ w_j E(P_j), W, of the power P_j = m_j v_j of the muscles at the prices 1/η⁺ and 1/η⁻ (power_price.h): the chemical energy of
-// muscles that do positive work with the efficiency η⁺ and are stretched at the price 1/η⁻ for each joule, P⁺/η⁺ + P⁻/η⁻.
+// Σ w_j E(P_j), W, of the power P_j = m_j v_j of the muscles at the prices 1/η⁺ and 1/η⁻ (power_price.h): the chemical
+// energy of muscles that do positive work with the efficiency η⁺ and are stretched at the price 1/η⁻ for each joule,
+// P⁺/η⁺ + P⁻/η⁻.
 class MuscleWorkCost : public PointCost {
  public:
-  MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency, double smoothing,
-                 const PointLayout& layout, double typical);
+  MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency,
+                 double smoothing, const PointLayout& layout, double typical);
   std::string Name() const override { return "muscle work"; }
   std::string Unit() const override { return "J"; }
   double Typical() const override { return typical_ * price_.mean(); }

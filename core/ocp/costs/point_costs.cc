@@ -7,8 +7,9 @@ namespace rollgait {
 SquaredTorqueCost::SquaredTorqueCost(VectorX weights, const PointLayout& layout, double effort_size)
     : weights_(std::move(weights)), layout_(layout), effort_size_(effort_size) {}
 double SquaredTorqueCost::Typical() const {
-  // A planar walker's six joints have squares of a twentieth of effort_size² each. The more joints there are, the smaller the
-  // torques of most: 0.02 effort_size² for all 23 of a human, measured; in between by the square of the number.
+  // A planar walker's six joints have squares of a twentieth of effort_size² each. The more joints there are, the
+  // smaller the torques of most: 0.02 effort_size² for all 23 of a human, measured; in between by the square of the
+  // number.
   const double n = static_cast<double>(weights_.size());
   return weights_.sum() / n * std::min(n / 20, 10.8 / (n * n)) * effort_size_ * effort_size_;
 }

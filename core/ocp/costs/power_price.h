@@ -7,13 +7,13 @@
 
 namespace rollgait {
 
-// Energy per time that a power P, W, takes: c⁺ P of work that is done, c⁻ |P| of work that is taken up, c > 0, with the corner at
-// P = 0 made round by ε > 0, W:
+// Energy per time that a power P, W, takes: c⁺ P of work that is done, c⁻ |P| of work that is taken up, c > 0, with the
+// corner at P = 0 made round by ε > 0, W:
 //   E(P) = c (√(P² − 2tεP + ε²) − ε + tP),  c = (c⁺ + c⁻)/2,  t = (c⁺ − c⁻)/(c⁺ + c⁻).
-// E is convex, zero with a zero slope at P = 0, positive elsewhere, and never above the energy with the corner; far from zero it is
-// that of a power smaller by ε: c⁺(P − ε), c⁻(|P| − ε). Of equal prices it is c (√(P² + ε²) − ε). The hyperbola is tilted about
-// its lowest point: tilting c (√(P² + ε²) − ε) by the line c t P instead would pay for slow absorption, 0.6 ε a joint with the
-// efficiencies of muscles. Immutable value.
+// E is convex, zero with a zero slope at P = 0, positive elsewhere, and never above the energy with the corner; far
+// from zero it is that of a power smaller by ε: c⁺(P − ε), c⁻(|P| − ε). Of equal prices it is c (√(P² + ε²) − ε). The
+// hyperbola is tilted about its lowest point: tilting c (√(P² + ε²) − ε) by the line c t P instead would pay for slow
+// absorption, 0.6 ε a joint with the efficiencies of muscles. Immutable value.
 class PowerPrice {
  public:
   PowerPrice(double positive, double negative, double smoothing)
@@ -31,7 +31,8 @@ class PowerPrice {
     double value, first, second;
   };
   Jet At(double power) const {
-    // Without cancellation: ρ² = P² − 2tεP + ε² = (ε − tP)² + (1 − t²)P², so that ρ − (ε − tP) is the second summand over ρ + (ε − tP).
+    // Without cancellation: ρ² = P² − 2tεP + ε² = (ε − tP)² + (1 − t²)P², so that ρ − (ε − tP) is the second summand
+    // over ρ + (ε − tP).
     const double rest = smoothing_ - tilt_ * power, height = upright_ * power * power;
     const double root = std::sqrt(rest * rest + height);
     const double excess = rest > 0 ? height / (root + rest) : root - rest;

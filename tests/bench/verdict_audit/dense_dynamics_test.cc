@@ -31,7 +31,8 @@ struct Case {
     v = 2 * VectorX::Random(scene.model.size());
     efforts = 50 * VectorX::Random(static_cast<Eigen::Index>(scene.model.actuated().size()));
     tau = VectorX::Zero(scene.model.size());
-    for (size_t a = 0; a < scene.model.actuated().size(); ++a) tau[scene.model.actuated()[a]] = efforts[static_cast<Eigen::Index>(a)];
+    for (size_t a = 0; a < scene.model.actuated().size(); ++a)
+      tau[scene.model.actuated()[a]] = efforts[static_cast<Eigen::Index>(a)];
   }
   VectorX q, v, efforts, tau;
 };
@@ -49,11 +50,13 @@ TEST(DenseDynamics, AgreesWithContactDynamics) {
         const Case at(scene, seed);
         const VectorX expected = core.Evaluate(at.q, at.v, at.tau, kGravity).acceleration;
         const DenseDynamics::Answer answer = dense.Evaluate(at.q, at.v, at.efforts);
-        // The difference quotient of J costs 1e-9 of the velocities' squares; the lightest links are that much more mobile.
+        // The difference quotient of J costs 1e-9 of the velocities' squares; the lightest links are that much more
+        // mobile.
         EXPECT_LT((answer.acceleration - expected).norm(), 1e-6 * expected.norm()) << model << seed;
         ASSERT_EQ(answer.forces.size(), contacts.size());
         for (size_t c = 0; c < contacts.size(); ++c) {
-          EXPECT_LT((answer.forces[c] - core.Force(static_cast<int>(c))).norm(), 1e-6 * core.Force(static_cast<int>(c)).norm());
+          EXPECT_LT((answer.forces[c] - core.Force(static_cast<int>(c))).norm(),
+                    1e-6 * core.Force(static_cast<int>(c)).norm());
         }
       }
     }

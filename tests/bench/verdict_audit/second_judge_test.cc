@@ -48,7 +48,8 @@ CriterionValues First(const Gait& gait) {
   ValidationOptions options;
   options.gravity = gait.spec.gravity;
   options.friction_coefficient = gait.spec.friction_coefficient;
-  options.min_normal_force = gait.spec.min_normal_force_bw * gait.spec.scene.model.total_mass() * gait.spec.gravity.norm();
+  options.min_normal_force =
+      gait.spec.min_normal_force_bw * gait.spec.scene.model.total_mass() * gait.spec.gravity.norm();
   const AccuracyReport report = Validate(gait.spec.scene, gait.trajectory, options);
   CriterionValues values;
   for (const CriterionTraits& traits : Criteria()) {
@@ -80,9 +81,9 @@ int JointOf(const Gait& gait, const char* name) {
   return joint;
 }
 
-// What is looked for at every instant is at least what is found at 41 an interval; what is one number for an interval or for the
-// motion is the same, but for the errors of the two integrators and, of the energy, of the work, whose positive and negative parts meet
-// between instants.
+// What is looked for at every instant is at least what is found at 41 an interval; what is one number for an interval
+// or for the motion is the same, but for the errors of the two integrators and, of the energy, of the work, whose
+// positive and negative parts meet between instants.
 TEST(SecondJudge, FindsWhatTheFirstFindsInASoundGait) {
   using enum Criterion;
   for (const Gait* gait : {&Smooth(), &Plastic()}) {
@@ -102,12 +103,14 @@ TEST(SecondJudge, FindsWhatTheFirstFindsInASoundGait) {
 TEST(SecondJudge, FindsAGaitThatFloatsOrSinks) {
   for (const double height : {2e-3, -2e-3}) {
     Gait gait = Smooth();
-    for (TrajectoryPhase& phase : gait.trajectory.phases) phase.node_positions.row(JointOf(gait, "base_z")).array() += height;
+    for (TrajectoryPhase& phase : gait.trajectory.phases)
+      phase.node_positions.row(JointOf(gait, "base_z")).array() += height;
     ExpectFault(gait, Smooth(), Criterion::kGap, 2e-3);
   }
   // A foot that swings touches the ground where its phase begins or ends, and sinks with the body.
   Gait gait = Smooth();
-  for (TrajectoryPhase& phase : gait.trajectory.phases) phase.node_positions.row(JointOf(gait, "base_z")).array() -= 0.01;
+  for (TrajectoryPhase& phase : gait.trajectory.phases)
+    phase.node_positions.row(JointOf(gait, "base_z")).array() -= 0.01;
   ExpectFault(gait, Smooth(), Criterion::kPenetration, 0.01);
 }
 

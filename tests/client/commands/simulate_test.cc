@@ -87,7 +87,8 @@ class SimulateCommandTest : public testing::Test {
  protected:
   std::string Scene(const std::string& name) const {
     const std::string path = testing::TempDir() + "rollgait_simulate_test_" + name + ".json";
-    std::ofstream(path) << "{\"name\": \"" << name << "\", \"joints\": [{\"name\": \"ball\", \"type\": \"TYPE_FREE\"}], "
+    std::ofstream(path) << "{\"name\": \"" << name
+                        << "\", \"joints\": [{\"name\": \"ball\", \"type\": \"TYPE_FREE\"}], "
                         << "\"contacts\": [{\"name\": \"foot\"}], \"duration_s\": 0.2}";
     return path;
   }

@@ -49,7 +49,8 @@ TEST_F(SolveCommandTest, PrintsIterationsAndSummary) {
   EXPECT_THAT(client.err(), HasSubstr("objective"));
   EXPECT_THAT(client.err(), HasSubstr("9.960000e+02"));
   EXPECT_THAT(client.err(), Not(HasSubstr("\x1b")));
-  EXPECT_THAT(client.out(), HasSubstr("solves/planar  optimal, accuracy within the requested bounds: The KKT conditions hold"));
+  EXPECT_THAT(client.out(),
+              HasSubstr("solves/planar  optimal, accuracy within the requested bounds: The KKT conditions hold"));
   EXPECT_THAT(client.out(), HasSubstr("step length"));
   EXPECT_THAT(client.out(), HasSubstr("slip of a contact that rolls"));
   EXPECT_THAT(client.out(), HasSubstr("-10  °"));
@@ -123,7 +124,9 @@ TEST_F(SolveCommandTest, SaysWhatWasNotKeptAndWhatWasNotJudged) {
   ClientProcess inaccurate(Arguments({"-q", "solve", "--model", "inaccurate"}));
   EXPECT_EQ(inaccurate.Wait(), 8);
   EXPECT_EQ(inaccurate.out(), "");
-  EXPECT_THAT(inaccurate.err(), HasSubstr("EXCEEDED: slip of a contact that rolls, 20 mm/s where 1 mm/s is allowed (left_foot at 0.31 s)"));
+  EXPECT_THAT(
+      inaccurate.err(),
+      HasSubstr("EXCEEDED: slip of a contact that rolls, 20 mm/s where 1 mm/s is allowed (left_foot at 0.31 s)"));
   ClientProcess draft(Arguments({"solve", "--model", "draft"}));
   EXPECT_EQ(draft.Wait(), 0);
   EXPECT_THAT(draft.out(), HasSubstr("Accuracy: not judged (draft)"));

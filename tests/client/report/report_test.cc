@@ -48,7 +48,8 @@ TEST(ReportDataTest, EventsAndForcesAreTheServers) {
   EXPECT_EQ(stride["feet"][0]["name"], "right foot");
   EXPECT_EQ(stride["feet"][0]["stance"], 0.6125);
   EXPECT_EQ(stride["feet"][0]["normal"][60], 100);  // % of body weight in single support
-  EXPECT_NEAR(stride["feet"][0]["pressure"][80].get<double>(), 1e3 * 0.2 * (40 - 0.5) / 60, 1e-3);  // loaded from 0.5 % on
+  EXPECT_NEAR(stride["feet"][0]["pressure"][80].get<double>(), 1e3 * 0.2 * (40 - 0.5) / 60,
+              1e-3);  // loaded from 0.5 % on
   EXPECT_TRUE(stride["feet"][0]["pressure"][160].is_null());
   EXPECT_EQ(stride["double_support"], 0.215);
 }

@@ -102,7 +102,8 @@ TEST(LowestPointTest, IsTheLowestPoint) {
   for (int i = 0; i <= 400; ++i) {
     for (int j = 0; j < 800; ++j) {
       const double polar = M_PI * i / 400, around = M_PI * j / 400;
-      const Eigen::Vector3d unit(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar));
+      const Eigen::Vector3d unit(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+                                 std::cos(polar));
       const Eigen::Vector3d point = poses.back().position + poses.back().rotation * axes.cwiseProduct(unit);
       if (point.z() >= least) continue;
       least = point.z();

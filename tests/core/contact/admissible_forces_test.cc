@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "tests/support/seeded_random.h"
 

@@ -21,7 +21,8 @@ struct Definition {
     tree.UpdateKinematics(q.data(), zero.data());
     const Matrix3 R = tree.rotation(contact.joint) * contact.R_LE;
     const Vector3 nu = -R.row(2).transpose();
-    return tree.origin(contact.joint) + tree.rotation(contact.joint) * contact.p_LE + R * contact.surface.SupportPoint(nu);
+    return tree.origin(contact.joint) + tree.rotation(contact.joint) * contact.p_LE +
+           R * contact.surface.SupportPoint(nu);
   }
   // yᵀ J(q) u
   double Beta(const VectorX& q, const Vector3& y, const VectorX& u) const {
@@ -81,7 +82,8 @@ TEST_F(ContactDerivativesTest, BilinearFormMeetsDifferencesOfItsDefinition) {
   };
   for (int k = 0; k < contact.path_size(); ++k) {
     const VectorX up = moved(k, kStep), down = moved(k, -kStep);
-    EXPECT_LT(((definition.Point(up) - definition.Point(down)) / (2 * kStep) - contact.PointDerivative(k)).norm(), 1e-6);
+    EXPECT_LT(((definition.Point(up) - definition.Point(down)) / (2 * kStep) - contact.PointDerivative(k)).norm(),
+              1e-6);
     const double dbeta = (definition.Beta(up, y_, u_) - definition.Beta(down, y_, u_)) / (2 * kStep);
     EXPECT_NEAR(dbeta, y_.dot(field.gradient[k]), kTolerance);
     for (int m = 0; m < contact.path_size(); ++m) {
@@ -91,13 +93,13 @@ TEST_F(ContactDerivativesTest, BilinearFormMeetsDifferencesOfItsDefinition) {
       updown(j) -= kStep;
       downup(j) += kStep;
       downdown(j) -= kStep;
-      const auto second = [&](auto f) {
-        return (f(upup) - f(updown) - f(downup) + f(downdown)) / (4 * kStep * kStep);
-      };
+      const auto second = [&](auto f) { return (f(upup) - f(updown) - f(downup) + f(downdown)) / (4 * kStep * kStep); };
       EXPECT_NEAR(second([&](const VectorX& q) { return definition.Beta(q, y_, u_); }),
-                  contact.ContractedSecond(field, y_, m, k), 20 * kTolerance) << m << " " << k;
+                  contact.ContractedSecond(field, y_, m, k), 20 * kTolerance)
+          << m << " " << k;
       EXPECT_NEAR(second([&](const VectorX& q) { return y_.dot(definition.Point(q)); }),
-                  y_.dot(contact.PointSecond(m, k)), 20 * kTolerance) << m << " " << k;
+                  y_.dot(contact.PointSecond(m, k)), 20 * kTolerance)
+          << m << " " << k;
       const VectorX unit = VectorX::Unit(kJoints, contact.path()[m]);
       const double djac = (definition.Beta(up, y_, unit) - definition.Beta(down, y_, unit)) / (2 * kStep);
       EXPECT_NEAR(djac, y_.dot(contact.JacobianDerivative(k, m)), kTolerance) << m << " " << k;

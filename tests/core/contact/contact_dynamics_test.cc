@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
+#include <random>
 
 #include "core/contact/impact.h"
 #include "core/multibody/configuration.h"
@@ -25,8 +24,13 @@ const Vector3 kGravity(1.1, -0.6, -9.3);
 class ContactDynamicsTest : public ::testing::TestWithParam<int> {
  protected:
   ContactDynamicsTest()
-      : tree_(static_cast<unsigned>(GetParam())), random_(tree_.random), model_(tree_.model),
-        dynamics_(BodyDynamics(model_), tree_.contacts), q_(tree_.q), v_(tree_.v), ground_(tree_.ground) {
+      : tree_(static_cast<unsigned>(GetParam())),
+        random_(tree_.random),
+        model_(tree_.model),
+        dynamics_(BodyDynamics(model_), tree_.contacts),
+        q_(tree_.q),
+        v_(tree_.v),
+        ground_(tree_.ground) {
     dynamics_.SetState(q_, v_, ground_);
   }
 
@@ -95,7 +99,8 @@ TEST_P(ContactDynamicsTest, SlipIsItsJacobianTimesTheVelocity) {
 }
 
 // Along the accelerated motion the held velocities keep the values they have (bilateral, no Baumgarte): their rate by
-// differences of order 4 is zero for the rolling and the spin rows up to what turning rows add, which is zero without slip.
+// differences of order 4 is zero for the rolling and the spin rows up to what turning rows add, which is zero without
+// slip.
 TEST_P(ContactDynamicsTest, HeldVelocitiesStayHeld) {
   // First a state without slip: the velocity of least energy change.
   const std::vector<int> active = {0, 1, 2, 3};
@@ -130,7 +135,8 @@ TEST_P(ContactDynamicsTest, BaumgarteAddsItsTerms) {
   const Vector3 tangential = -5 * (pair.slip - pair.normal * pair.normal.dot(pair.slip));
   EXPECT_TRUE(MatrixNear((with - plain).head(3), normal * pair.normal + tangential, 1e-10));
   EXPECT_NEAR((with - plain)[3], -5 * dynamics_.Spin(0), 1e-10);
-  EXPECT_NEAR((with - plain)[4], -2 * 0.7 * 3 * dynamics_.Kinematics(1).gap_rate - 9 * dynamics_.Kinematics(1).gap, 1e-10);
+  EXPECT_NEAR((with - plain)[4], -2 * 0.7 * 3 * dynamics_.Kinematics(1).gap_rate - 9 * dynamics_.Kinematics(1).gap,
+              1e-10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ContactDynamicsTest, ::testing::Range(1, 7));
@@ -148,8 +154,8 @@ TEST(ContactDynamics, RedundantContactsGiveTheRightAcceleration) {
   EXPECT_TRUE(MatrixNear(sum, Vector3(-2, 0, 2 * 9.81), 1e-11));
 }
 
-// Three feet, the third δ off the line of the others, and a weight 0.3 m beside it: the forces are huge, and exact to what
-// `independence` says; where no digit is left of them, that is reported.
+// Three feet, the third δ off the line of the others, and a weight 0.3 m beside it: the forces are huge, and exact to
+// what `independence` says; where no digit is left of them, that is reported.
 TEST(ContactDynamics, NearlyRedundantContactsSayHowManyDigitsAreLeft) {
   const double weight = 3 * 9.81, epsilon = 2.2e-16;
   for (int e = 0; e >= -15; --e) {
@@ -164,15 +170,16 @@ TEST(ContactDynamics, NearlyRedundantContactsSayHowManyDigitsAreLeft) {
     const double last = -weight * (off - delta / 3) / delta, others = (weight - last) / 2;
     const double lost = 20 * epsilon / solution.independence;
     EXPECT_LT(solution.acceleration.cwiseAbs().maxCoeff(), 9.81 * lost) << e;
-    EXPECT_TRUE(MatrixNear(solution.forces, Vector3(others, others, last),
-                           lost / solution.independence * std::abs(last))) << e;
+    EXPECT_TRUE(
+        MatrixNear(solution.forces, Vector3(others, others, last), lost / solution.independence * std::abs(last)))
+        << e;
     EXPECT_GT(solution.independence, 0.5 * delta);
     EXPECT_LT(solution.independence, 2 * delta);
   }
 }
 
-// A rod of half length 1 that turns about its left end onto its right one. With I > m the left end would have to be held
-// down, so it is let go and rises; with I < m it would go into the ground, so both ends are held.
+// A rod of half length 1 that turns about its left end onto its right one. With I > m the left end would have to be
+// held down, so it is let go and rises; with I < m it would go into the ground, so both ends are held.
 TEST(Impact, HoldsWhatPushesAndReleasesWhatWouldPull) {
   std::vector<Joint> joints(3);
   joints[0].name = "x", joints[0].type = JointType::kPrismatic, joints[0].axis = Vector3::UnitX();
@@ -207,8 +214,8 @@ TEST(Impact, HoldsWhatPushesAndReleasesWhatWouldPull) {
     EXPECT_GT(impact.energy_loss, 0);
     const VectorX before = Vector3(0, -1, -1);
     const MatrixX mass = dynamics.MassMatrix();
-    EXPECT_NEAR(impact.energy_loss,
-                0.5 * before.dot(mass * before) - 0.5 * impact.velocity.dot(mass * impact.velocity), 1e-12);
+    EXPECT_NEAR(impact.energy_loss, 0.5 * before.dot(mass * before) - 0.5 * impact.velocity.dot(mass * impact.velocity),
+                1e-12);
   }
 }
 

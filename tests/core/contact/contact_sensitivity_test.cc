@@ -93,8 +93,7 @@ class DifferencedSystem {
 
 class ContactSensitivityTest : public ::testing::TestWithParam<unsigned> {
  protected:
-  void CheckSensitivity(ContactTree* tree, const std::vector<int>& active, const Baumgarte& terms,
-                        double step = 2e-3) {
+  void CheckSensitivity(ContactTree* tree, const std::vector<int>& active, const Baumgarte& terms, double step = 2e-3) {
     ContactDynamics dynamics(BodyDynamics(tree->model), tree->contacts);
     const VectorX tau = RandomVector(tree->random, tree->model.nv());
     dynamics.SetState(tree->q, tree->v, tree->ground);

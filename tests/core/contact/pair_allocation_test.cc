@@ -1,7 +1,7 @@
 // Contact kinematics of every kind of surface asks for no memory.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "core/contact/pair_hessians.h"
 #include "core/geometry/flattened_superellipsoid.h"

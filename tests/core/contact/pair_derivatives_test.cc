@@ -2,11 +2,10 @@
 // displaced configuration.
 #include "core/contact/pair_derivatives.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "tests/support/displaced_frames.h"
 #include "tests/support/high_order_difference.h"
@@ -105,8 +104,7 @@ TEST(PairDerivativesTest, TwistsGiveTheVelocitiesOfTheKinematics) {
   SurfacePair pair(one, two);
   const PairKinematics surfaces = pair.Compute(body_1, body_2);
   const PairKinematics flat = ComputePlaneContact(one, body_1, plane, body_2);
-  const PairDerivatives of_surfaces =
-      ComputeSurfacePairDerivatives(one, body_1, two, body_2, pair.separation(), 2);
+  const PairDerivatives of_surfaces = ComputeSurfacePairDerivatives(one, body_1, two, body_2, pair.separation(), 2);
   const PairDerivatives of_plane = ComputePlaneDerivatives(one, body_1, plane, body_2, 2);
   for (const bool is_plane : {false, true}) {
     const PairKinematics& kinematics = is_plane ? flat : surfaces;

@@ -1,13 +1,12 @@
 // First and second derivatives of velocities, slip, drift and the gap's rates against differences of order 8 of
-// PairKinematics itself, and against second derivations: the geometric part of γ in body axes, spheres in closed form, a
-// plane as a very large sphere.
+// PairKinematics itself, and against second derivations: the geometric part of γ in body axes, spheres in closed form,
+// a plane as a very large sphere.
 #include "core/contact/pair_hessians.h"
-
-#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/multibody/spatial.h"
 #include "tests/support/displaced_frames.h"
@@ -22,8 +21,8 @@ using Stack = Eigen::Matrix<double, 27, 1>;
 
 Stack Stacked(const PairKinematics& pair) {
   Stack stack;
-  stack << pair.normal, pair.p_1, pair.p_2, pair.normal_dot, pair.p_dot_1, pair.p_dot_2, pair.slip, pair.drift, pair.gap,
-      pair.gap_rate, pair.gap_acceleration;
+  stack << pair.normal, pair.p_1, pair.p_2, pair.normal_dot, pair.p_dot_1, pair.p_dot_2, pair.slip, pair.drift,
+      pair.gap, pair.gap_rate, pair.gap_acceleration;
   return stack;
 }
 
@@ -107,8 +106,8 @@ TEST(PairHessiansTest, SurfacesAgreeWithDifferences) {
         pair.StartFrom(at.separation.nu);
         return pair.Compute(Moved(at.body_1, z, 0), Moved(at.body_2, z, 1));
       };
-      CheckAgainstDifferences(evaluate,
-                              PairHessians::OfSurfaces(at.one, at.body_1, at.two, at.body_2, at.separation), &random);
+      CheckAgainstDifferences(evaluate, PairHessians::OfSurfaces(at.one, at.body_1, at.two, at.body_2, at.separation),
+                              &random);
     }
   }
 }
@@ -145,8 +144,8 @@ TEST(PairHessiansTest, DriftOnAFixedPlaneIsThatOfBodyAxes) {
       const Matrix3 S_1 = T(nu_1), S_2 = T(nu_2) + surface.SupportFourth(nu, nu_1, nu_1);
       const Vector3 x = surface.SupportPoint(nu);
       const Vector3 inner_1 = omega_1.cross(x) + omega.cross(x_1) + S_1 * c + S * c_1;
-      const Vector3 inner_2 = omega_2.cross(x) + 2 * omega_1.cross(x_1) + omega.cross(x_2) + S_2 * c +
-                              2 * S_1 * c_1 + S * c_2;
+      const Vector3 inner_2 =
+          omega_2.cross(x) + 2 * omega_1.cross(x_1) + omega.cross(x_2) + S_2 * c + 2 * S_1 * c_1 + S * c_2;
       const Vector3 b = omega.cross(inner), b_1 = omega_1.cross(inner) + omega.cross(inner_1);
       const Vector3 b_2 = omega_2.cross(inner) + 2 * omega_1.cross(inner_1) + omega.cross(inner_2);
       const double expected = y_2.dot(b) + 2 * y_1.dot(b_1) + y.dot(b_2);

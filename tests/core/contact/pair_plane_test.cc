@@ -1,9 +1,8 @@
 // A surface over a plane: laws that hold for every body and motion, at the extremes of size, shape and spin.
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/contact/pair_kinematics.h"
 #include "tests/support/extreme_contacts.h"
@@ -202,8 +201,12 @@ TEST(PairPlaneTest, VelocitiesAndAccelerationsAreDerivativesAlongAMotion) {
     // R(t) = exp(w t + α t²/2) R: at t = 0 the spin is w and its rate α.
     FrameMotion start[2];
     for (FrameMotion& body : start) {
-      body = {ExtremeContacts::Turn(2 * random.Unit()), random.Vector(-1, 1), random.Vector(-1, 1),
-              random.Vector(-1, 1),                     random.Vector(-1, 1), random.Vector(-1, 1)};
+      body = {ExtremeContacts::Turn(2 * random.Unit()),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1)};
     }
     const auto at = [&](double t) {
       FrameMotion moved[2];

@@ -1,10 +1,10 @@
 // Laws of two surfaces that hold for every pair and motion, 100 000 cases: time reversal, units of length and time, the
 // axes they are written in, mirrors, exchange of the bodies, and the rates of the gap.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <gtest/gtest.h>
 
 #include "core/contact/surface_pair.h"
 #include "tests/support/extreme_contacts.h"
@@ -140,8 +140,8 @@ TEST(PairSymmetryTest, ExchangeOfTheBodiesAndTheGap) {
     EXPECT_NEAR(pair.gap_rate, n.dot(w), length * rate);
     EXPECT_NEAR(pair.gap_acceleration, n.dot(pair.drift) + pair.normal_dot.dot(w), length * rate * rate);
     EXPECT_TRUE(MatrixNear(pair.p_1 - pair.p_2, pair.gap * n, length));
-    EXPECT_TRUE(MatrixNear(pair.p_dot_1 - pair.p_dot_2, pair.gap_rate * n + pair.gap * pair.normal_dot,
-                           4 * length * rate));
+    EXPECT_TRUE(
+        MatrixNear(pair.p_dot_1 - pair.p_dot_2, pair.gap_rate * n + pair.gap * pair.normal_dot, 4 * length * rate));
     std::swap(pair.p_1, pair.p_2);
     std::swap(pair.p_dot_1, pair.p_dot_2);
     for (Vector3* u : {&pair.normal, &pair.normal_dot, &pair.slip, &pair.drift}) *u = -*u;

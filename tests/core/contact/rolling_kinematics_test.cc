@@ -151,8 +151,8 @@ TEST(RollingKinematics, ReferenceCases) {
     surface.surface = Ellipsoid(axes);
     const RollingContact contact = ComputeRollingContact(surface, state);
 
-    // Turning the case costs a few epsilon of orientation, which an ellipsoid of axis ratio k enlarges: the contact point
-    // moves by a_max k a radian, and S changes by its own size over 1/k.
+    // Turning the case costs a few epsilon of orientation, which an ellipsoid of axis ratio k enlarges: the contact
+    // point moves by a_max k a radian, and S changes by its own size over 1/k.
     const double k = axes.maxCoeff() / axes.minCoeff();
     const double r = axes.maxCoeff(), w = omega.norm();
     const double sum = a.norm() + (alpha.norm() + w * w) * r + w * Expected(expect["x_rel_world"]).norm();

@@ -1,10 +1,10 @@
 // Two surfaces: convergence wherever they are, and laws that hold for every pair.
 #include "core/contact/surface_pair.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "core/contact/separating_plane.h"
 #include "tests/support/extreme_contacts.h"
@@ -226,8 +226,12 @@ TEST(SurfacePairTest, VelocitiesAndAccelerationsAreDerivativesAlongAMotion) {
   for (const double apart : {3.0, 1.2}) {
     FrameMotion start[2];
     for (FrameMotion& body : start) {
-      body = {ExtremeContacts::Turn(2 * random.Unit()), random.Vector(-0.1, 0.1), random.Vector(-1, 1),
-              random.Vector(-1, 1),                     random.Vector(-1, 1),     random.Vector(-1, 1)};
+      body = {ExtremeContacts::Turn(2 * random.Unit()),
+              random.Vector(-0.1, 0.1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1),
+              random.Vector(-1, 1)};
     }
     start[1].p_WB.y() += apart;
     SurfacePair pair(one, two);

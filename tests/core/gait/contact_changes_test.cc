@@ -1,12 +1,12 @@
-// What docs/contact_changes.md states: how far the Delassus matrix of the walkers couples normal and tangential directions, and that the
-// optimum of the preset human does not depend on mesh and scheme where forces vanish with their contacts.
+// What docs/contact_changes.md states: how far the Delassus matrix of the walkers couples normal and tangential
+// directions, and that the optimum of the preset human does not depend on mesh and scheme where forces vanish with
+// their contacts.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <numbers>
 #include <vector>
-
-#include <Eigen/LU>
 
 #include "core/contact/rolling_kinematics.h"
 #include "core/gait/optimizing_gait_solver.h"
@@ -62,8 +62,9 @@ TEST(ContactChanges, ForcesAreZeroWhereContactsChange) {
   EXPECT_EQ(given, 2);
 }
 
-// S_nn > 0.45 |S_nt| for one foot that is given up while the other stays, in the postures of a walk on -20 to 20 degrees: under load
-// it could be given up only with more than 0.45 of its normal force along the ground, in one of the two directions.
+// S_nn > 0.45 |S_nt| for one foot that is given up while the other stays, in the postures of a walk on -20 to 20
+// degrees: under load it could be given up only with more than 0.45 of its normal force along the ground, in one of the
+// two directions.
 TEST(ContactChanges, AFootIsNotGivenUpUnderLoadWithLessFrictionThanThat) {
   for (const double slope : {-20.0, 0.0, 20.0}) {
     const GaitSpec spec = CheckRequest(Human("planar", Scheme::kRadau2, 16, slope)).value();

@@ -31,8 +31,8 @@ class WalkingGuessTest : public ::testing::TestWithParam<Case> {
   std::unique_ptr<OptimalControlProblem> problem_;
 };
 
-// A step in the position where contacts change is an acceleration of a step over the square of an interval: 1 cm in 20 ms is 25 m/s².
-// Solves that started so ended in restorations.
+// A step in the position where contacts change is an acceleration of a step over the square of an interval: 1 cm in 20
+// ms is 25 m/s². Solves that started so ended in restorations.
 TEST_P(WalkingGuessTest, PositionsAreContinuousThroughThePhases) {
   for (const int variant : {0, 1, 2}) {
     const MotionGuess guess = WalkingGuess(*spec_, *problem_, variant);
@@ -69,7 +69,8 @@ TEST_P(WalkingGuessTest, LimbsPassBesideEachOther) {
         for (size_t pair = 0; pair < problem_->pairs.size(); ++pair) {
           const BodySurface &first = problem_->bodies[problem_->pairs[pair].first],
                             &second = problem_->bodies[problem_->pairs[pair].second];
-          EXPECT_GT(FindSeparation(pose(first), pose(second), nullptr).distance, 1e-3) << first.name << " " << second.name;
+          EXPECT_GT(FindSeparation(pose(first), pose(second), nullptr).distance, 1e-3)
+              << first.name << " " << second.name;
         }
       }
     }

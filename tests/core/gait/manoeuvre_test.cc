@@ -120,8 +120,8 @@ TEST(Indirect, ConvergesWithTheOrderOfTheScheme) {
   EXPECT_GT(order->order, 2.5) << errors[0].error << " " << errors[1].error << " " << errors[2].error;
 }
 
-// On a fine mesh the same cost, from sketches that are compared on a coarse one: only the best of them is carried up, from 25 to 200
-// intervals, with six short ones at each end on the way.
+// On a fine mesh the same cost, from sketches that are compared on a coarse one: only the best of them is carried up,
+// from 25 to 200 intervals, with six short ones at each end on the way.
 TEST(Indirect, AFineMeshIsClimbedByTheBestSketchAlone) {
   const double least = *BallExtremals(1, kBallRadius, 1)
                             .Least({0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX())), 3, 6);

@@ -59,8 +59,8 @@ TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
   for (const GaitSpec::Phase& phase : coarse->phases) EXPECT_EQ(phase.intervals, 1);
 }
 
-// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; with rates alone but for
-// the two that are known to be the request's at each end.
+// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; with rates
+// alone but for the two that are known to be the request's at each end.
 TEST(Ascend, HasShortIntervalsAtTheEndsOfPhases) {
   GaitRequest request = Fine(96);
   request.costs = {{GaitRequest::SquaredTorque{}, 1}};
@@ -73,8 +73,8 @@ TEST(Ascend, HasShortIntervalsAtTheEndsOfPhases) {
   EXPECT_EQ(solution.meshes[2].intervals, (std::vector<int>{2 + 46 + 2, 2 + 94 + 2}));
 }
 
-// The end is a solution of the spec's own NLP. Started from there it is found again, or left for a cheaper one beside it, by less than
-// 0.1 %: valleys of squared torque are flat.
+// The end is a solution of the spec's own NLP. Started from there it is found again, or left for a cheaper one beside
+// it, by less than 0.1 %: valleys of squared torque are flat.
 TEST(Ascend, EndsInASolutionOnTheRequestedMesh) {
   const GaitSpec spec = Check(Fine(96));
   const GaitSolution solution = Solve(spec);
@@ -88,8 +88,9 @@ TEST(Ascend, EndsInASolutionOnTheRequestedMesh) {
   EXPECT_GT(repeated.objective, (1 - 1e-3) * solution.objective);
 }
 
-// The intermediate mesh, whose intervals are shorter at the ends of phases, starts with a barrier of 1e-3: fewer than 92 iterations in all,
-// where a warm start far from the bounds takes 104. The requested one, which has none that are shorter, starts at 1e-4: 82, else 200.
+// The intermediate mesh, whose intervals are shorter at the ends of phases, starts with a barrier of 1e-3: fewer than
+// 92 iterations in all, where a warm start far from the bounds takes 104. The requested one, which has none that are
+// shorter, starts at 1e-4: 82, else 200.
 TEST(Ascend, MeshesStartCloseToTheirBounds) {
   int intermediate = 0, arriving = 0;
   for (const int intervals : {60, 72, 80, 90, 96}) {
@@ -118,7 +119,8 @@ TEST(Ascend, WithPowersTheRequestedMeshStartsClosestOfAll) {
   EXPECT_LE(arriving, 90);
 }
 
-// One on the way to 120 + 60 intervals goes round in circles. It is given up, and the next one starts from the one before it.
+// One on the way to 120 + 60 intervals goes round in circles. It is given up, and the next one starts from the one
+// before it.
 TEST(Ascend, LeavesOutAMeshThatLeadsNowhere) {
   GaitRequest request = Fine(120);
   request.costs.clear();
@@ -130,7 +132,8 @@ TEST(Ascend, LeavesOutAMeshThatLeadsNowhere) {
   for (const MeshStatistics& mesh : solution.meshes) EXPECT_LE(mesh.iterations, 200);
 }
 
-// Powers are sharpened on the coarsest mesh, where it is cheap and steps succeed; all finer ones are solved with the spec's.
+// Powers are sharpened on the coarsest mesh, where it is cheap and steps succeed; all finer ones are solved with the
+// spec's.
 TEST(Ascend, ClimbsWithTheSmoothingOfTheSpec) {
   GaitRequest request = Fine(60);
   request.costs.clear();

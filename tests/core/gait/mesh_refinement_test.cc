@@ -59,7 +59,8 @@ TEST_F(MeshRefinementTest, FollowsEveryMeasureOfAnInterval) {
   spec_->bounds[kGap] = 1;  // measured anew, by its drift
   const size_t place = 2;   // of the second phase
   const size_t interval = mesh_.fractions[0].size() + place;
-  for (const Criterion criterion : {kSlip, kPenetration, kOverlap, kPositionDefect, kVelocityDefect, kPull, kFriction, kEnergy}) {
+  for (const Criterion criterion :
+       {kSlip, kPenetration, kOverlap, kPositionDefect, kVelocityDefect, kPull, kFriction, kEnergy}) {
     size_t before = 1;
     for (const double excess : {0.5, 1.1, 1000.0}) {
       report_.intervals.assign(report_.intervals.size(), CriterionValues());

@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
                                             ::testing::Values(Scheme::kRadau2, Scheme::kRadau3,
                                                               Scheme::kHermiteSimpson)));
 
-// The drift trap: with contact on acceleration level alone the feet of the optimum sink by centimetres. Here gap and slip stay
-// within the standard bounds between the nodes too.
+// The drift trap: with contact on acceleration level alone the feet of the optimum sink by centimetres. Here gap and
+// slip stay within the standard bounds between the nodes too.
 TEST(StandardAccuracy, HoldsOnAllSlopes) {
   for (int slope : {-10, 0, 10}) {
     const GaitSolution solution = Solve(Planar(slope));
@@ -69,8 +69,9 @@ TEST(StandardAccuracy, HoldsOnAllSlopes) {
   }
 }
 
-// Without passive torques the net moments of the comparison with people, found from motion and forces, are the torques that
-// were optimised: two ways to one curve. At the points of the mesh they are equal; between them they differ by its error.
+// Without passive torques the net moments of the comparison with people, found from motion and forces, are the torques
+// that were optimised: two ways to one curve. At the points of the mesh they are equal; between them they differ by its
+// error.
 TEST(Normative, NetMomentsAreTheTorques) {
   const GaitSpec spec = CheckRequest(Planar(0)).value();
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, {});
@@ -98,8 +99,9 @@ TEST(Normative, NetMomentsAreTheTorques) {
   EXPECT_EQ(curves, 3);
 }
 
-// What is solved is a gait and not a mesh: three schemes on a fine mesh, and one on a mesh twice as fine, agree on what it costs. With a
-// bound of the swinging foot that no motion can keep, the cost grew by a tenth and more with every halving.
+// What is solved is a gait and not a mesh: three schemes on a fine mesh, and one on a mesh twice as fine, agree on what
+// it costs. With a bound of the swinging foot that no motion can keep, the cost grew by a tenth and more with every
+// halving.
 TEST(OptimumOfAMesh, IsThatOfEveryFinerMeshAndEveryScheme) {
   GaitRequest request = Planar(0);
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
@@ -122,7 +124,8 @@ TEST(OptimumOfAMesh, IsThatOfEveryFinerMeshAndEveryScheme) {
 
 // Two steps without imposed symmetry are the one step and its mirror image.
 TEST(Cycle, FullCycleFindsTheSymmetricGait) {
-  // A mesh that is fine enough for the optimum to be a motion, which is symmetric; artefacts of coarse ones need not be.
+  // A mesh that is fine enough for the optimum to be a motion, which is symmetric; artefacts of coarse ones need not
+  // be.
   GaitRequest request = Planar(0);
   request.discretization.single_support_intervals = 20;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
@@ -175,7 +178,8 @@ TEST(Outcome, IterationLimitNamesWhatIsNotMet) {
   EXPECT_EQ(solution.termination, Termination::kIterationLimit);
   EXPECT_FALSE(solution.unmet_constraints.empty());
   EXPECT_FALSE(solution.within_requested_accuracy());
-  for (size_t i = 1; i < solution.unmet_constraints.size(); ++i) EXPECT_FALSE(solution.unmet_constraints[i].name.empty());
+  for (size_t i = 1; i < solution.unmet_constraints.size(); ++i)
+    EXPECT_FALSE(solution.unmet_constraints[i].name.empty());
 }
 
 }  // namespace

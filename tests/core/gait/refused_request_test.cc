@@ -63,11 +63,21 @@ const BadCase kBadCases[] = {
     {"SpeedZero", [](GaitRequest& r) { r.motion.speed = 0; }, "motion.speed_m_s", "(0, 4] m/s"},
     {"SpeedNoOneCanRun", [](GaitRequest& r) { r.motion.speed = 12; }, "motion.speed_m_s", "12 is outside"},
     {"SpeedNoOneCanWalk", [](GaitRequest& r) { r.motion.speed = 3.9; }, "motion.speed_m_s", "walking is impossible"},
-    {"EarthsSpeedOnTheMoon", [](GaitRequest& r) { r.gravity = 1.62; r.motion.speed = 1.3; }, "motion.speed_m_s",
-     "walking is impossible"},
-    {"DutyFactorOfARun", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.4, 0.6}; },
+    {"EarthsSpeedOnTheMoon",
+     [](GaitRequest& r) {
+       r.gravity = 1.62;
+       r.motion.speed = 1.3;
+     },
+     "motion.speed_m_s", "walking is impossible"},
+    {"DutyFactorOfARun",
+     [](GaitRequest& r) {
+       r.motion.duty_factor = GaitRequest::Range{0.4, 0.6};
+     },
      "motion.duty_factor.min", "[0.5, 0.95]"},
-    {"DutyFactorUpsideDown", [](GaitRequest& r) { r.motion.duty_factor = GaitRequest::Range{0.62, 0.6}; },
+    {"DutyFactorUpsideDown",
+     [](GaitRequest& r) {
+       r.motion.duty_factor = GaitRequest::Range{0.62, 0.6};
+     },
      "motion.duty_factor", "0.62"},
     {"NoStart", [](GaitRequest& r) { r.starts = 0; }, "starts", "[1, 32]"},
     {"PresetAndCosts",
@@ -76,14 +86,25 @@ const BadCase kBadCases[] = {
        r.costs.push_back({GaitRequest::Time{}, {}});
      },
      "preset", "contradicts costs"},
-    {"EffortBelowTheSquare", [](GaitRequest& r) { r.costs.push_back({GaitRequest::MuscleEffort{1.5, {}}, {}}); },
+    {"EffortBelowTheSquare",
+     [](GaitRequest& r) {
+       r.costs.push_back({GaitRequest::MuscleEffort{1.5, {}}, {}});
+     },
      "costs[0].muscle_effort.exponent", "[2, 10]"},
-    {"MuscleWithoutEfficiency", [](GaitRequest& r) { r.costs.push_back({GaitRequest::MuscleWork{0.0, {}, {}, {}}, {}}); },
+    {"MuscleWithoutEfficiency",
+     [](GaitRequest& r) {
+       r.costs.push_back({GaitRequest::MuscleWork{0.0, {}, {}, {}}, {}});
+     },
      "costs[0].muscle_work.positive_efficiency", "[0.01, 100]"},
-    {"PassiveLoadOfNoJoint", [](GaitRequest& r) { r.costs.push_back({GaitRequest::PassiveLoad{{{"tail", 1}}}, {}}); },
+    {"PassiveLoadOfNoJoint",
+     [](GaitRequest& r) {
+       r.costs.push_back({GaitRequest::PassiveLoad{{{"tail", 1}}}, {}});
+     },
      "costs[0].passive_load.joint_weights[\"tail\"]", "no joint"},
     {"NegativeAcceleration",
-     [](GaitRequest& r) { r.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", -1}}}, {}}); },
+     [](GaitRequest& r) {
+       r.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", -1}}}, {}});
+     },
      "costs[0].squared_acceleration.joint_weights[\"base_z\"]", "-1"},
     {"DerivedSpeed",
      [](GaitRequest& r) {
@@ -292,7 +313,8 @@ const BadCase kBadCases[] = {
        r.accuracy.bounds[Criterion::kOverlap] = 1e-3;
      },
      "accuracy.max_overlap_m", "leave one of the two out"},
-    {"Slip", [](GaitRequest& r) { r.accuracy.bounds[Criterion::kSlip] = 0; }, "accuracy.max_slip_m_s", "[1e-09, 1] m/s"},
+    {"Slip", [](GaitRequest& r) { r.accuracy.bounds[Criterion::kSlip] = 0; }, "accuracy.max_slip_m_s",
+     "[1e-09, 1] m/s"},
     {"Refinements", [](GaitRequest& r) { r.accuracy.max_refinements = 7; }, "accuracy.max_refinements", "[0, 6]"},
     {"Iterations", [](GaitRequest& r) { r.solver_limits.max_iterations = 0; }, "solver_limits.max_iterations",
      "[1, 100000]"},

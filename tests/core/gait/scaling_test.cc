@@ -54,7 +54,8 @@ void ExpectSimilar(const Solved& a, const Solved& b, double time, double force, 
     const TrajectoryPhase &x = first.phases[p], &y = second.phases[p];
     EXPECT_NEAR(y.duration / time, x.duration, tolerance);
     ASSERT_EQ(x.node_positions.cols(), y.node_positions.cols());
-    EXPECT_TRUE(near(x.node_positions, y.node_positions)) << (x.node_positions - y.node_positions).cwiseAbs().maxCoeff();
+    EXPECT_TRUE(near(x.node_positions, y.node_positions))
+        << (x.node_positions - y.node_positions).cwiseAbs().maxCoeff();
     EXPECT_TRUE(near(x.node_velocities, time * y.node_velocities));
     EXPECT_TRUE(near(x.point_efforts, y.point_efforts / force));
     EXPECT_TRUE(near(x.point_forces, y.point_forces / force));
@@ -64,8 +65,8 @@ void ExpectSimilar(const Solved& a, const Solved& b, double time, double force, 
 class ScalingTest : public ::testing::TestWithParam<std::tuple<Preset, double>> {};
 class ColdScalingTest : public ScalingTest {};
 
-// Same stature, half and double the mass: inertias, strengths and passive torques follow it, and with them the iterations, since a
-// factor of two is exact in binary.
+// Same stature, half and double the mass: inertias, strengths and passive torques follow it, and with them the
+// iterations, since a factor of two is exact in binary.
 TEST_P(ScalingTest, MassChangesForcesOnly) {
   const auto [preset, slope] = GetParam();
   const Solved one = Walk(Spec(preset, slope, 75, 9.81));
@@ -78,7 +79,8 @@ TEST_P(ScalingTest, MassChangesForcesOnly) {
   }
 }
 
-// The speed that is not given is that of the same Froude number. From the guess: but for rounding the solver sees the same numbers.
+// The speed that is not given is that of the same Froude number. From the guess: but for rounding the solver sees the
+// same numbers.
 TEST_P(ColdScalingTest, AnotherPlanetAndMassChangeTimeAndForces) {
   const auto [preset, slope] = GetParam();
   const Solved earth = Walk(Spec(preset, slope, 75, 9.81));
@@ -87,7 +89,8 @@ TEST_P(ColdScalingTest, AnotherPlanetAndMassChangeTimeAndForces) {
     const double factor = gravity / 9.81, heavier = mass / 75;
     EXPECT_NEAR(planet.solution.speed, 1.3 * std::sqrt(factor), 1e-6);
     const double power = preset == Preset::kTorque ? heavier * heavier * std::pow(factor, 1.5) : 1;  // torque² · time
-    EXPECT_NEAR(planet.solution.objective / power, earth.solution.objective, 1e-6 * earth.solution.objective) << gravity;
+    EXPECT_NEAR(planet.solution.objective / power, earth.solution.objective, 1e-6 * earth.solution.objective)
+        << gravity;
     ExpectSimilar(earth, planet, 1 / std::sqrt(factor), heavier * factor, 1e-6);
   }
 }
@@ -111,14 +114,16 @@ TEST_P(ScalingTest, ScaledSolutionsAreSolutions) {
     spec.warm_start = WarmStart{std::move(scaled), std::move(multipliers), earth.solution.added};
     const Solved other = Walk(std::move(spec));
     EXPECT_TRUE(other.solution.warm_started);
-    EXPECT_NEAR(other.solution.objective / objective, earth.solution.objective, 1e-6 * earth.solution.objective) << gravity;
+    EXPECT_NEAR(other.solution.objective / objective, earth.solution.objective, 1e-6 * earth.solution.objective)
+        << gravity;
     ExpectSimilar(earth, other, time, other.spec.similarity.torque(), 1e-5);
   }
 }
 
 // `transport` has minima side by side, and rounding alone (gravity times 1 + 1e-13) leads its cold start to another.
 INSTANTIATE_TEST_SUITE_P(Presets, ColdScalingTest,
-                         ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kHuman), ::testing::Values(0.0, 0.1)));
+                         ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kHuman),
+                                            ::testing::Values(0.0, 0.1)));
 INSTANTIATE_TEST_SUITE_P(Presets, ScalingTest,
                          ::testing::Combine(::testing::Values(Preset::kTorque, Preset::kTransport, Preset::kHuman),
                                             ::testing::Values(0.0, 0.1)));
@@ -138,7 +143,8 @@ TEST(Scaling, AnotherPlanetIsReportedInSeconds) {
   EXPECT_NEAR(solution.speed, DefaultSpeed(3.71), 1e-6);
   double sum = 0;
   for (const CostValue& cost : solution.costs) {
-    EXPECT_NEAR(cost.contribution, cost.weight * cost.value / trajectory.displacement, 1e-9 * cost.contribution) << cost.name;
+    EXPECT_NEAR(cost.contribution, cost.weight * cost.value / trajectory.displacement, 1e-9 * cost.contribution)
+        << cost.name;
     sum += cost.contribution;
   }
   EXPECT_NEAR(sum, solution.objective, 1e-9 * sum);

@@ -16,7 +16,9 @@ GaitRequest Draft(std::optional<double> smoothing) {
   request.discretization.single_support_intervals = 8;
   GaitRequest::MuscleWork work;
   work.smoothing = smoothing;
-  request.costs = {{work, 1e-3}, {GaitRequest::SquaredTorqueRate{}, 3e-8}, {GaitRequest::SquaredAcceleration{}, 3e-6},
+  request.costs = {{work, 1e-3},
+                   {GaitRequest::SquaredTorqueRate{}, 3e-8},
+                   {GaitRequest::SquaredAcceleration{}, 3e-6},
                    {GaitRequest::MuscleEffort{}, 0.05}};
   return request;
 }
@@ -64,7 +66,9 @@ TEST(Sharpen, TheEnergyGrowsTowardsTheUnsmoothedOne) {
   ASSERT_EQ(little.termination, Termination::kOptimal) << little.message;
   EXPECT_EQ(much.meshes.size(), 1u);
   EXPECT_GT(much.costs[0].value, 0);
-  const auto hidden = [](const GaitSolution& solution) { return 1 - solution.costs[0].value / solution.costs[0].unsmoothed; };
+  const auto hidden = [](const GaitSolution& solution) {
+    return 1 - solution.costs[0].value / solution.costs[0].unsmoothed;
+  };
   EXPECT_GT(hidden(much), 2 * hidden(little));
   EXPECT_GT(hidden(little), 0);
   EXPECT_EQ(much.costs[1].value, much.costs[1].unsmoothed);
@@ -80,7 +84,8 @@ TEST(Sharpen, SaysHowFarItCame) {
   request.solver_limits.max_iterations = whole.meshes.front().iterations + 2;
   const GaitSolution cut = Solve(request);
   EXPECT_EQ(cut.termination, Termination::kIterationLimit);
-  EXPECT_NE(cut.message.find("It converged with powers smoothed by 40 W, not by 5 W."), std::string::npos) << cut.message;
+  EXPECT_NE(cut.message.find("It converged with powers smoothed by 40 W, not by 5 W."), std::string::npos)
+      << cut.message;
   EXPECT_EQ(cut.meshes.size(), 2u);
 }
 

@@ -37,7 +37,8 @@ TEST_P(PlasticTouchDown, ConvergesAndCostsNoMoreThanSmooth) {
   EXPECT_LT(plastic.objective, smooth.objective * (1 + 1e-6));
   EXPECT_EQ(smooth.accuracy->impact_loss, 0);
   for (const TrajectoryPhase& phase : smooth.trajectory->phases) EXPECT_FALSE(Jumps(phase));
-  // What is left of the rows at a KKT error of 1e-6: of velocities at rest 1e-6 m/s and of 70 N s of impulses as many parts.
+  // What is left of the rows at a KKT error of 1e-6: of velocities at rest 1e-6 m/s and of 70 N s of impulses as many
+  // parts.
   EXPECT_LT(plastic.accuracy->jump_velocity_error, 1e-4);
   EXPECT_LT(plastic.accuracy->jump_impulse_error, 1e-3);
   EXPECT_GT(plastic.accuracy->min_jump_impulse, -1e-4);
@@ -73,7 +74,8 @@ TEST(PlasticTouchDownJudge, SeesWhatIsWrongAtItsSize) {
   wrong = *solution.trajectory;
   wrong.phases[2].impact_loss += 5;
   report = Validate(spec.scene, wrong, options);
-  EXPECT_NEAR(std::abs(report.energy_balance_error - good.energy_balance_error), 5, 2 * good.energy_balance_error + 1e-9);
+  EXPECT_NEAR(std::abs(report.energy_balance_error - good.energy_balance_error), 5,
+              2 * good.energy_balance_error + 1e-9);
 
   for (const int phase : {0, 2}) {
     wrong = *solution.trajectory;
@@ -87,8 +89,8 @@ double ContactPoint(const Scene& scene, const TrajectoryPhase& phase, const char
   const ContactSurface& surface = scene.contacts[scene.FindContact(contact)];
   BodyDynamics::State state;
   BodyDynamics(scene.model).ComputeState(phase.node_positions.col(0), phase.node_velocities.col(0), &state);
-  const Vector3 p_L = state[surface.joint].R_WL.transpose() *
-                      (ComputeRollingContact(surface, state).p_WP - state[surface.joint].p_WL);
+  const Vector3 p_L =
+      state[surface.joint].R_WL.transpose() * (ComputeRollingContact(surface, state).p_WP - state[surface.joint].p_WL);
   return (surface.R_LE.transpose() * (p_L - surface.p_LE)).x() / surface.surface.ellipsoid()->semi_axes().x();
 }
 

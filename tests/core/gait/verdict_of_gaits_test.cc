@@ -1,5 +1,5 @@
-// Gaits that version 0.3.0 called accurate although joints left their ranges between nodes, the ground pulled, or a foot was hit while it
-// rose: at standard they keep every bound now, since what they violated is added to the problem.
+// Gaits that version 0.3.0 called accurate although joints left their ranges between nodes, the ground pulled, or a
+// foot was hit while it rose: at standard they keep every bound now, since what they violated is added to the problem.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
                            [](GaitRequest& r) { r.discretization.scheme = Scheme::kHermiteSimpson; }},
                       Case{"Plastic", 0, 1.3, Preset::kTorque,
                            [](GaitRequest& r) { r.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic; }},
-                      Case{"SlowHuman", 0, 1.0, Preset::kHuman, Nothing}, Case{"DownhillHuman", -20, 1.3, Preset::kHuman, Nothing},
+                      Case{"SlowHuman", 0, 1.0, Preset::kHuman, Nothing},
+                      Case{"DownhillHuman", -20, 1.3, Preset::kHuman, Nothing},
                       Case{"FullCycle", 0, 1.3, Preset::kHuman, [](GaitRequest& r) { r.cycle = Cycle::kFull; }},
                       Case{"Transport", -10, 1.3, Preset::kTransport, Nothing}),
     [](const auto& each) { return std::string(each.param.name); });
@@ -72,7 +73,8 @@ TEST(VerdictOfAGait, NamesTheBoundThatIsNotMet) {
   EXPECT_EQ(solution.termination, Termination::kOptimal);
   ASSERT_EQ(solution.verdict.kind, Verdict::Kind::kExceeded);
   EXPECT_EQ(solution.verdict.excesses.front().criterion, Criterion::kPositionDefect);
-  EXPECT_NE(solution.message.find("difference of positions after re-integration"), std::string::npos) << solution.message;
+  EXPECT_NE(solution.message.find("difference of positions after re-integration"), std::string::npos)
+      << solution.message;
 }
 
 // Joints that leave their limits between the nodes of one phase are found by name and phase, and once only.

@@ -28,7 +28,8 @@ GaitSolution Solve(const GaitSpec& spec) { return OptimizingGaitSolver().Solve(s
 GaitSolution SolveFrom(GaitRequest request, const GaitSolution& solution, bool with_multipliers = true) {
   request.warm_start = true;
   GaitSpec spec = CheckRequest(request).value();
-  spec.warm_start = WarmStart{*solution.trajectory, with_multipliers ? solution.multipliers : std::nullopt, solution.added};
+  spec.warm_start =
+      WarmStart{*solution.trajectory, with_multipliers ? solution.multipliers : std::nullopt, solution.added};
   return Solve(spec);
 }
 
@@ -54,8 +55,8 @@ TEST(WarmStart, ANeighbourTakesFewerIterationsToTheSameOptimum) {
   EXPECT_GE(same, 3);
 }
 
-// With prices of power it starts closer to the bounds: 48 iterations for all four, where those that start further off take 77 and the
-// cold ones, from powers smoothed by 40 W, 282.
+// With prices of power it starts closer to the bounds: 48 iterations for all four, where those that start further off
+// take 77 and the cold ones, from powers smoothed by 40 W, 282.
 TEST(WarmStart, NeighboursThatPayForPowerTakeAQuarterOfTheIterations) {
   const auto human = [](double slope, double speed = 1.3) {
     GaitRequest request = Draft(slope, speed);

@@ -1,13 +1,13 @@
-// Ellipsoid over a plane against 40-digit reference values (tests/data/ellipsoid_plane.json, which states the tolerances).
+// Ellipsoid over a plane against 40-digit reference values (tests/data/ellipsoid_plane.json, which states the
+// tolerances).
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 #include <fstream>
 #include <limits>
 #include <map>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <Eigen/Geometry>
+#include <string>
 
 #include "core/geometry/ellipsoid.h"
 
@@ -37,8 +37,8 @@ LongMatrix3 ExpectedMatrix(const Json& rows) {
   return matrix;
 }
 
-// One case. The rotation and the normal are made in long double, so that what is measured is the ellipsoid's own rounding
-// and that of one vector.
+// One case. The rotation and the normal are made in long double, so that what is measured is the ellipsoid's own
+// rounding and that of one vector.
 void CheckCase(const Json& item) {
   const Json& expect = item["expect"];
   const Vector3 axes = Input(item["semi_axes"]).cast<double>();

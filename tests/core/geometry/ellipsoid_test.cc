@@ -1,13 +1,12 @@
 #include "core/geometry/ellipsoid.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
 
 #include "tests/support/matrix_near.h"
 #include "tests/support/seeded_random.h"
@@ -39,8 +38,8 @@ auto Difference(const F& f, const Vector3& nu, const Vector3& direction, double 
   return ((f(nu + step * direction) - f(nu - step * direction)) / (2 * step)).eval();
 }
 
-// With semi-axis ratios within 5, third derivatives of S stay below a few hundred of its size, and a step of 1e-5 has an
-// error of about 1e-10 · 500 / 6 + 1e-16 · 25 / 1e-5.
+// With semi-axis ratios within 5, third derivatives of S stay below a few hundred of its size, and a step of 1e-5 has
+// an error of about 1e-10 · 500 / 6 + 1e-16 · 25 / 1e-5.
 constexpr double kStep = 1e-5;
 constexpr double kDifferenceTolerance = 2e-8;
 
@@ -75,8 +74,9 @@ TEST(EllipsoidTest, HessianIsSymmetricAnnihilatesTheNormalAndHasTheKnownProductO
     EXPECT_TRUE(MatrixNear(hessian * s.nu, Vector3::Zero(), 8 * kEpsilon * hessian.norm()));
     const double h = s.ellipsoid.Support(s.nu);
     // Sum of the principal minors = product of the two non-zero eigenvalues; it cancels by at most their ratio.
-    const double product = hessian.topLeftCorner<2, 2>().determinant() + hessian.bottomRightCorner<2, 2>().determinant() +
-                           hessian(0, 0) * hessian(2, 2) - hessian(0, 2) * hessian(2, 0);
+    const double product = hessian.topLeftCorner<2, 2>().determinant() +
+                           hessian.bottomRightCorner<2, 2>().determinant() + hessian(0, 0) * hessian(2, 2) -
+                           hessian(0, 2) * hessian(2, 0);
     const double expected = std::pow(s.ellipsoid.semi_axes().prod(), 2) / std::pow(h, 4);
     EXPECT_NEAR(product, expected, 16 * kEpsilon * hessian.squaredNorm() + 1e-13 * expected);
     EXPECT_GT(hessian.trace(), 0);
@@ -108,8 +108,8 @@ TEST(EllipsoidTest, EveryDerivativeIsThatOfTheOneBefore) {
     const auto hessian = [&](const Vector3& nu) { return e.SupportHessian(nu); };
     const auto third = [&](const Vector3& nu) { return e.SupportThird(nu, s.w); };
     EXPECT_NEAR(Difference(support, s.nu, s.u, kStep)(0), e.SupportPoint(s.nu).dot(s.u), kDifferenceTolerance * size);
-    EXPECT_TRUE(MatrixNear(Difference(point, s.nu, s.u, kStep), e.SupportHessian(s.nu) * s.u,
-                           kDifferenceTolerance * size));
+    EXPECT_TRUE(
+        MatrixNear(Difference(point, s.nu, s.u, kStep), e.SupportHessian(s.nu) * s.u, kDifferenceTolerance * size));
     const Matrix3 third_u = e.SupportThird(s.nu, s.u);
     EXPECT_TRUE(MatrixNear(Difference(hessian, s.nu, s.u, kStep), third_u, 10 * kDifferenceTolerance * size));
     EXPECT_TRUE(MatrixNear(Difference(third, s.nu, s.u, kStep), e.SupportFourth(s.nu, s.u, s.w),
@@ -124,7 +124,8 @@ TEST(EllipsoidTest, SphereHasConstantCurvature) {
   const Vector3 nu = SeededRandom(3).Unit();
   EXPECT_NEAR(sphere.Support(nu), radius, 4 * kEpsilon);
   EXPECT_TRUE(MatrixNear(sphere.SupportPoint(nu), radius * nu, 4 * kEpsilon));
-  EXPECT_TRUE(MatrixNear(sphere.SupportHessian(nu), radius * (Matrix3::Identity() - nu * nu.transpose()), 4 * kEpsilon));
+  EXPECT_TRUE(
+      MatrixNear(sphere.SupportHessian(nu), radius * (Matrix3::Identity() - nu * nu.transpose()), 4 * kEpsilon));
 }
 
 // Sole of the default foot: radii of curvature a²/c and b²/c at the lowest point.

@@ -1,10 +1,10 @@
 #include "core/geometry/implicit_surface.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <memory>
-
-#include <gtest/gtest.h>
 
 #include "core/geometry/flattened_superellipsoid.h"
 #include "core/geometry/superellipsoid.h"

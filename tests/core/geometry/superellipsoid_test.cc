@@ -1,8 +1,8 @@
 #include "core/geometry/superellipsoid.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "core/geometry/surface.h"
 #include "tests/support/matrix_near.h"

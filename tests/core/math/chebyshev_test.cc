@@ -37,7 +37,8 @@ TEST(ChebyshevBasis, TailTellsTheErrorOfAnAnalyticFunction) {
     const ChebyshevBasis basis(degree, 100);
     const MatrixX coefficients = Interpolate(basis, f);
     double error = 0;
-    for (double x : basis.grid()) error = std::max(error, std::abs(ChebyshevBasis::Evaluate(coefficients, 0, x) - f(x)));
+    for (double x : basis.grid())
+      error = std::max(error, std::abs(ChebyshevBasis::Evaluate(coefficients, 0, x) - f(x)));
     EXPECT_LT(error, ChebyshevBasis::Tail(coefficients, 0)) << degree;
     EXPECT_GT(error, 1e-4 * ChebyshevBasis::Tail(coefficients, 0)) << degree;
   }

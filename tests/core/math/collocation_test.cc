@@ -43,7 +43,8 @@ TEST_P(CollocationTest, StagesIntegrateTheirPolynomials) {
 }
 
 // A motion with a polynomial acceleration is met exactly for any step: accelerations and velocities up to degree s − 1,
-// positions inside the interval (two integrations of a polynomial of degree s − 1 through the points) up to degree s − 2.
+// positions inside the interval (two integrations of a polynomial of degree s − 1 through the points) up to degree s
+// − 2.
 TEST_P(CollocationTest, EliminationIsExactForPolynomials) {
   const EliminatedScheme scheme(tableau_);
   const int s = tableau_.points();
@@ -60,7 +61,8 @@ TEST_P(CollocationTest, EliminationIsExactForPolynomials) {
       for (int i = 0; i < s; ++i) {
         double z[3] = {0, 0, 0};
         for (int source = 0; source < s + 2; ++source) {
-          for (auto kind : {EliminatedScheme::kPosition, EliminatedScheme::kVelocity, EliminatedScheme::kAcceleration}) {
+          for (auto kind :
+               {EliminatedScheme::kPosition, EliminatedScheme::kVelocity, EliminatedScheme::kAcceleration}) {
             z[kind] += scheme.Value(kind, i, source, h) * sources(source);
           }
         }

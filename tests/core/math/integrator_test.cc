@@ -75,8 +75,8 @@ TEST(Dop853, StepsFollowTheProblem) {
   EXPECT_GT(integrator.proposed_step(), 0);
 }
 
-// Error of the continuous extension at the middle of a step of Kepler's ellipse against ever shorter steps; order 7 means
-// an error of h⁸ within one step.
+// Error of the continuous extension at the middle of a step of Kepler's ellipse against ever shorter steps; order 7
+// means an error of h⁸ within one step.
 TEST(Dop853, InterpolationWithinAStepIsOfOrderSeven) {
   std::vector<MeshError> errors;
   for (double h : {0.05, 0.07, 0.1}) {

@@ -16,7 +16,8 @@ constexpr double kGuard = 1234;  // what lies between columns stays as it was
 
 MatrixX Random(int rows, int columns) { return MatrixX::Random(rows, columns); }
 
-// Rows 0 … n − 1 of the result are those expected, the others untouched. Sums of at most 40 products of numbers below 1.
+// Rows 0 … n − 1 of the result are those expected, the others untouched. Sums of at most 40 products of numbers
+// below 1.
 void ExpectRows(const MatrixX& result, const MatrixX& expected, int n) {
   EXPECT_LT((result.topRows(n) - expected).cwiseAbs().sum(), 1e-13 * (1 + n * expected.cols()));
   EXPECT_TRUE((result.bottomRows(result.rows() - n).array() == kGuard).all());
@@ -76,7 +77,8 @@ TEST_P(SubtractProductsTest, Triangle) {
   MatrixX y = Random(n + kStrideExcess, n);
   y.bottomRows(kStrideExcess).setConstant(kGuard);
   MatrixX expected = y.topRows(n) - l_.topRows(n) * w.topRows(n).transpose();
-  SubtractProductTriangle(l_.data(), n + kStrideExcess, w.data(), n + kStrideExcess, count, n, y.data(), n + kStrideExcess);
+  SubtractProductTriangle(l_.data(), n + kStrideExcess, w.data(), n + kStrideExcess, count, n, y.data(),
+                          n + kStrideExcess);
   for (int j = 1; j < n; ++j) y.col(j).head(j) = expected.col(j).head(j);
   ExpectRows(y, expected, n);
 }
@@ -127,7 +129,8 @@ TEST(LargestMagnitude, IsThatOfAnyPlace) {
 TEST(LargestMagnitude, PassesOverWhatIsNoNumber) {
   VectorX x = VectorX::Constant(40, -2);
   x(0) = x(17) = x(39) = std::numeric_limits<double>::quiet_NaN();
-  for (const ProductKernels* kernels : AvailableProductKernels()) EXPECT_EQ(kernels->largest(x.data(), 40), 2) << kernels->name;
+  for (const ProductKernels* kernels : AvailableProductKernels())
+    EXPECT_EQ(kernels->largest(x.data(), 40), 2) << kernels->name;
   EXPECT_EQ(LargestMagnitude(x.data(), 40), 2);
 }
 

@@ -1,14 +1,13 @@
 #include "core/models/catalog.h"
 
-#include <limits>
-#include <set>
-#include <string>
-#include <utility>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "core/multibody/body_dynamics.h"
 #include "tests/support/matrix_near.h"
@@ -49,8 +48,8 @@ TEST(CatalogTest, EveryEntryBuildsAsListed) {
   EXPECT_EQ(names.count("planar"), 1u);
 }
 
-// The tree is one that dynamics can work with, and left and right are the same: at a mirrored posture the mass matrix has
-// its rows and columns exchanged.
+// The tree is one that dynamics can work with, and left and right are the same: at a mirrored posture the mass matrix
+// has its rows and columns exchanged.
 TEST(CatalogTest, MassMatrixIsThatOfInverseDynamicsAndMirrors) {
   for (const CatalogEntry& entry : ListCatalog()) {
     BodyRequest request;

@@ -1,5 +1,5 @@
-// The dynamics of the human by two algorithms that share no code (TreeDynamics, world axes, and BodyDynamics, link axes),
-// by energies, and by differences.
+// The dynamics of the human by two algorithms that share no code (TreeDynamics, world axes, and BodyDynamics, link
+// axes), by energies, and by differences.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -69,8 +69,8 @@ TEST_P(HumanDynamicsTest, TwoAlgorithmsAgree) {
     ASSERT_TRUE(MatrixNear(only_mass, mass, 1e-13 * mass.cwiseAbs().maxCoeff())) << i;
     ASSERT_EQ(mass.llt().info(), Eigen::Success);
     ASSERT_GT(tau.cwiseAbs().maxCoeff(), 10);
-    // The accelerations that the inverse dynamics' forces cause are those it started from. The mass matrix has a condition
-    // number of 1e5 (75 kg against 1e-3 kg m² of a forearm about its axis).
+    // The accelerations that the inverse dynamics' forces cause are those it started from. The mass matrix has a
+    // condition number of 1e5 (75 kg against 1e-3 kg m² of a forearm about its axis).
     tree_.ForwardDynamics(at.q.data(), at.v.data(), expected.data(), kGravity, forward.data());
     ASSERT_TRUE(MatrixNear(forward, at.a, 1e-9 * at.a.cwiseAbs().maxCoeff())) << i;
   }
@@ -99,7 +99,8 @@ TEST_P(HumanDynamicsTest, EnergiesAgree) {
   }
 }
 
-// Contact point, rolling rows and their drift of every foot: derivatives along the tree against the kinematics of one body.
+// Contact point, rolling rows and their drift of every foot: derivatives along the tree against the kinematics of one
+// body.
 TEST_P(HumanDynamicsTest, ContactRowsAgree) {
   std::vector<ContactDerivatives<Dual>> contacts;
   for (const ContactSurface& contact : scene_.contacts) contacts.emplace_back(scene_.model, contact);
@@ -168,8 +169,10 @@ TEST_P(HumanDynamicsTest, DerivativesMeetDifferences) {
       EXPECT_TRUE(MatrixNear((tau(up) - tau(down)) / (2 * h), d[0].col(j), 1e-7 * scale));
       const auto above = first(up), below = first(down);
       EXPECT_TRUE(MatrixNear((above[0] - below[0]).transpose() * lambda / (2 * h), qq.col(j), 1e-7 * scale2));
-      EXPECT_TRUE(MatrixNear((above[1] - below[1]).transpose() * lambda / (2 * h), qv.row(j).transpose(), 1e-7 * scale2));
-      EXPECT_TRUE(MatrixNear((above[2] - below[2]).transpose() * lambda / (2 * h), qa.row(j).transpose(), 1e-7 * scale2));
+      EXPECT_TRUE(
+          MatrixNear((above[1] - below[1]).transpose() * lambda / (2 * h), qv.row(j).transpose(), 1e-7 * scale2));
+      EXPECT_TRUE(
+          MatrixNear((above[2] - below[2]).transpose() * lambda / (2 * h), qa.row(j).transpose(), 1e-7 * scale2));
       up.q(j) = down.q(j) = at.q(j);
       up.v(j) += h;
       down.v(j) -= h;

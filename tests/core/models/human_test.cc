@@ -1,11 +1,10 @@
 #include "core/models/human.h"
 
-#include <numbers>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <numbers>
 
 #include "core/models/catalog.h"
 #include "core/multibody/body_dynamics.h"
@@ -142,8 +141,8 @@ TEST(HumanTest, MirroredPosturesAreMirrorImages) {
   }
 }
 
-// The chart of the pelvis: its angular velocity is a regular image of the three rates, least near the bound of the roll, where
-// the smallest singular value of the columns (z, x', y'') is √(1 − sin 60°).
+// The chart of the pelvis: its angular velocity is a regular image of the three rates, least near the bound of the
+// roll, where the smallest singular value of the columns (z, x', y'') is √(1 − sin 60°).
 TEST(HumanTest, ChartOfTheBaseIsRegularWithinItsRange) {
   BodyRequest request = Request();
   request.ranges = JointRanges::kAnatomical;
@@ -230,8 +229,8 @@ TEST(HumanTest, SegmentLengthsMoveTheJoints) {
   const Scene usual = BuildScene(Request()).value();
   const int thigh = scene.model.Find("hip_rotation_l");
   EXPECT_EQ(scene.model.joint(thigh).mass, usual.model.joint(thigh).mass);
-  EXPECT_TRUE(MatrixNear(scene.model.joint(thigh).inertia,
-                         std::pow(0.45 / 0.432, 2) * usual.model.joint(thigh).inertia, 1e-12));
+  EXPECT_TRUE(MatrixNear(scene.model.joint(thigh).inertia, std::pow(0.45 / 0.432, 2) * usual.model.joint(thigh).inertia,
+                         1e-12));
 }
 
 TEST(HumanTest, RefusesWhatABodyCannotBe) {
@@ -246,7 +245,8 @@ TEST(HumanTest, RefusesWhatABodyCannotBe) {
   std::map<std::string, std::string> said;
   for (const Violation& violation : scene.violations()) said[violation.field] = violation.message;
   EXPECT_THAT(said["toes"], HasSubstr("feet of two ellipsoids"));
-  EXPECT_THAT(said["segment_lengths_m[\"thigh\"]"], AllOf(HasSubstr("is 2 m"), HasSubstr("0.3024"), HasSubstr("0.6048")));
+  EXPECT_THAT(said["segment_lengths_m[\"thigh\"]"],
+              AllOf(HasSubstr("is 2 m"), HasSubstr("0.3024"), HasSubstr("0.6048")));
   EXPECT_THAT(said["segment_lengths_m[\"tail\"]"], HasSubstr("upper_arm"));
   EXPECT_THAT(said["locked_joints_rad[\"knee_l\"]"], AllOf(HasSubstr("-0.1 rad"), HasSubstr("0 to 1.57")));
   EXPECT_THAT(said["locked_joints_rad[\"elbow_r\"]"], HasSubstr("drop_arms"));

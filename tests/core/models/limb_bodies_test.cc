@@ -94,8 +94,8 @@ TEST(LimbBodiesTest, FeetAreTheContactSurfaces) {
   }
 }
 
-// Standing straight, everything of the left side of the body is left of the middle, everything of the right side right of
-// it, arms are beside the thighs, and nothing is below the sole. A woman of 1.45 m and a man of 2.1 m, and others.
+// Standing straight, everything of the left side of the body is left of the middle, everything of the right side right
+// of it, arms are beside the thighs, and nothing is below the sole. A woman of 1.45 m and a man of 2.1 m, and others.
 TEST(LimbBodiesTest, WhoStandsDoesNotOverlap) {
   for (const Sex sex : {Sex::kFemale, Sex::kMale}) {
     for (const double stature : {1.45, 1.7, 2.1}) {
@@ -111,7 +111,8 @@ TEST(LimbBodiesTest, WhoStandsDoesNotOverlap) {
         EXPECT_LT(Extent(body, state, Vector3(0, -side, 0)), -0.008) << body.name;
         EXPECT_LT(Extent(body, state, Vector3(0, 0, -1)), scene.leg_length + 1e-12) << body.name;
       }
-      const BodySurface &arm = scene.bodies[FindBody(scene, "left_forearm")], &thigh = scene.bodies[FindBody(scene, "left_thigh")];
+      const BodySurface &arm = scene.bodies[FindBody(scene, "left_forearm")],
+                        &thigh = scene.bodies[FindBody(scene, "left_thigh")];
       EXPECT_LT(Extent(thigh, state, Vector3(0, 1, 0)) + Extent(arm, state, Vector3(0, -1, 0)), -0.01);
     }
   }

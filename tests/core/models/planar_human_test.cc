@@ -1,13 +1,12 @@
 #include "core/models/planar_human.h"
 
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/models/segment_table.h"
 #include "tests/support/matrix_near.h"
@@ -118,10 +117,10 @@ TEST(PlanarHumanTest, AxesAreClinical) {
     return Poses(model, q)[model.Find(link)];
   };
   const double angle = 0.3;
-  EXPECT_GT((at("base_pitch", "base_pitch", angle).R_WL * Vector3::UnitZ()).x(), 0.1);    // leans forward
-  EXPECT_GT(at("hip_l", "knee_l", angle).p_WL.x(), 0.1);                                  // thigh forward
-  EXPECT_LT(at("knee_r", "ankle_r", angle).p_WL.x(), -0.1);                               // heel to the buttock
-  EXPECT_GT((at("ankle_l", "ankle_l", angle).R_WL * Vector3::UnitX()).z(), 0.1);          // toes up
+  EXPECT_GT((at("base_pitch", "base_pitch", angle).R_WL * Vector3::UnitZ()).x(), 0.1);  // leans forward
+  EXPECT_GT(at("hip_l", "knee_l", angle).p_WL.x(), 0.1);                                // thigh forward
+  EXPECT_LT(at("knee_r", "ankle_r", angle).p_WL.x(), -0.1);                             // heel to the buttock
+  EXPECT_GT((at("ankle_l", "ankle_l", angle).R_WL * Vector3::UnitX()).z(), 0.1);        // toes up
   EXPECT_EQ(at("base_x", "base_pitch", angle).p_WL, Vector3(angle, 0, 0));
   EXPECT_EQ(at("base_z", "base_pitch", angle).p_WL, Vector3(0, 0, angle));
 }

@@ -1,11 +1,10 @@
 #include "core/models/segment_table.h"
 
-#include <cmath>
-#include <utility>
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
+#include <utility>
 
 #include "tests/support/matrix_near.h"
 
@@ -46,8 +45,8 @@ TEST(SegmentTableTest, EverySegmentIsARigidBody) {
   }
 }
 
-// The projection changes the female torso as little as it must: each principal moment by a third of the excess, which is
-// 0.0133 m L² (0.12722 − 0.02955 − 0.08433, from the principal moments listed with the table).
+// The projection changes the female torso as little as it must: each principal moment by a third of the excess, which
+// is 0.0133 m L² (0.12722 − 0.02955 − 0.08433, from the principal moments listed with the table).
 TEST(SegmentTableTest, FemaleTorsoIsProjectedAndTheMaleIsNot) {
   const SegmentTable female(Sex::kFemale, 1.610, 62), male(Sex::kMale, 1.774, 75);
   const auto moments_over_ml2 = [](const SegmentTable& table) {
@@ -69,12 +68,12 @@ TEST(SegmentTableTest, ConvertsTheAxesOfTheTable) {
   EXPECT_NEAR(thigh.mass, 12.3, 1e-12);
   EXPECT_TRUE(MatrixNear(thigh.center_of_mass, Vector3(-0.041, -0.033, -0.429) * 0.432, 1e-12));
   const double ml2 = 12.3 * 0.432 * 0.432;
-  EXPECT_NEAR(thigh.inertia(0, 0), ml2 * 0.29 * 0.29, 1e-12);    // about the forward axis: XX
-  EXPECT_NEAR(thigh.inertia(1, 1), ml2 * 0.30 * 0.30, 1e-12);    // about the lateral axis: ZZ
-  EXPECT_NEAR(thigh.inertia(2, 2), ml2 * 0.15 * 0.15, 1e-12);    // about the long axis: YY
-  EXPECT_NEAR(thigh.inertia(0, 2), ml2 * 0.07 * 0.07, 1e-12);    // XY
-  EXPECT_NEAR(thigh.inertia(0, 1), ml2 * 0.02 * 0.02, 1e-12);    // −XZ, printed negative
-  EXPECT_NEAR(thigh.inertia(1, 2), ml2 * 0.07 * 0.07, 1e-12);    // −YZ, printed negative
+  EXPECT_NEAR(thigh.inertia(0, 0), ml2 * 0.29 * 0.29, 1e-12);  // about the forward axis: XX
+  EXPECT_NEAR(thigh.inertia(1, 1), ml2 * 0.30 * 0.30, 1e-12);  // about the lateral axis: ZZ
+  EXPECT_NEAR(thigh.inertia(2, 2), ml2 * 0.15 * 0.15, 1e-12);  // about the long axis: YY
+  EXPECT_NEAR(thigh.inertia(0, 2), ml2 * 0.07 * 0.07, 1e-12);  // XY
+  EXPECT_NEAR(thigh.inertia(0, 1), ml2 * 0.02 * 0.02, 1e-12);  // −XZ, printed negative
+  EXPECT_NEAR(thigh.inertia(1, 2), ml2 * 0.07 * 0.07, 1e-12);  // −YZ, printed negative
 }
 
 TEST(SegmentTableTest, LeftMirrorsRight) {

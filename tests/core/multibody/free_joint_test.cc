@@ -133,7 +133,8 @@ TEST_P(FreeJointTest, RetractFollowsThePositionRate) {
   PositionRate(*free_, q_, v_, &rate);
   const double h = 1e-4;
   const VectorX slope = (8 * (Retract(*free_, q_, h * v_) - Retract(*free_, q_, -h * v_)) -
-                         (Retract(*free_, q_, 2 * h * v_) - Retract(*free_, q_, -2 * h * v_))) / (12 * h);
+                         (Retract(*free_, q_, 2 * h * v_) - Retract(*free_, q_, -2 * h * v_))) /
+                        (12 * h);
   EXPECT_TRUE(MatrixNear(rate, slope, 1e-10));
   EXPECT_GT(rate.head(4).norm(), 0.01);
   EXPECT_TRUE(MatrixNear(Retract(*free_, q_, VectorX::Zero(6 + kArm)), q_, 1e-15));

@@ -38,8 +38,9 @@ First FirstAt(TreeDynamics& tree, const Point& at) {
   return d;
 }
 
-// Central difference of f along unit vector j of the chosen member of the point; the error is O(step²) = 1e-10 from truncation
-// and 1e-16/1e-5 = 1e-11 from rounding, times the growth of third derivatives over a tree: 1e-7 of the largest entry is safe.
+// Central difference of f along unit vector j of the chosen member of the point; the error is O(step²) = 1e-10 from
+// truncation and 1e-16/1e-5 = 1e-11 from rounding, times the growth of third derivatives over a tree: 1e-7 of the
+// largest entry is safe.
 template <typename F>
 auto Difference(F f, const Point& at, VectorX Point::*member, int j) {
   const double step = 1e-5;
@@ -93,8 +94,8 @@ TEST_P(TreeDynamicsTest, ContractedHessianMeetsDifferencesOfFirstDerivatives) {
   }
 }
 
-// Two derivations: row by row as the Hessian of one combination, and all rows at once. Both sum at most some hundred products
-// of the size of the largest entry: 1e-12 of it leaves a factor of 30 to rounding.
+// Two derivations: row by row as the Hessian of one combination, and all rows at once. Both sum at most some hundred
+// products of the size of the largest entry: 1e-12 of it leaves a factor of 30 to rounding.
 TEST_P(TreeDynamicsTest, SecondDerivativesOfEveryRowAreTheContractedHessiansOfUnitVectors) {
   const int n = GetParam();
   std::mt19937 random(700 + n);

@@ -27,15 +27,17 @@ struct Sample {
   }
 };
 
-// The Newton matrix of a chain: stages with `states` states, `controls` controls and `rows` equations between a stage, the next one
-// and its controls; the last group is a border that meets everything. The first state closes the ring.
+// The Newton matrix of a chain: stages with `states` states, `controls` controls and `rows` equations between a stage,
+// the next one and its controls; the last group is a border that meets everything. The first state closes the ring.
 Sample Chain(int stages, int states, int controls, int rows, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const int width = states + controls + rows, border = 2;
   Sample sample(stages * width + states + border);
   const int last = sample.size();
-  const auto meets = [&](int a, int b, double scale) { sample.Add(std::max(a, b), std::min(a, b), scale * uniform(random)); };
+  const auto meets = [&](int a, int b, double scale) {
+    sample.Add(std::max(a, b), std::min(a, b), scale * uniform(random));
+  };
   for (int k = 0; k < stages; ++k) {
     const int x = k * width, u = x + states, y = u + controls, next = (k + 1) * width;
     for (int i = x; i < y; ++i) {
@@ -71,7 +73,8 @@ FrontalLdlt::Inertia EigenInertia(const MatrixX& matrix) {
   return inertia;
 }
 
-// Backward error of a solve; the pivoting bounds growth by a moderate power of 1/threshold only, so the limits are generous.
+// Backward error of a solve; the pivoting bounds growth by a moderate power of 1/threshold only, so the limits are
+// generous.
 double BackwardError(const Sample& sample, FrontalLdlt* factors) {
   const VectorX right = VectorX::LinSpaced(sample.size(), -1, 2);
   VectorX x = right;
@@ -124,8 +127,8 @@ TEST(FrontalLdlt, AnyGroupingIsRight) {
   EXPECT_GT(delayed, 0) << "no trial needed what this test is about";
 }
 
-// Sparse enough that the children of a front reach differently far, and none of them everywhere; what an earlier factorisation has
-// left in the fronts must not show.
+// Sparse enough that the children of a front reach differently far, and none of them everywhere; what an earlier
+// factorisation has left in the fronts must not show.
 TEST(FrontalLdlt, ForgetsEarlierValues) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);

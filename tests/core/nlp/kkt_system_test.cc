@@ -12,7 +12,8 @@
 namespace rollgait {
 namespace {
 
-// The matrix of a problem of four variables and two rows, of which `fixed` are taken out, beside the same in dense algebra.
+// The matrix of a problem of four variables and two rows, of which `fixed` are taken out, beside the same in dense
+// algebra.
 class KktSystemTest : public ::testing::Test {
  protected:
   void Fill(const std::vector<char>& fixed) {
@@ -26,7 +27,8 @@ class KktSystemTest : public ::testing::Test {
       dense_(hessian.rows[e], hessian.columns[e]) = dense_(hessian.columns[e], hessian.rows[e]) = kkt_->hessian()[e];
     }
     for (int e = 0; e < jacobian.size(); ++e) {
-      dense_(4 + jacobian.rows[e], jacobian.columns[e]) = dense_(jacobian.columns[e], 4 + jacobian.rows[e]) = kkt_->jacobian()[e];
+      dense_(4 + jacobian.rows[e], jacobian.columns[e]) = dense_(jacobian.columns[e], 4 + jacobian.rows[e]) =
+          kkt_->jacobian()[e];
     }
     dense_.diagonal().head(4) += primal_;
     dense_.diagonal().tail(2) -= dual_;

@@ -25,7 +25,8 @@ class NewtonStepTest : public ::testing::Test {
     }
     VectorX gradient(4);
     EXPECT_TRUE(barrier_.Gradient(point_, &gradient));
-    EXPECT_TRUE(problem_.Derivatives(point_.w.data(), 1, at_.y.data(), newton_.kkt().jacobian(), newton_.kkt().hessian()));
+    EXPECT_TRUE(
+        problem_.Derivatives(point_.w.data(), 1, at_.y.data(), newton_.kkt().jacobian(), newton_.kkt().hessian()));
     EXPECT_TRUE(problem_.Jacobian(point_.w.data(), jacobian_.data()));
     lagrangian_ = VectorX::Zero(5);
     lagrangian_.head(4) = gradient + jacobian_.transpose() * at_.y;
@@ -53,11 +54,13 @@ class NewtonStepTest : public ::testing::Test {
     for (int r = 0, e = 0; r < 4; ++r) {
       for (int c = 0; c <= r; ++c, ++e) hessian(r, c) = hessian(c, r) = values[e];
     }
-    const VectorX gradient = lagrangian_.head(4) + hessian * step.w.head(4) + jacobian_.transpose() * step.multipliers.y -
-                             (at_.lower + step.multipliers.lower).head(4) + (at_.upper + step.multipliers.upper).head(4);
+    const VectorX gradient = lagrangian_.head(4) + hessian * step.w.head(4) +
+                             jacobian_.transpose() * step.multipliers.y - (at_.lower + step.multipliers.lower).head(4) +
+                             (at_.upper + step.multipliers.upper).head(4);
     EXPECT_LT(gradient.norm(), 1e-9);
     // The slack has one bound, hence the damping 1e-5 μ.
-    EXPECT_NEAR(lagrangian_(4) - step.multipliers.y(0) - at_.lower(4) - step.multipliers.lower(4) + 1e-5 * kMu, 0, 1e-9);
+    EXPECT_NEAR(lagrangian_(4) - step.multipliers.y(0) - at_.lower(4) - step.multipliers.lower(4) + 1e-5 * kMu, 0,
+                1e-9);
   }
 
   static constexpr double kMu = 1e-2;
@@ -111,7 +114,8 @@ TEST_F(NewtonStepTest, TheFirstShiftIsThatOfTheOptions) {
   at_.upper *= 1e-9;
   const auto regularization = [&](const NlpOptions& options) {
     NewtonSystem newton(barrier_, options);
-    EXPECT_TRUE(problem_.Derivatives(point_.w.data(), 1, at_.y.data(), newton.kkt().jacobian(), newton.kkt().hessian()));
+    EXPECT_TRUE(
+        problem_.Derivatives(point_.w.data(), 1, at_.y.data(), newton.kkt().jacobian(), newton.kkt().hessian()));
     EXPECT_TRUE(newton.Compute(point_, at_, lagrangian_, kMu, &step_));
     return newton.regularization();
   };

@@ -1,4 +1,5 @@
-// What every solver of nonlinear programs must do: Ipopt, the interior point method of our own, and the one that combines them.
+// What every solver of nonlinear programs must do: Ipopt, the interior point method of our own, and the one that
+// combines them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -109,10 +110,9 @@ TEST_P(NlpSolverTest, WarmStartKeepsTheMultipliersAndSavesIterations) {
   NlpOptions options;
   const NlpResult from_cold = GetParam()(problem, {Hs071::Start(), {}, {}, {}}, options, {});
   options.initial_barrier = 1e-6;
-  const NlpResult warm = GetParam()(problem,
-                                    {cold.x, cold.constraint_multipliers, cold.lower_bound_multipliers,
-                                     cold.upper_bound_multipliers},
-                                    options, {});
+  const NlpResult warm = GetParam()(
+      problem, {cold.x, cold.constraint_multipliers, cold.lower_bound_multipliers, cold.upper_bound_multipliers},
+      options, {});
   ASSERT_EQ(warm.termination, Termination::kOptimal) << warm.message;
   EXPECT_NEAR(warm.objective, from_cold.objective, 1e-5);
   EXPECT_LT(warm.iterations, from_cold.iterations);
@@ -224,7 +224,8 @@ TEST(InteriorPoint, TakesTheIterationsOfIpopt) {
   for (size_t i = 0; i < ours.size(); ++i) {
     EXPECT_NEAR(ours[i].objective, ipopt[i].objective, 1e-6) << i;
     EXPECT_NEAR(ours[i].primal_step, ipopt[i].primal_step, 1e-5) << i;
-    EXPECT_NEAR(ours[i].primal_infeasibility, ipopt[i].primal_infeasibility, 1e-6 + 1e-5 * ipopt[i].primal_infeasibility);
+    EXPECT_NEAR(ours[i].primal_infeasibility, ipopt[i].primal_infeasibility,
+                1e-6 + 1e-5 * ipopt[i].primal_infeasibility);
   }
 }
 
@@ -245,7 +246,8 @@ TEST(InteriorPoint, AsksForRestoration) {
   for (size_t i = 0; i < indices.size(); ++i) EXPECT_EQ(indices[i], static_cast<int>(i));
 }
 
-// ½ x² whose last digits are lost, so near its minimum no step lowers it, and whose derivative is off by `error` times the sign of x.
+// ½ x² whose last digits are lost, so near its minimum no step lowers it, and whose derivative is off by `error` times
+// the sign of x.
 class Coarse : public NlpProblem {
  public:
   explicit Coarse(double error) : error_(error) { hessian_pattern_.Add(0, 0); }
@@ -287,7 +289,8 @@ TEST(InteriorPoint, StepsPastTheFilterWhereItComparesRoundings) {
   EXPECT_NEAR(out.result.x(0), 0, 1e-20);
 }
 
-// Where no step helps, nothing is to be restored at a point that is good to 100 times the tolerance; beyond that there is.
+// Where no step helps, nothing is to be restored at a point that is good to 100 times the tolerance; beyond that there
+// is.
 TEST(InteriorPoint, EndsWhereNothingHelps) {
   Coarse near(2e-5), far(2e-4);
   const NlpStart start{VectorX::Constant(1, 1e-6), {}, {}, {}};

@@ -49,7 +49,7 @@ TEST(MuscleWorkCost, PaysForBothDirectionsByTheirEfficiency) {
   MuscleWorkCost cost(WithoutSprings(), 0.25, 1.25, 1e-6, layout, 1);
   VectorX z = VectorX::Zero(layout.size());
   z.segment(layout.tau(), 2) << 5, -5;
-  z.segment(layout.v(), 3) << 9, 2, 3;  // the first coordinate has no muscle
+  z.segment(layout.v(), 3) << 9, 2, 3;                                     // the first coordinate has no muscle
   EXPECT_NEAR(ValueAt(cost, z), 0.7 * 10 / 0.25 + 1.3 * 15 / 1.25, 1e-4);  // 1e-6 of smoothing and rounding of ε²
   EXPECT_DOUBLE_EQ(cost.Unsmoothed({z.data()}), 0.7 * 10 / 0.25 + 1.3 * 15 / 1.25);
 }

@@ -1,11 +1,11 @@
-// Every constraint of a walker on its own, in the plane and in space, with feet of one and of two surfaces: derivatives against differences, patterns against what is delivered.
+// Every constraint of a walker on its own, in the plane and in space, with feet of one and of two surfaces: derivatives
+// against differences, patterns against what is delivered.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <random>
 #include <set>
 #include <string>
-
-#include <Eigen/Eigenvalues>
 
 #include "core/gait/build_problem.h"
 #include "core/ocp/constraints/contact_point.h"
@@ -94,7 +94,8 @@ class PointConstraintsTest : public ::testing::TestWithParam<Body> {
           << constraint.Name(0) << " by " << i;
       const double size_of_curvature = 1 + curvature.cwiseAbs().maxCoeff();
       for (int j = 0; j <= i; ++j) {
-        EXPECT_NEAR(hessian(j, i), curvature(j), 1e-7 * size_of_curvature) << constraint.Name(0) << " " << j << " " << i;
+        EXPECT_NEAR(hessian(j, i), curvature(j), 1e-7 * size_of_curvature)
+            << constraint.Name(0) << " " << j << " " << i;
       }
     }
     CheckPatterns(constraint, jacobian, hessian);
@@ -156,8 +157,8 @@ TEST_P(PointConstraintsTest, DerivativesOfTheEntryRows) {
   EXPECT_EQ(checked, TwoSurfaces() ? 8 : 4);
 }
 
-// Two surfaces of one rigid foot: the second is not held along x, which the first holds already. The rows that are left are
-// independent of each other.
+// Two surfaces of one rigid foot: the second is not held along x, which the first holds already. The rows that are left
+// are independent of each other.
 TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
   const int n = problem_->model.size();
   for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {

@@ -13,7 +13,8 @@ struct Prices {
   double positive, negative, smoothing;
 };
 // Equal ones; those of muscles; the reverse; the most unequal ones a request may ask for.
-constexpr Prices kPrices[] = {{1, 1, 20}, {4, 1 / 1.2, 20}, {4, 1 / 1.2, 0.01}, {0.5, 3, 5}, {100, 0.01, 1000}, {0.01, 100, 1000}};
+constexpr Prices kPrices[] = {{1, 1, 20},  {4, 1 / 1.2, 20},  {4, 1 / 1.2, 0.01},
+                              {0.5, 3, 5}, {100, 0.01, 1000}, {0.01, 100, 1000}};
 constexpr double kPowers[] = {1e-9, 1e-3, 0.1, 1, 5, 17.3, 20, 1e2, 1e3, 1e6};
 
 double WithCorner(const Prices& prices, double power) {
@@ -87,8 +88,8 @@ TEST(PowerPrice, DerivativesMeetDifferencesOfTheHyperbola) {
       const long double here = Hyperbola(prices, power);
       const long double ahead = Hyperbola(prices, power + step), behind = Hyperbola(prices, power - step);
       const PowerPrice::Jet jet = price.At(power);
-      // Truncation: 1e-10 of the third derivative, which of a hyperbola with t near 1 is 1/(1 − t²) = 2500 times the price
-      // over ε².
+      // Truncation: 1e-10 of the third derivative, which of a hyperbola with t near 1 is 1/(1 − t²) = 2500 times the
+      // price over ε².
       const double slope_size = price.mean(), curvature_size = price.mean() / prices.smoothing;
       const double bend = prices.positive * prices.negative / (price.mean() * price.mean());
       const double slope = static_cast<double>((ahead - behind) / (2 * step));

@@ -1,14 +1,13 @@
-// The distance of two limbs as a row: derivatives against differences and against the chain rule over poses, the joints it
-// depends on, symmetry, and no allocation.
+// The distance of two limbs as a row: derivatives against differences and against the chain rule over poses, the joints
+// it depends on, symmetry, and no allocation.
 #include "core/ocp/constraints/separation.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_derivatives.h"
 #include "core/models/catalog.h"
@@ -33,7 +32,8 @@ class SeparationTest : public ::testing::Test {
 
   SeparationConstraint Row(int pair, double clearance = 1e-3) const {
     const BodyPair& bodies = scene_.pairs[pair];
-    return SeparationConstraint(scene_.model, scene_.bodies[bodies.first], scene_.bodies[bodies.second], layout_, clearance);
+    return SeparationConstraint(scene_.model, scene_.bodies[bodies.first], scene_.bodies[bodies.second], layout_,
+                                clearance);
   }
   int FindPair(const std::string& name) const {
     for (size_t p = 0; p < scene_.pairs.size(); ++p) {
@@ -74,11 +74,12 @@ class SeparationTest : public ::testing::Test {
       VectorX up = q, down = q;
       up(i) += step;
       down(i) -= step;
-      // Rounding of Newton's normal, 1e-15 / step, and step² times third derivatives, which grow as curvatures divided by
-      // distances do: up to 1e3 in these configurations.
+      // Rounding of Newton's normal, 1e-15 / step, and step² times third derivatives, which grow as curvatures divided
+      // by distances do: up to 1e3 in these configurations.
       EXPECT_NEAR(gradient(i), (Value(row, up) - Value(row, down)) / (2 * step), 1e-7) << row.Name(0) << " by " << i;
       const VectorX column = (Gradient(row, up) - Gradient(row, down)) / (2 * step);
-      EXPECT_LT((hessian.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * (1 + column.norm())) << row.Name(0) << " by " << i;
+      EXPECT_LT((hessian.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * (1 + column.norm()))
+          << row.Name(0) << " by " << i;
     }
     CheckPatterns(row, gradient, hessian);
   }
@@ -139,7 +140,7 @@ TEST_F(SeparationTest, SecondDerivativesAreThoseOfTheChainRule) {
     const VectorX q = random.VectorOf(n, -0.3, 0.3);
     const MatrixX hessian = Hessian(row, q);
     FrameMotion frames[2];
-    MatrixX columns = MatrixX::Zero(12, n);             // ∂ζ/∂q
+    MatrixX columns = MatrixX::Zero(12, n);              // ∂ζ/∂q
     std::vector<MatrixX> bend(12, MatrixX::Zero(n, n));  // ∂²ζ/∂q²
     for (int b = 0; b < 2; ++b) {
       frames[b].R_WB = tree_.rotation(bodies[b].joint);
@@ -191,7 +192,8 @@ TEST_F(SeparationTest, ValueIsThatOfLinksPosedByOtherDynamics) {
   }
 }
 
-// The same configuration gives the same value, whatever was evaluated before; and mirrored configurations mirrored pairs.
+// The same configuration gives the same value, whatever was evaluated before; and mirrored configurations mirrored
+// pairs.
 TEST_F(SeparationTest, NoHistoryAndSymmetric) {
   SeededRandom random(13);
   for (int pair = 0; pair < static_cast<int>(scene_.pairs.size()); ++pair) {
@@ -213,8 +215,9 @@ TEST_F(SeparationTest, DependsOnTheJointsBetweenTheBodies) {
   SeparationConstraint row = Row(FindPair("left_shank / right_heel"));
   std::set<std::string> names;
   for (const auto& [r, column] : row.JacobianPattern()) names.insert(scene_.model.joint(column).name);
-  EXPECT_EQ(names, (std::set<std::string>{"hip_l", "hip_adduction_l", "hip_rotation_l", "knee_l", "hip_r",
-                                          "hip_adduction_r", "hip_rotation_r", "knee_r", "ankle_r", "ankle_inversion_r"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"hip_l", "hip_adduction_l", "hip_rotation_l", "knee_l", "hip_r", "hip_adduction_r",
+                                   "hip_rotation_r", "knee_r", "ankle_r", "ankle_inversion_r"}));
   EXPECT_EQ(Row(FindPair("left_forearm / right_forearm")).JacobianPattern().size(), 8u);
   EXPECT_EQ(Row(FindPair("left_thigh / left_forearm")).JacobianPattern().size(), 3u + 3u + 4u);
 }

@@ -68,7 +68,8 @@ TEST(Events, ABallTouchesDownOnTimeAndStays) {
   EXPECT_LT(outcome.report.max_energy_error, 1e-8);
 }
 
-// The friction that a ball on a slope needs is 2/7 tan(slope): lost on a platform that tilts, when it passes the coefficient.
+// The friction that a ball on a slope needs is 2/7 tan(slope): lost on a platform that tilts, when it passes the
+// coefficient.
 TEST(Events, FrictionIsLostWhereItIsNotEnough) {
   BodyOnPlane ball;
   ball.surface = Sphere(0.1);
@@ -93,7 +94,8 @@ TEST(Events, FrictionIsLostWhereItIsNotEnough) {
 
 // A walker that walks: every step hands the weight to the other foot, and the gait settles to the stable one.
 TEST(Events, APassiveWalkerWalks) {
-  SimulationScene scene = SceneOf(PassiveWalker{1, 0.5, 0.02, 0.5, 1, 0.2, 0.1, 0, 1, 0.01, 0.2356, -0.2849, -0.2356, -0.2263});
+  SimulationScene scene =
+      SceneOf(PassiveWalker{1, 0.5, 0.02, 0.5, 1, 0.2, 0.1, 0, 1, 0.01, 0.2356, -0.2849, -0.2356, -0.2263});
   scene.options.duration = 30;
   scene.options.output_step = 0.5;
   scene.options.tolerance = 1e-10;
@@ -161,7 +163,8 @@ TEST(CheckScene, NamesWhatIsWrong) {
   EXPECT_EQ(field([&](auto& s) { s.forces[0].damping = -1; }), "joints[0].damping");
   EXPECT_EQ(field([&](auto& s) { s.ground[1].rate = nan; }), "ground[1].rate_rad_s");
   EXPECT_EQ(field([&](auto& s) { s.contacts[0].friction = 0; }), "contacts[0].friction");
-  EXPECT_EQ(field([&](auto& s) { s.contacts[0].active = false, s.contacts[0].bilateral = true; }), "contacts[0].bilateral");
+  EXPECT_EQ(field([&](auto& s) { s.contacts[0].active = false, s.contacts[0].bilateral = true; }),
+            "contacts[0].bilateral");
   EXPECT_EQ(field([&](auto& s) { s.contacts[0].gates = {Gate{0, 0, 1}}; }), "contacts[0].gates[0].joint");
   EXPECT_EQ(field([&](auto& s) { s.gravity.x() = nan; }), "gravity_m_s2");
   EXPECT_EQ(field([&](auto& s) { s.options.duration = 1e9; }), "duration_s");

@@ -30,7 +30,9 @@ TEST(GroundMotion, RatesAreDerivativesOfThePose) {
     const double t = 0.1 * seed;
     const auto slope = [&](auto value) {
       return ((8 * (value(MotionAt(motion, t + h)) - value(MotionAt(motion, t - h))) -
-               (value(MotionAt(motion, t + 2 * h)) - value(MotionAt(motion, t - 2 * h)))) / (12 * h)).eval();
+               (value(MotionAt(motion, t + 2 * h)) - value(MotionAt(motion, t - 2 * h)))) /
+              (12 * h))
+          .eval();
     };
     const FrameMotion frame = MotionAt(motion, t);
     EXPECT_TRUE(MatrixNear(frame.v_WB, slope([](const FrameMotion& f) { return f.p_WB; }), 1e-7));

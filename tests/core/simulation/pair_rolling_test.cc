@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <tuple>
-
 #include <Eigen/Geometry>
+#include <tuple>
 
 #include "core/multibody/body_dynamics.h"
 #include "core/simulation/simulation.h"
@@ -34,7 +33,8 @@ SimulationScene TwoBodies(bool plane, bool no_spin) {
   if (plane) {
     contact.contact.other = PlacedPlane{Vector3(0, 0, 0.1), Vector3(0.1, 0.2, 1).normalized()};
   } else {
-    contact.contact.other = PlacedSurface{Ellipsoid(Vector3(0.25, 0.35, 0.2)), Vector3(0.02, 0, 0.01), Matrix3::Identity()};
+    contact.contact.other =
+        PlacedSurface{Ellipsoid(Vector3(0.25, 0.35, 0.2)), Vector3(0.02, 0, 0.01), Matrix3::Identity()};
   }
   contact.contact.no_spin = no_spin;
   contact.active = contact.bilateral = true;

@@ -101,8 +101,8 @@ BodyOnPlane Stone() {
   stone.surface = Ellipsoid(Vector3(0.2, 0.03, 0.02));
   stone.center_of_mass = Vector3(0, 0, 0.01);
   stone.inertia << 2e-4, -2e-5, 0, -2e-5, 1.6e-3, 0, 0, 0, 1.7e-3;
-  stone.orientation = Eigen::Quaterniond(-0.004363267749186967, 0.9999809615320856, -1.9038467914355635e-05,
-                                         0.004363267749186967);
+  stone.orientation =
+      Eigen::Quaterniond(-0.004363267749186967, 0.9999809615320856, -1.9038467914355635e-05, 0.004363267749186967);
   stone.omega_body = Vector3(0, 0, -5);
   return stone;
 }
@@ -164,13 +164,23 @@ TEST(RollingSimulation, RattlebackReversesWhenItShould) {
   EXPECT_NEAR(b, 2.761109153800631, 1e-9);
 }
 
-// A plate on three frictionless feet, one almost on the line of the others: forces that have no digit left are reported.
+// A plate on three frictionless feet, one almost on the line of the others: forces that have no digit left are
+// reported.
 TEST(Standing, NearlyRedundantContactsAreReported) {
   for (const double delta : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    SimulationScene scene{"plate", testing::StandingPlate::MakeModel(), {JointForce{}}, {GroundMotion{}}, {},
-                          {0, 0, -9.81}, {}, {}, {}, -1, {}};
-    for (TreeContact& contact : testing::StandingPlate::Contacts({{-1, 0.3, 0}, {1, 0.3, 0}, {0, 0.3 + delta, 0}},
-                                                                Grip::kFrictionless)) {
+    SimulationScene scene{"plate",
+                          testing::StandingPlate::MakeModel(),
+                          {JointForce{}},
+                          {GroundMotion{}},
+                          {},
+                          {0, 0, -9.81},
+                          {},
+                          {},
+                          {},
+                          -1,
+                          {}};
+    for (TreeContact& contact :
+         testing::StandingPlate::Contacts({{-1, 0.3, 0}, {1, 0.3, 0}, {0, 0.3 + delta, 0}}, Grip::kFrictionless)) {
       SceneContact touching;
       touching.contact = contact;
       touching.contact.name = std::to_string(scene.contacts.size());

@@ -2,13 +2,12 @@
 // equations.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "core/simulation/simulation.h"
 #include "tests/support/matrix_near.h"

@@ -65,8 +65,8 @@ class CollocationNlpTest : public ::testing::TestWithParam<Case> {
   VectorX x_;
 };
 
-// Central differences with step 1e-6: truncation 1e-12 times third derivatives, rounding 1e-10 times values; columns are
-// compared relative to their largest entry.
+// Central differences with step 1e-6: truncation 1e-12 times third derivatives, rounding 1e-10 times values; columns
+// are compared relative to their largest entry.
 constexpr double kStep = 1e-6;
 
 TEST_P(CollocationNlpTest, JacobianAndGradientMeetDifferences) {
@@ -132,8 +132,8 @@ TEST_P(CollocationNlpTest, BothDerivativesAtOnceAreThoseApart) {
   EXPECT_EQ(hessian, hessian_apart);
 }
 
-// Whatever is eliminated early is known by then to few: every unknown and row has a group, and none but the first node, the
-// durations and the displacement is in the last one.
+// Whatever is eliminated early is known by then to few: every unknown and row has a group, and none but the first node,
+// the durations and the displacement is in the last one.
 TEST_P(CollocationNlpTest, EliminationFollowsTheStages) {
   const EliminationGroups groups = nlp_->elimination_groups();
   ASSERT_EQ(static_cast<int>(groups.variables.size()), nlp_->variables());
@@ -180,7 +180,8 @@ TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
   EXPECT_EQ(kinds["touch-down"], problem_->mirrored ? 1 : 2);
   EXPECT_EQ(kinds["speed"], 1);
   const bool shared_instants = std::get<0>(GetParam()) == Scheme::kHermiteSimpson;
-  // Six efforts at every instant; of forces x and z of a foot at those within a phase: the only such phase stands on one foot.
+  // Six efforts at every instant; of forces x and z of a foot at those within a phase: the only such phase stands on
+  // one foot.
   const int within = nlp_->layout().intervals() - nlp_->layout().phases();
   EXPECT_EQ(kinds["continuous"], shared_instants ? 6 * nlp_->layout().intervals() + 2 * within : 0);
   // Nine of the dynamics and two of each of two cones for every foot that comes down, in a half cycle one.
@@ -195,11 +196,11 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(Normalization::kPerDistance, Normalization::kPerTime, Normalization::kNone),
                        ::testing::Values(Cycle::kHalf), ::testing::Values(TouchDown::kSmooth)));
 // Twice as many unknowns: every scheme and every normalization once.
-INSTANTIATE_TEST_SUITE_P(FullCycle, CollocationNlpTest,
-                         ::testing::Values(Case{Scheme::kRadau2, Normalization::kNone, Cycle::kFull, TouchDown::kSmooth},
-                                           Case{Scheme::kRadau3, Normalization::kPerTime, Cycle::kFull, TouchDown::kSmooth},
-                                           Case{Scheme::kHermiteSimpson, Normalization::kPerDistance, Cycle::kFull,
-                                                TouchDown::kSmooth}));
+INSTANTIATE_TEST_SUITE_P(
+    FullCycle, CollocationNlpTest,
+    ::testing::Values(Case{Scheme::kRadau2, Normalization::kNone, Cycle::kFull, TouchDown::kSmooth},
+                      Case{Scheme::kRadau3, Normalization::kPerTime, Cycle::kFull, TouchDown::kSmooth},
+                      Case{Scheme::kHermiteSimpson, Normalization::kPerDistance, Cycle::kFull, TouchDown::kSmooth}));
 INSTANTIATE_TEST_SUITE_P(
     Plastic, CollocationNlpTest,
     ::testing::Values(Case{Scheme::kRadau2, Normalization::kPerDistance, Cycle::kHalf, TouchDown::kPlastic},

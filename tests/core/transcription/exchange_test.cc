@@ -51,8 +51,8 @@ TEST_P(ExchangeTest, PointsLieOnThePolynomials) {
             EXPECT_NEAR(phase.point_velocities(j, k * s + i), velocity(j), 1e-12 * (1 + std::abs(velocity(j))));
           }
         }
-        // The last point is the next node: what the elimination of the accelerations promises. Accelerations are differences
-        // of positions over h², so that the rounding of positions remains.
+        // The last point is the next node: what the elimination of the accelerations promises. Accelerations are
+        // differences of positions over h², so that the rounding of positions remains.
         const auto at_end = k * s + s - 1;
         EXPECT_LT((phase.point_positions.col(at_end) - phase.node_positions.col(k + 1)).cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_LT((phase.point_velocities.col(at_end) - phase.node_velocities.col(k + 1)).cwiseAbs().maxCoeff(), 1e-11);
@@ -61,8 +61,8 @@ TEST_P(ExchangeTest, PointsLieOnThePolynomials) {
   }
 }
 
-// At the stage positions that Trajectory names, the equations of motion hold to the tolerance of the solve; at q(t) they do not,
-// where the two differ.
+// At the stage positions that Trajectory names, the equations of motion hold to the tolerance of the solve; at q(t)
+// they do not, where the two differ.
 TEST_P(ExchangeTest, EquationsOfMotionHoldAtStagePositions) {
   const GaitSpec spec = Spec(Cycle::kHalf);
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
@@ -83,7 +83,8 @@ TEST_P(ExchangeTest, EquationsOfMotionHoldAtStagePositions) {
       const ContactSurface& contact = spec.scene.contacts[phase.contacts[c]];
       MatrixX jacobian = MatrixX::Zero(6, q.size());
       dynamics.AddTwistJacobian(state, contact.joint, ComputeRollingContact(contact, state).p_WP, 1, &jacobian);
-      residual -= jacobian.bottomRows<3>().transpose() * phase.point_forces.block<3, 1>(3 * static_cast<int>(c), column);
+      residual -=
+          jacobian.bottomRows<3>().transpose() * phase.point_forces.block<3, 1>(3 * static_cast<int>(c), column);
     }
     return residual.cwiseAbs().maxCoeff();  // N m or N
   };

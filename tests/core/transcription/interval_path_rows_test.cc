@@ -1,4 +1,5 @@
-// The rows between the points are Bernstein coefficients of the curves that the trajectory states, and have the bounds of the problem.
+// The rows between the points are Bernstein coefficients of the curves that the trajectory states, and have the bounds
+// of the problem.
 #include "core/transcription/interval_path_rows.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +44,8 @@ class IntervalPathRowsTest : public ::testing::TestWithParam<Case> {
     problem_ = BuildProblem(*spec_);
     knee_ = problem_->model.Find("knee_r");
     added_.between.assign(problem_->phases.size(), {{knee_}, {knee_}, {knee_}});
-    nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam().scheme,
-                                            Mesh::Uniform(std::vector<int>(problem_->phases.size(), kIntervals)), added_);
+    nlp_ = std::make_unique<CollocationNlp>(
+        *problem_, GetParam().scheme, Mesh::Uniform(std::vector<int>(problem_->phases.size(), kIntervals)), added_);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
     std::mt19937 random(9);
     std::uniform_real_distribution<double> noise(-0.2, 0.2);
@@ -73,7 +74,8 @@ class IntervalPathRowsTest : public ::testing::TestWithParam<Case> {
   }
 
   // The coefficients `inner`, completed by the ends of the curve where rows are missing there, give the curve.
-  void ExpectCurve(std::vector<double> inner, bool with_start, bool with_end, const std::function<double(double)>& curve) {
+  void ExpectCurve(std::vector<double> inner, bool with_start, bool with_end,
+                   const std::function<double(double)>& curve) {
     if (with_start) inner.insert(inner.begin(), curve(0));
     if (with_end) inner.push_back(curve(1));
     double size = 1;
@@ -106,9 +108,11 @@ TEST_P(IntervalPathRowsTest, AreTheBernsteinCoefficientsOfTheStatedCurves) {
   for (int phase = 0; phase < static_cast<int>(trajectory_.phases.size()); ++phase) {
     for (int k = 0; k < kIntervals; ++k) {
       const auto at = [&](double theta) { return Sample(trajectory_, phase, k, theta); };
-      ExpectCurve(Named("velocity knee_r", phase, k).values, true, true, [&](double t) { return at(t).velocity[knee_]; });
+      ExpectCurve(Named("velocity knee_r", phase, k).values, true, true,
+                  [&](double t) { return at(t).velocity[knee_]; });
       ExpectCurve(Named("range knee_r", phase, k).values, true, true, [&](double t) { return at(t).position[knee_]; });
-      ExpectCurve(Named("effort knee_r", phase, k).values, Lobatto(), true, [&](double t) { return at(t).efforts[effort]; });
+      ExpectCurve(Named("effort knee_r", phase, k).values, Lobatto(), true,
+                  [&](double t) { return at(t).efforts[effort]; });
       const std::vector<int>& contacts = trajectory_.phases[phase].contacts;
       for (size_t c = 0; c < contacts.size(); ++c) {
         ExpectCurve(Named("normal force " + problem_->contacts[contacts[c]].name, phase, k).values, Lobatto(), true,
@@ -170,7 +174,8 @@ TEST_P(IntervalPathRowsTest, UnknownsHaveTheBoundsOfTheRequest) {
   }
 }
 
-// A swinging surface is held above the ground at every point but the last of a phase, where the touch-down of the next one says what it is.
+// A swinging surface is held above the ground at every point but the last of a phase, where the touch-down of the next
+// one says what it is.
 TEST_P(IntervalPathRowsTest, SwingingSurfacesAreFreeAtTheEndOfAPhaseAlone) {
   Build(Preset::kHuman);
   int held = 0, free = 0;
@@ -188,15 +193,17 @@ TEST_P(IntervalPathRowsTest, SwingingSurfacesAreFreeAtTheEndOfAPhaseAlone) {
   EXPECT_GT(free, 0);
 }
 
-// Where rates of all efforts cost something, a contact that is taken up or given up has no normal force at that instant, and rows of
-// friction that would have no interior are equations or nothing. With a plain squared torque there is no such bound.
+// Where rates of all efforts cost something, a contact that is taken up or given up has no normal force at that
+// instant, and rows of friction that would have no interior are equations or nothing. With a plain squared torque there
+// is no such bound.
 TEST_P(IntervalPathRowsTest, ForcesVanishWhereContactsChangeAtRest) {
   for (const Preset preset : {Preset::kHuman, Preset::kTorque}) {
     Build(preset);
     const bool vanish = preset == Preset::kHuman;
     int given = 0, taken = 0;
     for (int phase = 0; phase < static_cast<int>(trajectory_.phases.size()); ++phase) {
-      const int last = nlp_->layout().first_interval(phase) + kIntervals - 1, point = trajectory_.points_per_interval - 1;
+      const int last = nlp_->layout().first_interval(phase) + kIntervals - 1,
+                point = trajectory_.points_per_interval - 1;
       const std::vector<int> gives = problem_->GivenUp(phase), takes = problem_->TakenUp(phase);
       for (const ActiveContact& active : problem_->ActiveContacts(phase)) {
         const int normal = active.offset + static_cast<int>(active.directions.size()) - 1;
@@ -205,9 +212,11 @@ TEST_P(IntervalPathRowsTest, ForcesVanishWhereContactsChangeAtRest) {
         EXPECT_EQ(nlp_->upper_bounds()(nlp_->layout().forces(last, point) + normal) == 0, vanish && is_given);
         bool starts_at_zero;
         if (Lobatto()) {
-          starts_at_zero = nlp_->upper_bounds()(nlp_->layout().forces(nlp_->layout().first_interval(phase), 0) + normal) == 0;
+          starts_at_zero =
+              nlp_->upper_bounds()(nlp_->layout().forces(nlp_->layout().first_interval(phase), 0) + normal) == 0;
         } else {
-          starts_at_zero = Named("normal force " + problem_->contacts[active.contact].name, phase, 0).upper.front() == 0;
+          starts_at_zero =
+              Named("normal force " + problem_->contacts[active.contact].name, phase, 0).upper.front() == 0;
         }
         EXPECT_EQ(starts_at_zero, vanish && is_taken);
         given += is_given ? 1 : 0;

@@ -1,5 +1,6 @@
-// The rows of a jump determine it: solved for the velocities after it and the impulses they give what the judge's plastic impact
-// gives, in the plane and in space, at a border of phases and through the mirror at the start of a half cycle.
+// The rows of a jump determine it: solved for the velocities after it and the impulses they give what the judge's
+// plastic impact gives, in the plane and in space, at a border of phases and through the mirror at the start of a half
+// cycle.
 #include "core/transcription/jump_rows.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,8 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     }
   }
 
-  // Rows that hold a phase's velocities after its jump and its impulses. All but the shares of a foot's surfaces are linear in them.
+  // Rows that hold a phase's velocities after its jump and its impulses. All but the shares of a foot's surfaces are
+  // linear in them.
   std::vector<int> RowsOf(int phase) const {
     std::vector<int> rows;
     bool entries = false;
@@ -142,8 +144,10 @@ TEST_P(JumpRowsTest, ImpulsesAreProportionalToWhatTheyStop) {
     x_ = kept;
     for (size_t p = 1; p < first.phases.size(); ++p) {
       if (!Jumps(first.phases[p])) continue;
-      EXPECT_LT((scaled.phases[p].impulses - share * first.phases[p].impulses).norm(), 1e-9 * first.phases[p].impulses.norm());
-      EXPECT_NEAR(scaled.phases[p].impact_loss, share * share * first.phases[p].impact_loss, 1e-9 * first.phases[p].impact_loss);
+      EXPECT_LT((scaled.phases[p].impulses - share * first.phases[p].impulses).norm(),
+                1e-9 * first.phases[p].impulses.norm());
+      EXPECT_NEAR(scaled.phases[p].impact_loss, share * share * first.phases[p].impact_loss,
+                  1e-9 * first.phases[p].impact_loss);
     }
   }
 }

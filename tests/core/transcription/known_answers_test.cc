@@ -92,8 +92,8 @@ Mesh UnevenMesh(int pairs) {
 
 class KnownAnswersTest : public ::testing::TestWithParam<Scheme> {};
 
-// Double integrator from rest to rest with least ∫ u² dt: u = m (6 D/T²)(1 − 2 t/T), cost 12 m² D²/T³. Efforts are linear and
-// u² is quadratic, so every scheme has exact efforts, cost and node states on every mesh.
+// Double integrator from rest to rest with least ∫ u² dt: u = m (6 D/T²)(1 − 2 t/T), cost 12 m² D²/T³. Efforts are
+// linear and u² is quadratic, so every scheme has exact efforts, cost and node states on every mesh.
 TEST_P(KnownAnswersTest, DoubleIntegratorWithLeastEffort) {
   const double distance = 0.7;
   const auto problem = MassOnRail(distance, {0, 0, -9.81});
@@ -163,8 +163,8 @@ class TrackedSine {
   std::unique_ptr<CollocationNlp> nlp_;
 };
 
-// Node states converge with the order of the scheme: 3, 5 and 4. The odd leading term of the cost's error is a total derivative
-// along the motion and vanishes over a period, so that the cost gains an order with both Radau schemes.
+// Node states converge with the order of the scheme: 3, 5 and 4. The odd leading term of the cost's error is a total
+// derivative along the motion and vanishes over a period, so that the cost gains an order with both Radau schemes.
 TEST_P(KnownAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
   const auto coarse = TrackedSine(GetParam(), UnevenMesh(8)).Measure();
   const auto fine = TrackedSine(GetParam(), UnevenMesh(16)).Measure();

@@ -55,8 +55,8 @@ TEST_F(LayoutTest, ThreePointsHaveAFreeAcceleration) {
   EXPECT_EQ(layout.size(), 159 + 18 + 2 + 1);
 }
 
-// Before the first node the impulses of the first phase; nothing touches down in the second. In a full cycle something does in
-// the third: a node and 4 impulses more.
+// Before the first node the impulses of the first phase; nothing touches down in the second. In a full cycle something
+// does in the third: a node and 4 impulses more.
 TEST_F(LayoutTest, JumpsHaveImpulsesAndAStateBefore) {
   const auto problem = Problem();
   problem->plastic_touch_down = true;
@@ -125,8 +125,7 @@ TEST(Bounds, AFullCycleStartsInTheMiddle) {
     request.cycle = cycle;
     const GaitSpec spec = CheckRequest(request).value();
     const auto problem = BuildProblem(spec);
-    const CollocationNlp nlp(*problem, Scheme::kRadau2,
-                             Mesh::Uniform(std::vector<int>(problem->phases.size(), 1)));
+    const CollocationNlp nlp(*problem, Scheme::kRadau2, Mesh::Uniform(std::vector<int>(problem->phases.size(), 1)));
     const int y = nlp.layout().node(0) + problem->model.Find("base_y");
     EXPECT_EQ(nlp.lower_bounds()(y) == 0 && nlp.upper_bounds()(y) == 0, cycle == Cycle::kFull);
   }

@@ -4,9 +4,9 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
+#include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
 #include "core/gait/optimizing_gait_solver.h"
-#include "core/gait/mesh_refinement.h"
 #include "core/nlp/solve_nlp.h"
 #include "core/transcription/collocation_nlp.h"
 
@@ -74,8 +74,8 @@ TEST_P(MultiplierTransferTest, SumsOverAPhaseSurviveRefinement) {
   for (const auto& [name, value] : before) EXPECT_NEAR(after.at(name), value, 0.05 * largest) << name;
 }
 
-// Where rates cost something and forces vanish with their contacts, a finer mesh is solved in fewer iterations with the multipliers of
-// the coarser one than without any, from the same motion.
+// Where rates cost something and forces vanish with their contacts, a finer mesh is solved in fewer iterations with the
+// multipliers of the coarser one than without any, from the same motion.
 TEST_P(MultiplierTransferTest, TheyBringAFinerMeshCloserToItsSolution) {
   GaitRequest request;
   request.body.model = "planar";
@@ -89,7 +89,8 @@ TEST_P(MultiplierTransferTest, TheyBringAFinerMeshCloserToItsSolution) {
   ASSERT_EQ(solution.termination, Termination::kOptimal);
   NlpOptions options;
   options.initial_barrier = options.warm_push = 1e-4;
-  CollocationNlp coarse(*problem, GetParam(), RequestedMesh(spec)), finer(*problem, GetParam(), Halved(RequestedMesh(spec)));
+  CollocationNlp coarse(*problem, GetParam(), RequestedMesh(spec)),
+      finer(*problem, GetParam(), Halved(RequestedMesh(spec)));
   const NlpStart again{coarse.MakeStart(GuessFromTrajectory(*solution.trajectory)), {}, {}, {}};
   const NlpResult known = SolveNlp(coarse, again, options, {});
   ASSERT_EQ(known.termination, Termination::kOptimal);

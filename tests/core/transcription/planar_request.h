@@ -18,8 +18,8 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
   request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
   request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
   request.costs.push_back({GaitRequest::Time{}, 100.0});
-  request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}},
-                           5e4});
+  request.costs.push_back(
+      {GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}}, 5e4});
   request.costs.push_back({GaitRequest::MuscleEffort{3.0, {{"knee_r", 0.5}}}, 5e3});
   request.costs.push_back({GaitRequest::MuscleWork{{}, {}, 5.0, {}}, 10.0});
   request.costs.push_back({GaitRequest::PassiveLoad{}, 1e4});

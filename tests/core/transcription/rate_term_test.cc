@@ -1,4 +1,5 @@
-// Rate costs against sums over the forces of the trajectory that is handed out, which knows nothing of links and unknowns.
+// Rate costs against sums over the forces of the trajectory that is handed out, which knows nothing of links and
+// unknowns.
 #include "core/transcription/rate_term.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,8 @@ TEST_P(ForceRateTest, IsTheSumOverTheTrajectory) {
   std::uniform_real_distribution<double> noise(-0.2, 0.2);
   for (int k = 0; k < nlp.layout().intervals(); ++k) {
     for (int i = 0; i < 2; ++i) {
-      const int first = nlp.layout().forces(k, i), end = nlp.layout().efforts(k, i) + nlp.layout().controls(nlp.layout().phase(k));
+      const int first = nlp.layout().forces(k, i),
+                end = nlp.layout().efforts(k, i) + nlp.layout().controls(nlp.layout().phase(k));
       for (int u = first; u < end; ++u) x(u) += noise(random);
     }
   }

@@ -24,7 +24,8 @@ class SeparationRowsTest : public ::testing::TestWithParam<Scheme> {
     plain_ = std::make_unique<CollocationNlp>(*problem_, GetParam(), mesh());
     for (int p = 0; p < static_cast<int>(problem_->pairs.size()); ++p) {
       const std::string name = spec_->scene.PairName(p);
-      if (name == "left_shank / right_shank" || name == "left_heel / right_shank" || name == "left_shank / right_heel") {
+      if (name == "left_shank / right_shank" || name == "left_heel / right_shank" ||
+          name == "left_shank / right_heel") {
         added_.separated.push_back(p);
       }
     }
@@ -42,8 +43,8 @@ class SeparationRowsTest : public ::testing::TestWithParam<Scheme> {
   VectorX x_;
 };
 
-// One row for every pair and point but the first point of a Lobatto scheme, bounded at the end of a phase, too. In the program
-// every other row and its bounds are as without them.
+// One row for every pair and point but the first point of a Lobatto scheme, bounded at the end of a phase, too. In the
+// program every other row and its bounds are as without them.
 TEST_P(SeparationRowsTest, RowsAndBounds) {
   ASSERT_EQ(added_.separated.size(), 3u);
   const int points = GetParam() == Scheme::kRadau3 ? 3 : 2;  // Hermite-Simpson: three with the first

@@ -95,7 +95,8 @@ TEST_P(PlantedContacts, PenetrationBetweenNodes) {
   EXPECT_NEAR(residuals_.min_swing_clearance, -1e-3, 1e-9);
 }
 
-// A knob on the rim of the flywheel that goes under the ground for a hundredth of the interval and less, many times or once.
+// A knob on the rim of the flywheel that goes under the ground for a hundredth of the interval and less, many times or
+// once.
 TEST_P(PlantedContacts, NarrowPeaksBetweenSamples) {
   const double arm = 0.35, knob = 0.06, deep = arm + knob - FlywheelBall::kRadius;
   ContactSurface& surface = scene_.contacts[1];
@@ -125,9 +126,8 @@ TEST_P(PlantedContacts, PullOfTheReturnedForcesBetweenPoints) {
   // Radau-2: a straight line, lowest where there is no point. Others: a parabola.
   const bool linear = trajectory_.points_per_interval == 2;
   const double low = -0.02 * kWeight;
-  Plant(&phase().point_forces, 2, [&](double theta) {
-    return (low - kWeight) * (linear ? 1 - theta : 4 * theta * (1 - theta));
-  });
+  Plant(&phase().point_forces, 2,
+        [&](double theta) { return (low - kWeight) * (linear ? 1 - theta : 4 * theta * (1 - theta)); });
   bounds_.min_normal = 0.01 * kWeight;
   Judge();
   Expect(Criterion::kPull, 0.03, linear ? 0 : 0.5, "tread");
@@ -136,7 +136,8 @@ TEST_P(PlantedContacts, PullOfTheReturnedForcesBetweenPoints) {
 
 TEST_P(PlantedContacts, FrictionOfTheReturnedForcesBetweenPoints) {
   const bool linear = trajectory_.points_per_interval == 2;
-  Plant(&phase().point_forces, 0, [&](double theta) { return -0.9 * kWeight * (linear ? 1 - theta : 4 * theta * (1 - theta)); });
+  Plant(&phase().point_forces, 0,
+        [&](double theta) { return -0.9 * kWeight * (linear ? 1 - theta : 4 * theta * (1 - theta)); });
   bounds_.friction = 0.6;
   Judge();
   Expect(Criterion::kFriction, 0.5, linear ? 0 : 0.5, "tread");

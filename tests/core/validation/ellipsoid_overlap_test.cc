@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 #include "core/contact/pair_separation.h"
 #include "tests/support/seeded_random.h"
@@ -15,7 +14,8 @@ namespace rollgait {
 namespace {
 
 PosedEllipsoid RandomEllipsoid(SeededRandom& random) {
-  const Eigen::Quaterniond turn(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+  const Eigen::Quaterniond turn(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1),
+                                random.Uniform(-1, 1));
   PosedEllipsoid body;
   body.R_WE = turn.normalized().toRotationMatrix();
   body.semi_axes = {random.LogUniform(0.02, 0.3), random.LogUniform(0.02, 0.3), random.LogUniform(0.02, 0.3)};
@@ -58,7 +58,8 @@ TEST(EllipsoidOverlapTest, SpheresAndAlignedEllipsoidsInClosedForm) {
   EXPECT_NEAR(OverlapDepth(a, b), 0.02, 1e-11);
 }
 
-// At depth d the shortest translation differs from the planted one by d² over a radius of curvature; the least is 1 mm here.
+// At depth d the shortest translation differs from the planted one by d² over a radius of curvature; the least is 1 mm
+// here.
 TEST(EllipsoidOverlapTest, FindsPlantedDepths) {
   SeededRandom random(3);
   int found = 0;

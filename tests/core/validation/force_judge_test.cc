@@ -84,8 +84,8 @@ TEST_F(SharedFriction, TwoContactsInSpaceAgreeWithASearch) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<double> rows;
     for (int c = 0; c < 2; ++c) {
-      for (double value : {random.Uniform(-300, 300), random.Uniform(-50, 50), random.Uniform(5, 500), random.Uniform(-0.1, 0.1),
-                           random.Uniform(-0.1, 0.1)}) {
+      for (double value : {random.Uniform(-300, 300), random.Uniform(-50, 50), random.Uniform(5, 500),
+                           random.Uniform(-0.1, 0.1), random.Uniform(-0.1, 0.1)}) {
         rows.push_back(value);
       }
     }

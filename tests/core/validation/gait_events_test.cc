@@ -1,4 +1,5 @@
-// Walks whose contacts and forces are prescribed, cut at several places: events, shares, forces and centres of pressure are known.
+// Walks whose contacts and forces are prescribed, cut at several places: events, shares, forces and centres of pressure
+// are known.
 #include "core/validation/gait_events.h"
 
 #include <gtest/gtest.h>
@@ -125,9 +126,14 @@ TEST_P(TwoSurfacesTest, AFootIsOneFoot) {
   const auto events = MeasureGaitEvents(scene, trajectory, {0, 0, -9.81});
   ASSERT_TRUE(events);
   using enum GaitEventKind;
-  ExpectEvents(*events, {{kHeelStrike, Foot::kRight, 0}, {kFootFlat, Foot::kRight, 7}, {kToeOff, Foot::kLeft, 11},
-                         {kHeelOff, Foot::kRight, 38}, {kHeelStrike, Foot::kLeft, 50}, {kFootFlat, Foot::kLeft, 57},
-                         {kToeOff, Foot::kRight, 61}, {kHeelOff, Foot::kLeft, 88}});
+  ExpectEvents(*events, {{kHeelStrike, Foot::kRight, 0},
+                         {kFootFlat, Foot::kRight, 7},
+                         {kToeOff, Foot::kLeft, 11},
+                         {kHeelOff, Foot::kRight, 38},
+                         {kHeelStrike, Foot::kLeft, 50},
+                         {kFootFlat, Foot::kLeft, 57},
+                         {kToeOff, Foot::kRight, 61},
+                         {kHeelOff, Foot::kLeft, 88}});
   EXPECT_NEAR(events->foot(Foot::kRight).stance, 0.61, 1e-12);
   EXPECT_NEAR(events->foot(Foot::kLeft).stance, 0.61, 1e-12);
   EXPECT_NEAR(events->double_support, 0.22, 1e-12);
@@ -182,7 +188,8 @@ INSTANTIATE_TEST_SUITE_P(Cuts, TwoSurfacesTest,
 // The foremost surface rides on the toes: three links of a leg, one foot.
 TEST(GaitEventsTest, ToesBelongToTheFoot) {
   const Scene scene = Body("human29", FootShape::kTwoEllipsoids, true);
-  ASSERT_NE(scene.contacts[scene.FindContact("right_heel")].joint, scene.contacts[scene.FindContact("right_forefoot")].joint);
+  ASSERT_NE(scene.contacts[scene.FindContact("right_heel")].joint,
+            scene.contacts[scene.FindContact("right_forefoot")].joint);
   const Trajectory trajectory = TimedWalk(scene, {{"heel", 0, 38}, {"forefoot", 7, 61}}).Make(Cycle::kHalf, 30);
   const auto events = MeasureGaitEvents(scene, trajectory, {0, 0, -9.81});
   ASSERT_TRUE(events);
@@ -198,7 +205,9 @@ TEST(GaitEventsTest, OneSurfaceAFootAndFlight) {
   const auto events = MeasureGaitEvents(scene, trajectory, {0, 0, -9.81});
   ASSERT_TRUE(events);
   using enum GaitEventKind;
-  ExpectEvents(*events, {{kHeelStrike, Foot::kRight, 0}, {kToeOff, Foot::kRight, 40}, {kHeelStrike, Foot::kLeft, 50},
+  ExpectEvents(*events, {{kHeelStrike, Foot::kRight, 0},
+                         {kToeOff, Foot::kRight, 40},
+                         {kHeelStrike, Foot::kLeft, 50},
                          {kToeOff, Foot::kLeft, 90}});
   EXPECT_NEAR(events->flight, 0.2, 1e-12);
   EXPECT_NEAR(events->single_support, 0.8, 1e-12);

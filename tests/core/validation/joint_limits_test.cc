@@ -34,7 +34,8 @@ class JointLimits : public ::testing::TestWithParam<Scheme> {
     const int s = trajectory_.points_per_interval;
     for (int i = 0; i < s; ++i) (*points)(row, kInterval * s + i) += f(trajectory_.point_fractions[i]);
   }
-  // An acceleration a (1 − 2 θ) that leaves the velocity at the end as it was: between the nodes the velocity rises by a h / 4.
+  // An acceleration a (1 − 2 θ) that leaves the velocity at the end as it was: between the nodes the velocity rises by
+  // a h / 4.
   void PlantVelocity(double peak) {
     const double a = 4 * peak / Length();
     Plant(&trajectory_.phases[0].point_accelerations, 3, [a](double theta) { return a * (1 - 2 * theta); });
@@ -106,7 +107,8 @@ TEST_P(JointLimits, RangePassedInAStraightLine) {
 }
 
 TEST_P(JointLimits, EffortBetweenPoints) {
-  // Radau-2: linear, and largest where there is no point. Others: a parabola, its top away from every point but the middle one.
+  // Radau-2: linear, and largest where there is no point. Others: a parabola, its top away from every point but the
+  // middle one.
   const bool linear = trajectory_.points_per_interval == 2;
   const auto plant = [&](double peak) {
     Plant(&trajectory_.phases[0].point_efforts, 0,

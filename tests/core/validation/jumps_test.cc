@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kMass = 2, kInertia = 0.03, kRadius = 0.2;
 
-// A ball in space that hops and lands with sideways velocity, which the mirror image of a half cycle turns about. Joints: x, y, z,
-// roll, pitch.
+// A ball in space that hops and lands with sideways velocity, which the mirror image of a half cycle turns about.
+// Joints: x, y, z, roll, pitch.
 class Hop : public ::testing::Test {
  protected:
   Hop() {
@@ -37,8 +37,13 @@ class Hop : public ::testing::Test {
     ContactSurface other = ball;
     other.name = "other";
     other.mirror_contact = 1;
-    scene_.emplace(Scene{.name = "hop", .description = "", .selection = {}, .model = Model::Create(joints).value(),
-                         .contacts = {ball, other}, .leg_length = 1, .sources = {}});
+    scene_.emplace(Scene{.name = "hop",
+                         .description = "",
+                         .selection = {},
+                         .model = Model::Create(joints).value(),
+                         .contacts = {ball, other},
+                         .leg_length = 1,
+                         .sources = {}});
     for (int p = 0; p < 2; ++p) {
       TrajectoryPhase phase;
       phase.node_times = {p * 0.5, p * 0.5 + 0.5};
@@ -57,7 +62,8 @@ class Hop : public ::testing::Test {
     v[3] = -v[3];
     return v;
   }
-  // Makes the first phase start with the plastic impact of the velocities v: angular momentum about the contact is kept.
+  // Makes the first phase start with the plastic impact of the velocities v: angular momentum about the contact is
+  // kept.
   void Land(const VectorX& v) {
     const double about = kInertia + kMass * kRadius * kRadius;
     VectorX after(5);

@@ -16,9 +16,8 @@ const NormativeDataset& Set(std::string_view name) {
 }
 
 const NormativeCurve& Curve(const NormativeDataset& set, NormativeQuantity quantity, std::string_view joint) {
-  return *std::find_if(set.curves.begin(), set.curves.end(), [&](const NormativeCurve& curve) {
-    return curve.quantity == quantity && curve.joint == joint;
-  });
+  return *std::find_if(set.curves.begin(), set.curves.end(),
+                       [&](const NormativeCurve& curve) { return curve.quantity == quantity && curve.joint == joint; });
 }
 
 double Max(const NormativeCurve& curve) { return *std::max_element(curve.mean.begin(), curve.mean.end()); }

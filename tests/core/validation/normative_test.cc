@@ -131,8 +131,9 @@ TEST(NormativeSignsTest, JointsTurnAsPeoplesDo) {
   EXPECT_GT((turned[ankle].R_WL * front).z(), 0.01);
 }
 
-// Standing still on the right foot with the efforts that the equations of motion ask for: by statics the plantarflexor moment is
-// force times lever less the foot's own weight, and hip and knee differ from it by the same force at their own levers.
+// Standing still on the right foot with the efforts that the equations of motion ask for: by statics the plantarflexor
+// moment is force times lever less the foot's own weight, and hip and knee differ from it by the same force at their
+// own levers.
 TEST(NormativeMomentsTest, AreThoseOfStatics) {
   const Scene scene = PlanarHuman(Sex::kFemale, 1.65, 62);
   const BodyDynamics dynamics(scene.model);
@@ -192,7 +193,8 @@ TEST(NormativeMomentsTest, NoEffortNoMoment) {
   const DatasetComparison subject = CompareWalk(scene, trajectory, kGravity).datasets[1];
   for (int i = 0; i < kNormativeSamples; ++i) {
     EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "hip").ours[i], 0, 1e-12);
-    EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "knee").ours[i], i == 0 ? 0 : -0.1 * 2 * i, 1e-9);  // N m/kg at 62 kg
+    EXPECT_NEAR(Of(subject, NormativeQuantity::kMoment, "knee").ours[i], i == 0 ? 0 : -0.1 * 2 * i,
+                1e-9);  // N m/kg at 62 kg
   }
 }
 

@@ -108,7 +108,8 @@ TEST_F(OverlapTest, NoneInStanding) {
   EXPECT_TRUE(found.Deeper(0).empty());
 }
 
-// Somebody stands with the legs pressed into each other: every pair is as deep as the other algorithm says, in every interval.
+// Somebody stands with the legs pressed into each other: every pair is as deep as the other algorithm says, in every
+// interval.
 TEST_F(OverlapTest, StandingInOneself) {
   const VectorX q = Posture(0.12);
   const OverlapFindings found = MeasureOverlap(scene_, dynamics_, Moving(q, VectorX::Zero(29), 2, 0.02));
@@ -144,7 +145,8 @@ TEST_F(OverlapTest, ASwingThroughTheOtherLeg) {
   EXPECT_EQ(found.worst.phase, 0);
 }
 
-// Legs graze each other by 1e-3 to 1e-6 m, for a few milliseconds in an interval of 0.4 s, of which samples are 33 ms apart.
+// Legs graze each other by 1e-3 to 1e-6 m, for a few milliseconds in an interval of 0.4 s, of which samples are 33 ms
+// apart.
 TEST_F(OverlapTest, NoDipIsTooShort) {
   const int shanks = FindPair("left_shank / right_shank");
   for (const double depth : {1e-3, 1e-4, 1e-5, 1e-6}) {

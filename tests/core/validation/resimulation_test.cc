@@ -74,8 +74,8 @@ TEST_F(ReferenceNodes, EveryIntervalEndsOnTheNextNode) {
   EXPECT_NEAR(min_normal_ / (0.365 * 9.81), 0.4966, 0.005);
 }
 
-// The least normal force at every instant: against forward dynamics at 400 instants of every interval, integrated from each to the
-// next. The judge takes one to four steps an interval, and its least force is between them.
+// The least normal force at every instant: against forward dynamics at 400 instants of every interval, integrated from
+// each to the next. The judge takes one to four steps an interval, and its least force is between them.
 TEST_F(ReferenceNodes, ForcesBetweenAcceptedSteps) {
   Run(1e-10);
   ConstrainedDynamics dynamics(BodyDynamics(scene_.model), {body_.surface});
@@ -99,13 +99,15 @@ TEST_F(ReferenceNodes, ForcesBetweenAcceptedSteps) {
       friction = std::max(friction, force.head<2>().norm() / force.z());
     }
   }
-  // Within a thousandth, and not less than what the fine grid sees but for its own coarseness, (h/2)² times a curvature.
+  // Within a thousandth, and not less than what the fine grid sees but for its own coarseness, (h/2)² times a
+  // curvature.
   EXPECT_NEAR(min_normal_, least, 1e-4 * least);
   EXPECT_NEAR(max_friction_, friction, 1e-4 * friction);
 }
 
-// Longer steps do not make forces less exact than the motion: where the quintic through the ends of a step or an interpolant is not
-// good enough, the judge knows. Measured: 6e-8 N; 6e-6 N with the quintic everywhere, 5e-5 N without halving.
+// Longer steps do not make forces less exact than the motion: where the quintic through the ends of a step or an
+// interpolant is not good enough, the judge knows. Measured: 6e-8 N; 6e-6 N with the quintic everywhere, 5e-5 N without
+// halving.
 TEST_F(ReferenceNodes, ForcesOfLongSteps) {
   Run(1e-11);
   const double normal = min_normal_, friction = max_friction_;

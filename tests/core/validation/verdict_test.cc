@@ -1,5 +1,5 @@
-// The whole judge against planted faults: each shows in its own criterion at its true size, with its place and its interval, and
-// turns the verdict.
+// The whole judge against planted faults: each shows in its own criterion at its true size, with its place and its
+// interval, and turns the verdict.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ class VerdictTest : public ::testing::TestWithParam<Scheme> {
   void Judge() { report_ = Validate(scene_, trajectory_, options_); }
   const Finding& Found(Criterion criterion) const { return report_.findings[static_cast<int>(criterion)]; }
   // Exactly one criterion is exceeded, and by that finding.
-  void ExpectOne(Criterion criterion, double value, double tolerance, const std::string& where, int phase, double time) {
+  void ExpectOne(Criterion criterion, double value, double tolerance, const std::string& where, int phase,
+                 double time) {
     Judge();
     const Finding& finding = Found(criterion);
     EXPECT_NEAR(finding.value, value, tolerance);
@@ -83,8 +84,9 @@ TEST_P(VerdictTest, Defects) {
   // That work went nowhere: energy of that interval alone.
   const double turned = ball_.Position(start + h)[3] - ball_.Position(start)[3];
   EXPECT_NEAR(Found(Criterion::kEnergy).time, start, 1e-12);
-  EXPECT_NEAR(Found(Criterion::kEnergy).value, std::abs(0.05 * extra * turned) * report_.energy_balance_error_relative /
-                                                   report_.energy_balance_error, 1e-10);
+  EXPECT_NEAR(Found(Criterion::kEnergy).value,
+              std::abs(0.05 * extra * turned) * report_.energy_balance_error_relative / report_.energy_balance_error,
+              1e-10);
   ExpectInterval(Criterion::kEnergy, 6, Found(Criterion::kEnergy).value, 1e-10);
 }
 
@@ -92,7 +94,8 @@ TEST_P(VerdictTest, PhasesThatDoNotMeetAndAnEndThatIsNotTheStart) {
   trajectory_.phases[1].node_positions.row(0).array() += 0.3;
   trajectory_.displacement += 0.3;
   ExpectOne(Criterion::kPositionDefect, 0.3, 1e-10, "base_x", 0, trajectory_.phases[0].node_times.back());
-  for (const CriterionValues& own : report_.intervals) EXPECT_LT(own[Criterion::kPositionDefect], 1e-10);  // a border is no interval's
+  for (const CriterionValues& own : report_.intervals)
+    EXPECT_LT(own[Criterion::kPositionDefect], 1e-10);  // a border is no interval's
   EXPECT_FALSE(Exceeds(Criterion::kPeriodicity));
   trajectory_.displacement += 2e-3;
   ExpectOne(Criterion::kPeriodicity, 2e-3, 1e-12, "base_x", 1, ball_.kDuration);
@@ -133,7 +136,8 @@ TEST_P(VerdictTest, LimitsOfTheJoints) {
   EXPECT_EQ(Found(Criterion::kJointRange).where, "flywheel");
   EXPECT_NEAR(Found(Criterion::kJointVelocity).value, 0.25, 1e-8);
   EXPECT_NEAR(Found(Criterion::kJointEffort).value, 0.5, 1e-12);
-  EXPECT_TRUE(Exceeds(Criterion::kJointRange) && Exceeds(Criterion::kJointVelocity) && Exceeds(Criterion::kJointEffort));
+  EXPECT_TRUE(Exceeds(Criterion::kJointRange) && Exceeds(Criterion::kJointVelocity) &&
+              Exceeds(Criterion::kJointEffort));
 }
 
 TEST_P(VerdictTest, LeastNormalForceOfTheRequest) {
@@ -150,19 +154,20 @@ TEST_P(VerdictTest, PullOfTheMotionAlone) {
   EXPECT_NEAR(Found(Criterion::kPull).value, 1, 1e-9);
 }
 
-// A torque that rises and falls within one interval: the motion is a polynomial, which the integrator carries over the interval in
-// one step or two, and at the ends of steps friction is not at its largest.
+// A torque that rises and falls within one interval: the motion is a polynomial, which the integrator carries over the
+// interval in one step or two, and at the ends of steps friction is not at its largest.
 TEST_P(VerdictTest, FrictionOfTheMotionBetweenAcceptedSteps) {
   ball_ = FlywheelBall();
   ball_.speed = 2;
   trajectory_ = ball_.MakeTrajectory(GetParam());
-  const double wanted = 0.9, peak = wanted * kBallWeight * FlywheelBall::Inertia() / (FlywheelBall::kMass * FlywheelBall::kRadius);
-  // Largest at 0.37, whatever the integrator makes of halves; torques of Radau-2 are straight lines, largest at one end.
+  const double wanted = 0.9,
+               peak = wanted * kBallWeight * FlywheelBall::Inertia() / (FlywheelBall::kMass * FlywheelBall::kRadius);
+  // Largest at 0.37, whatever the integrator makes of halves; torques of Radau-2 are straight lines, largest at one
+  // end.
   const bool linear = trajectory_.points_per_interval == 2;
   const double at = linear ? 0 : 0.37;
-  Plant(&trajectory_.phases[1].point_efforts, 0, [&](double theta) {
-    return peak * (linear ? 1 - theta : 1 - 2.5 * (theta - at) * (theta - at));
-  });
+  Plant(&trajectory_.phases[1].point_efforts, 0,
+        [&](double theta) { return peak * (linear ? 1 - theta : 1 - 2.5 * (theta - at) * (theta - at)); });
   Judge();
   EXPECT_NEAR(Found(Criterion::kFriction).value, wanted / 0.8 - 1, 1e-6);
   EXPECT_EQ(Found(Criterion::kFriction).where, "tread");
@@ -193,9 +198,9 @@ TEST_P(VerdictTest, EnergyAndMomentum) {
 TEST_P(VerdictTest, NaNIsNeverWithin) {
   const Trajectory good = trajectory_;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (MatrixX TrajectoryPhase::*part : {&TrajectoryPhase::node_positions, &TrajectoryPhase::node_velocities,
-                                         &TrajectoryPhase::point_accelerations, &TrajectoryPhase::point_efforts,
-                                         &TrajectoryPhase::point_forces}) {
+  for (MatrixX TrajectoryPhase::*part :
+       {&TrajectoryPhase::node_positions, &TrajectoryPhase::node_velocities, &TrajectoryPhase::point_accelerations,
+        &TrajectoryPhase::point_efforts, &TrajectoryPhase::point_forces}) {
     for (int row = 0; row < (good.phases[1].*part).rows(); ++row) {
       trajectory_ = good;
       (trajectory_.phases[1].*part)(row, 2) = nan;

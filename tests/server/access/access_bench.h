@@ -15,7 +15,8 @@ namespace rollgait::server {
 class AccessBench {
  public:
   AccessBench()
-      : store_(OpenStore(LocateStore("", directory_.path()).value(), clock_).value()), access_(store_->database(), clock_) {}
+      : store_(OpenStore(LocateStore("", directory_.path()).value(), clock_).value()),
+        access_(store_->database(), clock_) {}
 
   FakeClock& clock() { return clock_; }
   AccessStore& access() { return access_; }

@@ -46,7 +46,8 @@ TEST(AccessStoreTest, LimitsOfATenantAreSetOneByOne) {
 
 TEST(AccessStoreTest, NamesOfTenantsAreChecked) {
   AccessBench bench;
-  for (const std::string& bad : {std::string(), std::string(65, 'a'), std::string("a b"), std::string("a\n"), std::string("ä")}) {
+  for (const std::string& bad :
+       {std::string(), std::string(65, 'a'), std::string("a b"), std::string("a\n"), std::string("ä")}) {
     EXPECT_EQ(bench.access().CreateToken({bad, kScopeRead, 0, ""}).error().code, ErrorCode::kInvalidArgument) << bad;
     EXPECT_EQ(bench.access().SetTenant(bad, {}).error().code, ErrorCode::kInvalidArgument) << bad;
   }

@@ -51,7 +51,8 @@ TEST(LoggingTest, AnEventIsOneJsonObjectOnOneLine) {
 }
 
 TEST(LoggingTest, NoTextEndsItsLineOrItsField) {
-  const std::string nasty[] = {"two\nlines", "\"quoted\"", "a\\", "\r\x1b[2J\x7f", std::string("nul\0nul", 7), "Grüße, 歩"};
+  const std::string nasty[] = {"two\nlines", "\"quoted\"", "a\\", "\r\x1b[2J\x7f", std::string("nul\0nul", 7),
+                               "Grüße, 歩"};
   for (const std::string& text : nasty) {
     for (const bool as_message : {true, false}) {
       const auto write = [&] {
@@ -69,27 +70,37 @@ TEST(LoggingTest, NoTextEndsItsLineOrItsField) {
 
 TEST(LoggingTest, BytesThatAreNoUtf8AreReplaced) {
   // A lone continuation, an overlong slash, a surrogate, a sequence that is cut off.
-  const std::string nasty = "a\x80" "b\xc0\xaf" "c\xed\xa0\x80" "d\xe2\x82";
+  const std::string nasty =
+      "a\x80"
+      "b\xc0\xaf"
+      "c\xed\xa0\x80"
+      "d\xe2\x82";
   const std::string mark = "\xef\xbf\xbd";
-  EXPECT_EQ(Only(Lines(LogFormat::kJson, [&] { LogEvent(spdlog::level::info, "x", {{"text", nasty}}); }))["text"],
+  EXPECT_EQ(Only(Lines(LogFormat::kJson,
+                       [&] {
+                         LogEvent(spdlog::level::info, "x", {{"text", nasty}});
+                       }))["text"],
             "a" + mark + "b" + mark + mark + "c" + mark + mark + mark + "d" + mark + mark);
 }
 
 TEST(LoggingTest, AForgedFieldStaysInsideItsValue) {
   const std::string forged = "x\",\"level\":\"error\",\"tenant\":\"root";
-  const nlohmann::json line =
-      Only(Lines(LogFormat::kJson, [&] { LogEvent(spdlog::level::info, "x", {{"text", forged}}); }));
+  const nlohmann::json line = Only(Lines(LogFormat::kJson, [&] {
+    LogEvent(spdlog::level::info, "x", {{"text", forged}});
+  }));
   EXPECT_EQ(line["text"], forged);
   EXPECT_EQ(line["level"], "info");
   EXPECT_FALSE(line.contains("tenant"));
-  const std::string text =
-      Lines(LogFormat::kText, [] { LogEvent(spdlog::level::info, "x", {{"text", "a tenant=root"}}); }).at(0);
+  const std::string text = Lines(LogFormat::kText, [] {
+                             LogEvent(spdlog::level::info, "x", {{"text", "a tenant=root"}});
+                           }).at(0);
   EXPECT_NE(text.find("text=\"a tenant=root\""), std::string::npos) << text;
 }
 
 TEST(LoggingTest, LongValuesAreCut) {
-  const nlohmann::json line = Only(
-      Lines(LogFormat::kJson, [] { LogEvent(spdlog::level::info, "x", {{"text", std::string(1'000'000, 'y')}}); }));
+  const nlohmann::json line = Only(Lines(LogFormat::kJson, [] {
+    LogEvent(spdlog::level::info, "x", {{"text", std::string(1'000'000, 'y')}});
+  }));
   EXPECT_LT(line["text"].get<std::string>().size(), 5000u);
 }
 
@@ -118,8 +129,9 @@ TEST(LoggingTest, LevelsBelowTheChosenOneAreNotWritten) {
 }
 
 TEST(LoggingTest, NumbersThatAreNoneAreText) {
-  const nlohmann::json line =
-      Only(Lines(LogFormat::kJson, [] { LogEvent(spdlog::level::info, "x", {{"a", 0.0 / 0.0}, {"b", -1.0 / 0.0}}); }));
+  const nlohmann::json line = Only(Lines(LogFormat::kJson, [] {
+    LogEvent(spdlog::level::info, "x", {{"a", 0.0 / 0.0}, {"b", -1.0 / 0.0}});
+  }));
   EXPECT_EQ(line["a"], "NaN");
   EXPECT_EQ(line["b"], "-Infinity");
 }

@@ -81,7 +81,8 @@ TEST(Sandbox, NothingCanBeOpenedOrReached) {
 
 TEST(Sandbox, NoMemoryBecomesExecutable) {
   EXPECT_TRUE(Holds([] {
-    return mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED && errno == EPERM;
+    return mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED &&
+           errno == EPERM;
   }));
   EXPECT_TRUE(Holds([] {
     void* page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -12,9 +12,11 @@ const std::string kGood = "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-
 
 TEST(TraceContextTest, KnowsTheForm) {
   EXPECT_TRUE(IsTraceparent(kGood));
-  for (const std::string& bad : std::vector<std::string>{std::string(), kGood + "0", kGood.substr(1), "01" + kGood.substr(2), "00-" + std::string(32, '0') + kGood.substr(35),
-        kGood.substr(0, 36) + std::string(16, '0') + "-01", "00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01",
-        "00-4bf92f3577b34da6a3ce929d0e0e4736 00f067aa0ba902b7-01"}) {
+  for (const std::string& bad : std::vector<std::string>{
+           std::string(), kGood + "0", kGood.substr(1), "01" + kGood.substr(2),
+           "00-" + std::string(32, '0') + kGood.substr(35), kGood.substr(0, 36) + std::string(16, '0') + "-01",
+           "00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01",
+           "00-4bf92f3577b34da6a3ce929d0e0e4736 00f067aa0ba902b7-01"}) {
     EXPECT_FALSE(IsTraceparent(bad)) << bad;
   }
 }

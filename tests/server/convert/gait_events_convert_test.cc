@@ -14,15 +14,18 @@ GaitEvents Events(const Scene& scene) {
   events.duration = 1.1;
   events.displacement = 1.4;
   events.body_weight = 700;
-  events.events = {{GaitEventKind::kHeelStrike, Foot::kRight, 0}, {GaitEventKind::kFootFlat, Foot::kRight, 7},
-                   {GaitEventKind::kToeOff, Foot::kLeft, 11}, {GaitEventKind::kHeelOff, Foot::kLeft, 88}};
+  events.events = {{GaitEventKind::kHeelStrike, Foot::kRight, 0},
+                   {GaitEventKind::kFootFlat, Foot::kRight, 7},
+                   {GaitEventKind::kToeOff, Foot::kLeft, 11},
+                   {GaitEventKind::kHeelOff, Foot::kLeft, 88}};
   const int left = scene.FindContact("left_foot"), right = scene.FindContact("right_foot");
   events.spans = {{0, 11, {left, right}, true, true}, {11, 60, {right}, true, false}, {60, 100, {}, false, false}};
   double value = 0;
   for (FootOnGround& foot : events.feet) {
     foot.contacts = {value == 0 ? right : left};
     foot.stance = value == 0 ? 0.6 : 0.62;
-    for (const auto& [matrix, rows] : {std::pair{&foot.force, 3}, {&foot.level_force, 3}, {&foot.center_of_pressure, 2}}) {
+    for (const auto& [matrix, rows] :
+         {std::pair{&foot.force, 3}, {&foot.level_force, 3}, {&foot.center_of_pressure, 2}}) {
       matrix->resize(rows, 4);
       for (double& entry : matrix->reshaped()) entry = value++;
     }

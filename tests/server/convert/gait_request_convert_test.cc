@@ -121,11 +121,13 @@ TEST(DecodeRequest, EveryBoundArrives) {
     ASSERT_NE(field, nullptr) << traits.field;
     EXPECT_EQ(field->cpp_type(), google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) << traits.field;
     EXPECT_TRUE(field->has_presence()) << traits.field;
-    reflection.SetDouble(spec.mutable_accuracy(), field, traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion)));
+    reflection.SetDouble(spec.mutable_accuracy(), field,
+                         traits.most * (0.5 + 0.01 * static_cast<int>(traits.criterion)));
   }
   int doubles = 0;
   for (int i = 0; i < v1::Accuracy::descriptor()->field_count(); ++i) {
-    doubles += v1::Accuracy::descriptor()->field(i)->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE ? 1 : 0;
+    doubles +=
+        v1::Accuracy::descriptor()->field(i)->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE ? 1 : 0;
   }
   EXPECT_EQ(doubles, kCriterionCount + 1) << "kkt_tolerance is the only other";
   const GaitRequest request = DecodeRequest(spec).value();
@@ -179,9 +181,9 @@ TEST(DecodeRequest, EveryCostTermArrives) {
 }
 
 TEST(DecodeRequest, PresetStartsAndDutyFactorArrive) {
-  const GaitRequest request =
-      DecodeRequest(Parse("preset: PRESET_TRANSPORT starts: 5 warm_start: \"nearest\" "
-                          "motion { duty_factor { min: 0.6 max: 0.62 } }")).value();
+  const GaitRequest request = DecodeRequest(Parse("preset: PRESET_TRANSPORT starts: 5 warm_start: \"nearest\" "
+                                                  "motion { duty_factor { min: 0.6 max: 0.62 } }"))
+                                  .value();
   EXPECT_EQ(request.preset, Preset::kTransport);
   EXPECT_EQ(request.starts, 5);
   EXPECT_TRUE(request.warm_start);
@@ -236,8 +238,8 @@ TEST(DecodeRequest, RefusesEnumValuesWithoutAName) {
   spec.mutable_accuracy()->set_level(static_cast<v1::Accuracy::Level>(4));
   const Result<GaitRequest> request = DecodeRequest(spec);
   ASSERT_FALSE(request.ok());
-  EXPECT_THAT(Fields(request.violations()),
-              ElementsAre("model.sex", "cycle", "preset", "cost_normalization", "discretization.scheme", "accuracy.level"));
+  EXPECT_THAT(Fields(request.violations()), ElementsAre("model.sex", "cycle", "preset", "cost_normalization",
+                                                        "discretization.scheme", "accuracy.level"));
   EXPECT_THAT(request.violations()[3].message, HasSubstr("77"));
 }
 

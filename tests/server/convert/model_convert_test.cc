@@ -108,7 +108,8 @@ TEST(EncodeModel, ContactsNameTheirSurfaceAndMirror) {
     const ContactSurface& contact = scene.contacts[i];
     EXPECT_EQ(encoded.contacts(i).name(), contact.name);
     EXPECT_EQ(encoded.contacts(i).joint(), contact.joint);
-    EXPECT_EQ(Decode(encoded.contacts(i).surface().ellipsoid().semi_axes_m()), contact.surface.ellipsoid()->semi_axes());
+    EXPECT_EQ(Decode(encoded.contacts(i).surface().ellipsoid().semi_axes_m()),
+              contact.surface.ellipsoid()->semi_axes());
     EXPECT_EQ(Decode(encoded.contacts(i).center_m()), contact.p_LE);
     EXPECT_LT((Decode(encoded.contacts(i).orientation()) - contact.R_LE).norm(), 1e-14);
     EXPECT_EQ(encoded.contacts(i).mirror_contact(), scene.contacts[1 - i].name);
@@ -136,7 +137,8 @@ TEST(EncodeModel, BodiesAndThePairsThatCanMeet) {
     const BodySurface& from = scene.bodies[i];
     EXPECT_EQ(encoded.bodies(i).name(), from.name);
     EXPECT_EQ(encoded.bodies(i).joint(), from.joint);
-    EXPECT_EQ(Decode(encoded.bodies(i).surface().ellipsoid().semi_axes_m()), from.placed.surface.ellipsoid()->semi_axes());
+    EXPECT_EQ(Decode(encoded.bodies(i).surface().ellipsoid().semi_axes_m()),
+              from.placed.surface.ellipsoid()->semi_axes());
     EXPECT_EQ(Decode(encoded.bodies(i).center_m()), from.placed.p_BE);
     EXPECT_LT((Decode(encoded.bodies(i).orientation()) - from.placed.R_BE).norm(), 1e-14);
     EXPECT_EQ(encoded.bodies(i).mirror_body(), scene.bodies[from.mirror_body].name);

@@ -22,7 +22,8 @@ TEST(ShippedScenes, AreValidAndRun) {
     ++count;
     v1::SimulationScene message = ReadShipped(name);
     Result<SimulationScene> decoded = DecodeScene(message);
-    ASSERT_TRUE(decoded.ok()) << name << ": " << decoded.violations()[0].field << " " << decoded.violations()[0].message;
+    ASSERT_TRUE(decoded.ok()) << name << ": " << decoded.violations()[0].field << " "
+                              << decoded.violations()[0].message;
     SimulationScene scene = std::move(decoded).value();
     scene.options.duration = std::min(scene.options.duration, 1.0);
     const Result<SimulationReport> report = Simulate(scene, {});
@@ -83,15 +84,19 @@ TEST(SceneConvert, NamesTheFieldThatIsWrong) {
             "contacts[0].body.joint");
   EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(0)->mutable_body()->clear_surface(); }),
             "contacts[0].body.surface");
-  EXPECT_EQ(FirstField([](auto& s) {
-              s.mutable_contacts(1)->mutable_body()->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->set_x(-1);
-            }),
-            "contacts[1].body.surface.ellipsoid.semi_axes_m");
+  EXPECT_EQ(
+      FirstField([](auto& s) {
+        s.mutable_contacts(1)->mutable_body()->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->set_x(-1);
+      }),
+      "contacts[1].body.surface.ellipsoid.semi_axes_m");
   EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(1)->mutable_plane()->set_ground("moon"); }),
             "contacts[1].plane.ground");
-  EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(1)->mutable_along()->set_z(1), s.mutable_contacts(1)->mutable_along()->set_x(0); }),
+  EXPECT_EQ(FirstField([](auto& s) {
+              s.mutable_contacts(1)->mutable_along()->set_z(1), s.mutable_contacts(1)->mutable_along()->set_x(0);
+            }),
             "contacts[1].along");
-  EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(1)->mutable_gates(1)->set_joint(""); }), "contacts[1].gates[1].joint");
+  EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(1)->mutable_gates(1)->set_joint(""); }),
+            "contacts[1].gates[1].joint");
   EXPECT_EQ(FirstField([](auto& s) { s.mutable_contacts(1)->set_name("foot_1"); }), "contacts[1].name");
   EXPECT_EQ(FirstField([](auto& s) { s.add_ground()->set_name("g"), s.mutable_ground(0)->set_frequency_hz(-1); }),
             "ground[0].frequency_hz");
@@ -107,7 +112,8 @@ TEST(SceneConvert, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(FirstField([](auto& s) { s.clear_duration_s(); }), "duration_s");
   EXPECT_EQ(FirstField([](auto& s) { s.set_output_step_s(1e-9); }), "output_step_s");
   EXPECT_EQ(FirstField([](auto& s) { s.set_max_steps(-5); }), "max_steps");
-  EXPECT_EQ(FirstField([](auto& s) { s.mutable_drift()->set_kind(static_cast<v1::DriftControl::Kind>(77)); }), "drift.kind");
+  EXPECT_EQ(FirstField([](auto& s) { s.mutable_drift()->set_kind(static_cast<v1::DriftControl::Kind>(77)); }),
+            "drift.kind");
   EXPECT_EQ(FirstField([](auto& s) { s.set_travel_joint("nobody"); }), "travel_joint");
 }
 

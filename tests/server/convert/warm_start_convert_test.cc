@@ -36,7 +36,8 @@ Trajectory SmallTrajectory(const GaitSpec& spec) {
     phase.start = trajectory.duration;
     phase.duration = 0.6;
     for (const double fraction : {0.0, 0.5, 1.0}) phase.node_times.push_back(phase.start + 0.6 * fraction);
-    for (const double fraction : {1.0 / 6, 0.5, 2.0 / 3, 1.0}) phase.point_times.push_back(phase.start + 0.6 * fraction);
+    for (const double fraction : {1.0 / 6, 0.5, 2.0 / 3, 1.0})
+      phase.point_times.push_back(phase.start + 0.6 * fraction);
     phase.node_positions = matrix(9, 3);
     phase.node_velocities = matrix(9, 3);
     phase.point_positions = matrix(9, 4);
@@ -96,7 +97,9 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
            [](v1::Multipliers& m) { m.mutable_between(0)->add_velocity(4); },
            [](v1::Multipliers& m) { m.mutable_between(0)->set_range(0, -1); },
            [](v1::Multipliers& m) { m.add_separated(1 << 20); },
-           [](v1::Multipliers& m) { for (int i = 0; i < 50; ++i) m.add_between(); }}) {
+           [](v1::Multipliers& m) {
+             for (int i = 0; i < 50; ++i) m.add_between();
+           }}) {
     v1::Multipliers spoiled = multipliers;
     spoil(spoiled);
     const Result<WarmStart> other = DecodeWarmStart(EncodeTrajectory(trajectory, spec.scene), spoiled, spec);
@@ -106,7 +109,8 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
   }
 }
 
-// What a result carries is what a later solve starts from: the constraints that were added, whose rows the multipliers are of.
+// What a result carries is what a later solve starts from: the constraints that were added, whose rows the multipliers
+// are of.
 TEST(DecodeWarmStart, AddedConstraintsComeBackFromAResult) {
   const GaitSpec spec = Planar();
   GaitSolution solution;

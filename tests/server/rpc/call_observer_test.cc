@@ -25,15 +25,18 @@ class CallObserverTest : public testing::Test {
  protected:
   CallObserverTest() : address_(metrics_.Listen("127.0.0.1:0").value()), bench_(With(metrics_)) {}
 
-  double Sample(const std::string& name, const std::string& method, const std::string& type, const std::string& code = "") {
+  double Sample(const std::string& name, const std::string& method, const std::string& type,
+                const std::string& code = "") {
     const std::string first = code.empty() ? "" : "grpc_code=\"" + code + "\",";
     const std::string service = method == "unknown" ? "unknown" : "rollgait.v1.GaitService";
-    const std::string key = name + "{" + first + "grpc_method=\"" + method + "\",grpc_service=\"" + service + "\",grpc_type=\"" + type + "\"}";
+    const std::string key = name + "{" + first + "grpc_method=\"" + method + "\",grpc_service=\"" + service +
+                            "\",grpc_type=\"" + type + "\"}";
     const auto samples = ParseExposition(Scrape(address_));
     return samples.contains(key) ? samples.at(key) : -1;
   }
   // A call is counted once its status is on its way, which may be after the client has it.
-  void ExpectSoon(double expected, const std::string& name, const std::string& method, const std::string& type, const std::string& code = "") {
+  void ExpectSoon(double expected, const std::string& name, const std::string& method, const std::string& type,
+                  const std::string& code = "") {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     double seen = -2;
     while ((seen = Sample(name, method, type, code)) != expected && std::chrono::steady_clock::now() < limit) {
@@ -86,7 +89,8 @@ TEST_F(CallObserverTest, InventedMethodsMakeNoSeries) {
     grpc::GenericStub stub(bench_.channel());
     grpc::ClientContext context;
     grpc::CompletionQueue queue;
-    auto call = stub.PrepareUnaryCall(&context, "/invented.Service/Method" + std::to_string(i), grpc::ByteBuffer(), &queue);
+    auto call =
+        stub.PrepareUnaryCall(&context, "/invented.Service/Method" + std::to_string(i), grpc::ByteBuffer(), &queue);
     call->StartCall();
     grpc::ByteBuffer response;
     grpc::Status status;
@@ -124,7 +128,7 @@ TEST(CallRecordTest, IsFoundWhileTheCallLives) {
   KeepRecord(context, std::make_shared<CallRecord>(CallRecord::Origin{"/a/B", "r", "t", "peer"}));
   RecordOf(context)->SetCaller("tenant", "token");
   RecordOf(context)->SetSolve("id");
-  const LogFields expected = {{"method", "/a/B"}, {"solve", "id"},       {"request_id", "r"},
+  const LogFields expected = {{"method", "/a/B"},   {"solve", "id"},      {"request_id", "r"},
                               {"traceparent", "t"}, {"tenant", "tenant"}, {"token", "token"}};
   EXPECT_EQ(FieldsOf(context), expected);
   ForgetRecord(context);

@@ -29,7 +29,8 @@ inline GaitKnowledge SmallKnowledge() {
     return model;
   };
   knowledge.check_warm_start = [](const v1::SolveSpec& spec, const v1::SolveResult& result) {
-    return spec.slope_rad() < result.objective() ? Violations() : Violations{{"warm_start", "its solution is of another world"}};
+    return spec.slope_rad() < result.objective() ? Violations()
+                                                 : Violations{{"warm_start", "its solution is of another world"}};
   };
   knowledge.list_models = [] {
     v1::ListModelsResponse response;

@@ -27,9 +27,9 @@ TEST(SolveKeyTest, RequestModelAndBuildAllCount) {
   other_spec.set_slope_rad(0.1);
   v1::Model other_model;
   other_model.set_total_mass_kg(70);
-  const std::set<std::string> keys = {SolveKey({}, {}, "build"), SolveKey(other_spec, {}, "build"),
-                                      SolveKey({}, other_model, "build"), SolveKey({}, {}, "other build"),
-                                      SolveKey({}, {}, "build", "a start"), SolveKey({}, {}, "build", "another")};
+  const std::set<std::string> keys = {
+      SolveKey({}, {}, "build"),       SolveKey(other_spec, {}, "build"),    SolveKey({}, other_model, "build"),
+      SolveKey({}, {}, "other build"), SolveKey({}, {}, "build", "a start"), SolveKey({}, {}, "build", "another")};
   EXPECT_EQ(keys.size(), 6u);
   EXPECT_EQ(keys.begin()->size(), 64u);
 }

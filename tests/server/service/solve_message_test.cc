@@ -81,7 +81,7 @@ TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
   record.state = SolveState::kSucceeded;
   record.last_sequence = 9;
   v1::SolveResult result;
-  result.set_message(std::string(300, 'm'));  // its length takes two bytes
+  result.set_message(std::string(300, 'm'));         // its length takes two bytes
   for (size_t length = 1; length < 100; ++length) {  // the head's string grows at different places
     record.id = std::string(length, 'a');
     for (const std::string& stored : {std::string(), result.SerializeAsString()}) {

@@ -78,7 +78,8 @@ TEST(SolveServiceTest, TheSameRequestIdIsTheSameSolve) {
   ServiceBench bench;
   const std::string name = bench.service().CreateSolve({}, CreateRequest(PlanarSpec(), "r")).value().name();
   EXPECT_EQ(bench.service().CreateSolve({}, CreateRequest(PlanarSpec(), "r")).value().name(), name);
-  EXPECT_EQ(bench.service().CreateSolve({}, CreateRequest(PlanarSpec(0.2), "r")).error().code, ErrorCode::kAlreadyExists);
+  EXPECT_EQ(bench.service().CreateSolve({}, CreateRequest(PlanarSpec(0.2), "r")).error().code,
+            ErrorCode::kAlreadyExists);
 }
 
 TEST(SolveServiceTest, AnEqualRequestIsAnsweredFromTheStoreUnlessForbidden) {

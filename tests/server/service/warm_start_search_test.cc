@@ -26,7 +26,8 @@ v1::CreateSolveRequest From(const std::string& start, double slope = 0.1) {
 class WarmStartSearchTest : public ::testing::Test {
  protected:
   // Id of a solve that has ended; what the fixture knows as a solution for slopes below `objective`.
-  std::string Solved(const v1::SolveSpec& spec, v1::Termination termination = v1::TERMINATION_OPTIMAL, double objective = 1) {
+  std::string Solved(const v1::SolveSpec& spec, v1::Termination termination = v1::TERMINATION_OPTIMAL,
+                     double objective = 1) {
     const std::string id = bench_.Create(spec);
     v1::SolveResult result;
     result.set_termination(termination);
@@ -59,11 +60,14 @@ class WarmStartSearchTest : public ::testing::Test {
 TEST_F(WarmStartSearchTest, ANamedSolveIsHandedOver) {
   const std::string id = Solved(PlanarSpec(0.1));
   ASSERT_TRUE(Create(From("solves/" + id, 0.1 + kDegree)).ok());
-  EXPECT_TRUE(bench_.service().DeleteSolve({}, [&] {
-    v1::DeleteSolveRequest request;
-    request.set_name("solves/" + id);
-    return request;
-  }()).ok());  // a copy was taken
+  EXPECT_TRUE(bench_.service()
+                  .DeleteSolve({},
+                               [&] {
+                                 v1::DeleteSolveRequest request;
+                                 request.set_name("solves/" + id);
+                                 return request;
+                               }())
+                  .ok());  // a copy was taken
   const wire::WarmStart start = Claimed();
   EXPECT_EQ(start.source().name(), "solves/" + id);
   EXPECT_NEAR(start.source().slope_difference_rad(), kDegree, 1e-15);
@@ -77,10 +81,10 @@ TEST_F(WarmStartSearchTest, TheNearestOfTheSameQuestionIsChosen) {
   const std::string near = Solved(PlanarSpec(0.1 + 2 * kDegree));
   v1::SolveSpec other = PlanarSpec(0.1 + 3 * kDegree);
   other.mutable_ground_contact()->set_friction_coefficient(0.7);
-  Solved(other);                                                           // another question
-  Solved(PlanarSpec(0.1 + 2.9 * kDegree), v1::TERMINATION_ACCEPTABLE);     // no optimum
+  Solved(other);                                                        // another question
+  Solved(PlanarSpec(0.1 + 2.9 * kDegree), v1::TERMINATION_ACCEPTABLE);  // no optimum
   v1::SolveSpec fast = PlanarSpec(0.1 + 3 * kDegree);
-  fast.mutable_motion()->set_speed_m_s(1.3 + 0.05 * 1.5);                  // as far as 1.5 degrees
+  fast.mutable_motion()->set_speed_m_s(1.3 + 0.05 * 1.5);  // as far as 1.5 degrees
   Solved(fast);
   ASSERT_TRUE(Create(From("nearest", 0.1 + 3 * kDegree)).ok());
   EXPECT_EQ(Claimed().source().name(), "solves/" + near);
@@ -91,11 +95,14 @@ TEST_F(WarmStartSearchTest, NothingNearIsAColdStartAndHasItsKey) {
   const v1::Solve far = Create(From("nearest", 0.1 + 5.1 * kDegree)).value();
   EXPECT_FALSE(Claimed().has_trajectory());
   const v1::Solve cold = Create([] {
-    v1::CreateSolveRequest request;
-    *request.mutable_spec() = PlanarSpec(0.1 + 5.1 * kDegree);
-    return request;
-  }()).value();
-  const auto key = [this](const v1::Solve& solve) { return bench_.store().Get(solve.name().substr(7)).value().solve_key; };
+                           v1::CreateSolveRequest request;
+                           *request.mutable_spec() = PlanarSpec(0.1 + 5.1 * kDegree);
+                           return request;
+                         }())
+                             .value();
+  const auto key = [this](const v1::Solve& solve) {
+    return bench_.store().Get(solve.name().substr(7)).value().solve_key;
+  };
   EXPECT_EQ(key(far), key(cold));
 }
 

@@ -1,4 +1,5 @@
-// How often PostgreSQL is waited for, what simultaneous creates may do, and what becomes of a commit that is not answered.
+// How often PostgreSQL is waited for, what simultaneous creates may do, and what becomes of a commit that is not
+// answered.
 #include "server/store/postgres_connection.h"
 
 #include <gtest/gtest.h>
@@ -278,8 +279,8 @@ class PostgresWithoutStandby : public testing::Test {
       std::this_thread::sleep_for(milliseconds(50));
     }
   }
-  // How many there are, once they are no more than `most`: the server ends each in its own time, and a call on the store
-  // lets go of those whose answer has come.
+  // How many there are, once they are no more than `most`: the server ends each in its own time, and a call on the
+  // store lets go of those whose answer has come.
   int Connections(int most) {
     for (int i = 0;; ++i) {
       EXPECT_TRUE(store_->Counts().ok()) << "reads go on";

@@ -61,7 +61,8 @@ TEST(PostgresStoreTest, ANewerSchemaVersionIsRefusedByName) {
 }
 
 // Opens the store of a cluster that is down. `sleep` is called between tries, with their number.
-Outcome<std::unique_ptr<SqlStore>> Await(const StoreLocation& location, std::chrono::seconds wait, const std::function<bool(int)>& sleep) {
+Outcome<std::unique_ptr<SqlStore>> Await(const StoreLocation& location, std::chrono::seconds wait,
+                                         const std::function<bool(int)>& sleep) {
   static const FakeClock clock;
   int tries = 0;
   return AwaitStore(location, clock, wait, [&](std::chrono::milliseconds) { return sleep(++tries); });
@@ -174,8 +175,9 @@ TEST(PostgresStoreTest, HintsReachTheOtherSideAndSurviveALostConnection) {
 
 TEST(PostgresUrlTest, PasswordsAreNotShown) {
   for (const std::string url :
-       {"postgresql://me:s3cret@db/solves", "postgres://me:s3cret/s3cret@db:5432/x", "postgresql://me:s3c@s3cret@h1,h2/x",
-        "postgresql://db/x?user=me&password=s3cret&sslmode=require", "postgresql://me:s3cret@/x?host=/run&sslpassword=s3cret"}) {
+       {"postgresql://me:s3cret@db/solves", "postgres://me:s3cret/s3cret@db:5432/x",
+        "postgresql://me:s3c@s3cret@h1,h2/x", "postgresql://db/x?user=me&password=s3cret&sslmode=require",
+        "postgresql://me:s3cret@/x?host=/run&sslpassword=s3cret"}) {
     const std::string shown = WithoutPassword(url);
     EXPECT_EQ(shown.find("s3c"), std::string::npos) << shown;
     EXPECT_NE(shown.find("***"), std::string::npos) << shown;

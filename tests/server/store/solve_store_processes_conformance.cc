@@ -16,8 +16,8 @@ namespace {
 
 constexpr size_t kSolves = 40;
 
-// What a process tells of a solve that the store has acknowledged: so long that its pipe holds no second one, and neither process runs
-// ahead of the test.
+// What a process tells of a solve that the store has acknowledged: so long that its pipe holds no second one, and
+// neither process runs ahead of the test.
 struct Acknowledgement {
   int number = -1;
   char rest[PIPE_BUF - sizeof(int)] = {};

@@ -94,7 +94,8 @@ TEST_P(SolveStoreConformance, RecordsTellWhatTheResultSays) {
   v1::SolveResult result;
   result.set_termination(v1::TERMINATION_OPTIMAL);
   result.mutable_accuracy()->set_verdict(v1::VERDICT_EXCEEDED);
-  ASSERT_TRUE(bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
+  ASSERT_TRUE(
+      bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
   const SolveRecord copy = bench.store().Create({"copy", "request", "spec of judged", "key"}).value().record;
   const SolveRecord again = bench.store().Create({"again", "request", "spec of judged", "key"}).value().record;
   EXPECT_EQ(again.id, "copy");
