@@ -147,5 +147,4 @@ class MessageMutator {
 };
 
 }  // namespace rollgait
-
 #endif  // ROLLGAIT_TESTS_FUZZ_MESSAGE_MUTATOR_H_
