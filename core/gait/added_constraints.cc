@@ -70,9 +70,13 @@ AddedConstraints UsualConstraints(const GaitSpec& spec) {
 
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added) {
   if (spec.bounds[Criterion::kOverlap] == kInfinity) return false;
-  bool any = false;
-  for (int pair : report.overlapping_pairs) any |= Insert(pair, &added->separated);
-  return any;
+  const size_t before = added->separated.size();
+  KeepApart(report.overlapping_pairs, added);
+  return added->separated.size() > before;
+}
+
+void KeepApart(const std::vector<int>& pairs, AddedConstraints* added) {
+  for (int pair : pairs) Insert(pair, &added->separated);
 }
 
 bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,

@@ -18,6 +18,9 @@ bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const Accur
 // The same for the distances of pairs of bodies that overlap, unless the request has no bound on overlap.
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added);
 
+// Adds the distances of these pairs (indices into Scene::pairs).
+void KeepApart(const std::vector<int>& pairs, AddedConstraints* added);
+
 // What a solve that starts from a guess begins with: the pairs of bodies that most walks would overlap.
 AddedConstraints UsualConstraints(const GaitSpec& spec);
 

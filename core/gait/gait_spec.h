@@ -36,8 +36,7 @@ struct GaitSpec {
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
   std::optional<GaitRequest::Range> duty_factor;
   Cycle cycle;
-  std::optional<Manoeuvre>
-      manoeuvre;  // of a rolling body, in one phase; the prescribed motion above then means nothing
+  std::optional<Manoeuvre> manoeuvre;  // of a rolling body, in one phase; the motion prescribed above means nothing
   std::vector<Phase> phases;
   std::vector<CostTerm> costs;
   GaitRequest::Normalization normalization;
@@ -49,11 +48,19 @@ struct GaitSpec {
   bool allow_body_overlap;  // bodies may pass through each other; the bound of the overlap is then infinite
   CriterionValues bounds;   // all infinite: the trajectory is not judged
   int max_refinements;
+  // Its solution only starts another program: what it violates is left to that one (LeaveTheRest).
+  bool is_only_a_start = false;
   int max_iterations;
   double max_wall_time;
   int starts;
   std::optional<WarmStart> warm_start;  // passes CheckWarmStart
 };
+
+// Makes it a spec whose solution only starts another program.
+inline void LeaveTheRest(GaitSpec* spec) {
+  spec->max_refinements = 0;
+  spec->is_only_a_start = true;
+}
 
 // Checks every field before any work starts. Violations name the fields as in the proto, relative to the spec.
 Result<GaitSpec> CheckRequest(const GaitRequest& request);

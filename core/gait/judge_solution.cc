@@ -18,6 +18,11 @@ bool Converged(Termination termination) {
   return termination == Termination::kOptimal || termination == Termination::kAcceptable;
 }
 
+bool IsWithinBounds(const GaitSpec& spec, const Trajectory& trajectory) {
+  const AccuracyReport report = Validate(spec.scene, trajectory, JudgeOptions(spec));
+  return JudgeFindings(report.findings, spec.bounds).kind != Verdict::Kind::kExceeded;
+}
+
 void Judge(const GaitSpec& spec, GaitSolution* solution) {
   solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
   solution->verdict =

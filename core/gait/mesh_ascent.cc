@@ -55,7 +55,7 @@ GaitSpec OnTheWay(GaitSpec spec) {
   const double overlap = spec.bounds[Criterion::kOverlap];
   spec.bounds = NoBounds();
   spec.bounds[Criterion::kOverlap] = overlap;
-  spec.max_refinements = 0;
+  LeaveTheRest(&spec);
   return spec;
 }
 
@@ -118,8 +118,8 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
     Mesh mesh = arrives ? RequestedMesh(spec) : Grouped(spec, 1 << halvings);
     const bool leads_on = Intervals(mesh) > Intervals(*last.trajectory) && Intervals(mesh) < Intervals(spec);
     if (!arrives && !leads_on) continue;
-    GaitSolution solution = SolveFromCoarser(arrives ? spec : rough, problem,
-                                             {*last.trajectory, last.multipliers, last.added}, std::move(mesh), budget);
+    GaitSolution solution =
+        SolveFromCoarser(arrives ? spec : rough, problem, StartFrom(spec, last), std::move(mesh), budget);
     solution.note = last.note;
     PutBefore(last.meshes, &solution);
     if (!arrives && !Converged(solution.termination) && budget->Left()) {

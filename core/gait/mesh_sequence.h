@@ -32,6 +32,9 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                SolveBudget* budget);
 
+// The start that a solution is for the next program.
+WarmStart StartFrom(const GaitSpec& spec, const GaitSolution& solution);
+
 // The same from the solution of a coarser mesh.
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
                               Mesh mesh, SolveBudget* budget);

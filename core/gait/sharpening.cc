@@ -25,8 +25,8 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     const bool arrives = path_ends || reached / step <= (1 + kRounding) * least;
     const double next = arrives ? least : reached / step;
     GaitSpec sharper = SmoothedBy(next, spec);
-    if (next > least) sharper.max_refinements = 0;
-    sharper.warm_start = WarmStart{*last.trajectory, last.multipliers, last.added};
+    if (next > least) LeaveTheRest(&sharper);
+    sharper.warm_start = StartFrom(spec, last);
     GaitSolution solution =
         SolveFromSmoother(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;

@@ -79,7 +79,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
 std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudget* budget) {
   constexpr double kFirstStep = 5 * std::numbers::pi / 180, kLeastStep = kFirstStep / 8;
   GaitSpec level = AtSlope(spec, 0);
-  level.max_refinements = 0;
+  LeaveTheRest(&level);
   const auto level_problem = BuildProblem(level);
   GaitSolution last = SolveFromStarts(level, *level_problem, budget);
   std::vector<MeshStatistics> meshes = last.meshes;
@@ -90,7 +90,7 @@ std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudge
     const double next = std::min(steepness, reached + step);
     const bool arrives = next == steepness;
     GaitSpec there = AtSlope(spec, direction * next);
-    if (!arrives) there.max_refinements = 0;
+    if (!arrives) LeaveTheRest(&there);
     const auto problem = BuildProblem(there);
     GaitSolution solution =
         SolveOnMeshes(there, *problem, GuessFromTrajectory(*last.trajectory), RequestedMesh(spec), budget);

@@ -23,7 +23,8 @@ struct SolutionMultipliers {
 struct WarmStart {
   Trajectory trajectory;
   std::optional<SolutionMultipliers> multipliers;
-  AddedConstraints added;  // of the NLP whose solution it is
+  AddedConstraints added;             // of the NLP whose solution it is
+  std::vector<int> overlapping = {};  // pairs of bodies that overlap in it: the next NLP keeps them apart
 };
 
 // What keeps a trajectory from being a start of the spec: another cycle or scheme, other phases, numbers of joints or

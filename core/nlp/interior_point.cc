@@ -87,11 +87,7 @@ class Solver {
     for (;; ++iteration_) {
       error_ = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, 0);
       Report();
-      if (error_.scaled <= options_.tolerance && error_.primal <= options_.tolerance &&
-          error_.dual <= std::max(options_.tolerance, 1e-4) &&
-          error_.complementarity <= std::max(options_.tolerance, 1e-6)) {
-        return Termination::kOptimal;
-      }
+      if (IsOptimalTo(options_.tolerance) || IsNotWorthFinishing()) return Termination::kOptimal;
       if (control_.stop != nullptr && control_.stop->requested()) return Termination::kCancelled;
       if (Elapsed() > options_.max_wall_time_s) return Termination::kTimeLimit;
       if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
@@ -111,6 +107,18 @@ class Solver {
       KeepNearCentralPath(barrier_, point_, mu_, &multipliers_);
       if (!Linearise()) return Termination::kNumericalDifficulty;
     }
+  }
+
+  bool IsOptimalTo(double tolerance) const {
+    return error_.scaled <= tolerance && error_.primal <= tolerance && error_.dual <= std::max(tolerance, 1e-4) &&
+           error_.complementarity <= std::max(tolerance, 1e-6);
+  }
+
+  bool IsNotWorthFinishing() {
+    if (asked_ || !options_.worth_finishing || !IsOptimalTo(options_.rough_tolerance)) return false;
+    asked_ = true;
+    rough_ = !options_.worth_finishing(point_.w.head(barrier_.variables()));
+    return rough_;
   }
 
   bool HasAcceptableError() const { return error_.scaled <= kAcceptableFactor * options_.tolerance; }
@@ -279,6 +287,7 @@ class Solver {
   void Fill(Termination termination, NlpResult* result) const {
     const int n = barrier_.variables();
     result->termination = termination;
+    result->rough = rough_;
     result->iterations = iteration_;
     result->wall_time_s = Elapsed();
     if (point_.w.size() > 0) result->x = point_.w.head(n);
@@ -314,7 +323,7 @@ class Solver {
   OptimalityError error_;
   double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
   int iteration_ = 0, trials_ = 0;
-  bool needs_restoration_ = false;
+  bool needs_restoration_ = false, asked_ = false, rough_ = false;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_CORE_NLP_NLP_OPTIONS_H_
 #define ROLLGAIT_CORE_NLP_NLP_OPTIONS_H_
 
+#include <functional>
+
 #include "core/base/types.h"
 
 namespace rollgait {
@@ -30,6 +32,10 @@ struct NlpOptions {
   // δ_w of the first Hessian that must be shifted. A smaller one that does not do costs a factorisation more, a larger
   // one a good step.
   double first_shift = 1e-4;
+  // Asked once, with the first iterate whose errors are below `rough_tolerance`, whether to go on to `tolerance`; if
+  // not, the solve ends there with NlpResult::rough. Empty: it goes on.
+  std::function<bool(const VectorX& x)> worth_finishing;
+  double rough_tolerance = 0;
   int mesh = 0;  // passed on with every iteration
 };
 

@@ -54,6 +54,7 @@ struct NlpResult {
   double objective = 0;
   double kkt_error = 0;
   double constraint_violation = 0;
+  bool rough = false;  // optimal to NlpOptions::rough_tolerance, and not worth finishing
   int iterations = 0;
   int restored_from = -1;  // iteration from which Ipopt took over; -1: never
   double wall_time_s = 0;

@@ -62,7 +62,8 @@ struct OptimalControlProblem {
   // that are kept apart (AddedConstraints), m: what they may approach each other between the points.
   std::vector<BodySurface> bodies;
   std::vector<BodyPair> pairs;
-  double pair_clearance = 1e-3;
+  static constexpr double kPairClearance = 1e-3;
+  double pair_clearance = kPairClearance;
   std::optional<Interval> touch_down_point, lift_off_point;
   // New contacts may arrive with a velocity that a plastic impact without slip takes away, at once and in every contact
   // of the new phase. Else they arrive at rest.
