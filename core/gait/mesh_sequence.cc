@@ -11,7 +11,7 @@
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
-#include "core/gait/rate_costs.h"
+#include "core/gait/solver_settings.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -133,61 +133,8 @@ struct Predecessor {
   NlpResult result;
 };
 
-NlpOptions OptionsFromAfar(const GaitSpec& spec) {
-  NlpOptions options;
-  options.tolerance = spec.kkt_tolerance;
-  options.max_iterations = spec.max_iterations;
-  return options;
-}
-
-// From the solution of a neighbour bounds become active and inactive: start well inside of them, and follow the barrier
-// loosely. Chosen by trial on human29 (docs/optimizer.md).
-NlpOptions OptionsForNeighbour(const GaitSpec& spec) {
-  NlpOptions options = OptionsFromAfar(spec);
-  options.initial_barrier = 1e-2;
-  options.warm_push = 1e-2;
-  options.barrier_tolerance = 1000;
-  options.barrier_exponent = 2.2;
-  options.recentre = true;
-  options.step_residual = 1e-8;
-  return options;
-}
-
-constexpr double kBarrierClose = 1e-4;
-
-// From the solution of another request, as a rule one with the same costs. With a price of power, as the presets but
-// one have it, close to the bounds and with a barrier that falls at once: pushed further off, human29's neighbours take
-// twice the iterations (docs/optimizer.md).
-NlpOptions OptionsForWarmStart(const GaitSpec& spec) {
-  NlpOptions options = OptionsForNeighbour(spec);
-  options.first_shift = 1e-2;
-  if (!LeastSmoothing(spec).has_value()) {
-    options.warm_push = 5e-3;
-    options.barrier_exponent = 2;
-    return options;
-  }
-  options.initial_barrier = options.warm_push = kBarrierClose;
-  options.barrier_tolerance = 10000;
-  return options;
-}
-
-// The solution of this problem on another mesh is near, and so are its active bounds. Prices of power have minima side
-// by side: the closer to the bounds it starts, the more surely it stays with the one it knows (planar, transport,
-// level: 19 iterations with 1e-4, none within 900 with 1e-3). Where no interval is shorter than any before, the
-// solution is closest of all, whatever the cost (docs/optimizer.md).
-NlpOptions OptionsForNextMesh(const GaitSpec& spec, bool has_shorter_intervals) {
-  constexpr double kBarrierNearSolution = 1e-3, kBarrierClosest = 1e-5;
-  const bool has_powers = LeastSmoothing(spec).has_value(), close = !has_shorter_intervals || has_powers;
-  NlpOptions options = close ? OptionsForNeighbour(spec) : OptionsFromAfar(spec);
-  const bool closest = !has_shorter_intervals && has_powers;
-  options.initial_barrier = options.warm_push = closest ? kBarrierClosest
-                                                : close ? kBarrierClose
-                                                        : kBarrierNearSolution;
-  return options;
-}
-
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
-  return guess.near_solution ? OptionsForNextMesh(spec, true) : OptionsFromAfar(spec);
+  return SettingsFor(guess.near_solution ? StartOf::kFinerMesh : StartOf::kGuess, spec);
 }
 
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
@@ -269,7 +216,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       // Bodies that overlapped move a long way: on the same mesh first, and as from the solution of a neighbour.
       ++additions;
       guess = GuessFromTrajectory(*solution.trajectory);
-      options = OptionsForNeighbour(spec);
+      options = SettingsFor(StartOf::kNeighbour, spec);
       previous = std::move(current);
       continue;
     }
@@ -356,19 +303,20 @@ WarmStart StartFrom(const GaitSpec& spec, const GaitSolution& solution) {
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
                               Mesh mesh, SolveBudget* budget) {
   const Mesh other = MeshOf(coarser.trajectory);
-  const NlpOptions options = OptionsForNextMesh(spec, HasShorterIntervals(mesh, other));
+  const NlpOptions options =
+      SettingsFor(HasShorterIntervals(mesh, other) ? StartOf::kFinerMesh : StartOf::kSameMesh, spec);
   return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), options,
                    PredecessorOf(spec, problem, coarser, other), std::move(mesh), ConstraintsAfter(coarser), budget);
 }
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
-  return SolveFromStored(spec, problem, OptionsForWarmStart(spec), max_iterations, budget);
+  return SolveFromStored(spec, problem, SettingsFor(StartOf::kOtherRequest, spec), max_iterations, budget);
 }
 
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                SolveBudget* budget) {
-  return SolveFromStored(spec, problem, OptionsForNeighbour(spec), max_iterations, budget);
+  return SolveFromStored(spec, problem, SettingsFor(StartOf::kNeighbour, spec), max_iterations, budget);
 }
 
 }  // namespace rollgait

@@ -34,7 +34,7 @@ struct NlpOptions {
   double first_shift = 1e-4;
   // Asked once, with the first iterate whose errors are below `rough_tolerance`, whether to go on to `tolerance`; if
   // not, the solve ends there with NlpResult::rough. Empty: it goes on.
-  std::function<bool(const VectorX& x)> worth_finishing;
+  std::function<bool(const VectorX& x)> worth_finishing = nullptr;
   double rough_tolerance = 0;
   int mesh = 0;  // passed on with every iteration
 };

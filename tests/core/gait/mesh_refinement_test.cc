@@ -62,7 +62,7 @@ TEST_F(MeshRefinementTest, FollowsEveryMeasureOfAnInterval) {
   for (const Criterion criterion :
        {kSlip, kPenetration, kOverlap, kPositionDefect, kVelocityDefect, kPull, kFriction, kEnergy}) {
     size_t before = 1;
-    for (const double excess : {0.5, 1.1, 1000.0}) {
+    for (const double excess : {0.5, 1.1, 1e6}) {
       report_.intervals.assign(report_.intervals.size(), CriterionValues());
       report_.intervals[interval][criterion] = excess * spec_->bounds[criterion];
       const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
@@ -73,8 +73,20 @@ TEST_F(MeshRefinementTest, FollowsEveryMeasureOfAnInterval) {
       EXPECT_GE(parts, before);
       before = parts;
     }
-    EXPECT_EQ(before, 4u);
+    EXPECT_EQ(before, 8u);
   }
+}
+
+// Bodies are kept 1 mm further apart at the points than they must be: an overlap of 3 mm is a dip of 4, and it is to be
+// at most 1 (half of it, for safety). Its ratio to a bound of 1 µm would ask for the most parts.
+TEST_F(MeshRefinementTest, CountsAnOverlapBeyondTheClearance) {
+  spec_->bounds = StandardBounds();
+  spec_->bounds[Criterion::kGap] = 1;
+  const size_t interval = mesh_.fractions[0].size() + 2;
+  report_.intervals.assign(report_.intervals.size(), CriterionValues());
+  report_.intervals[interval][Criterion::kOverlap] = 3e-3;
+  const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
+  EXPECT_EQ(finer.fractions[1].size(), mesh_.fractions[1].size() + 2);  // √(4/0.5) = 2.8: three parts
 }
 
 // An interval that could not be integrated, and all after it, have no measures: nothing is known to be good there.

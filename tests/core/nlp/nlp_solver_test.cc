@@ -229,6 +229,39 @@ TEST(InteriorPoint, TakesTheIterationsOfIpopt) {
   }
 }
 
+// It is asked once, at the first iterate that is good enough, and obeyed.
+TEST(InteriorPoint, EndsRoughlyWhereItIsNotWorthFinishing) {
+  Hs071 problem(40);
+  const NlpStart start{Hs071::Start(), {}, {}, {}};
+  NlpOptions options;
+  options.tolerance = 1e-9;
+  const NlpResult whole = SolveAlone(problem, start, options, {});
+  EXPECT_FALSE(whole.rough);
+  for (const bool answer : {true, false}) {
+    int asked = 0;
+    options.rough_tolerance = 1e-2;
+    options.worth_finishing = [&](const VectorX& x) {
+      ++asked;
+      EXPECT_EQ(x.size(), 4);
+      EXPECT_NEAR(x(1), whole.x(1), 0.1);
+      EXPECT_GT((x - whole.x).norm(), 1e-7);
+      return answer;
+    };
+    const NlpResult result = SolveAlone(problem, start, options, {});
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(result.termination, Termination::kOptimal);
+    EXPECT_EQ(result.rough, !answer);
+    if (answer) {
+      EXPECT_EQ(result.iterations, whole.iterations);
+      EXPECT_EQ(result.x, whole.x);
+    } else {
+      EXPECT_LT(result.iterations, whole.iterations);
+      EXPECT_LE(result.kkt_error, 1e-2);
+      EXPECT_GT(result.kkt_error, 1e-9);
+    }
+  }
+}
+
 TEST(InteriorPoint, AsksForRestoration) {
   Hs071 problem(150);
   const InteriorPointResult alone = SolveWithInteriorPoint(problem, {Hs071::Start(), {}, {}, {}}, {}, {});

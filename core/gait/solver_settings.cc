@@ -1,0 +1,62 @@
+#include "core/gait/solver_settings.h"
+
+#include "core/base/check.h"
+#include "core/gait/power_smoothing.h"
+
+namespace rollgait {
+namespace {
+
+// Which costs a row of the table serves. Powers have minima side by side: the closer to its bounds a program starts,
+// the more surely it stays with the minimum that it knows.
+enum class Costs { kAny, kWithoutPowers, kWithPowers };
+
+struct Settings {
+  StartOf start;
+  Costs costs;
+  double initial_barrier, warm_push, barrier_tolerance, barrier_exponent;
+  bool recentre;
+  double step_residual, first_shift;
+};
+
+// Found by trial on human29 and the planar human; docs/optimizer.md has the figures.
+//  * A guess takes Ipopt's own values.
+//  * From a neighbour bounds become active and inactive: start well inside of them and follow the barrier loosely.
+//  * From another request the first Hessian often needs a shift, and 1e-4 is refused. With powers, pushed further off
+//  the
+//    bounds, neighbours of human29 take twice the iterations.
+//  * Between meshes the active bounds are known. Planar, transport, level: 19 iterations with a push of 1e-4, none
+//  within
+//    900 with 1e-3. Where no interval is shorter than before, the solution is closest of all.
+constexpr Settings kTable[] = {
+    {StartOf::kGuess, Costs::kAny, 0.1, 0, 10, 1.5, false, 1e-10, 1e-4},
+    {StartOf::kNeighbour, Costs::kAny, 1e-2, 1e-2, 1000, 2.2, true, 1e-8, 1e-4},
+    {StartOf::kOtherRequest, Costs::kWithoutPowers, 1e-2, 5e-3, 1000, 2, true, 1e-8, 1e-2},
+    {StartOf::kOtherRequest, Costs::kWithPowers, 1e-4, 1e-4, 10000, 2.2, true, 1e-8, 1e-2},
+    {StartOf::kFinerMesh, Costs::kWithoutPowers, 1e-3, 1e-3, 10, 1.5, false, 1e-10, 1e-4},
+    {StartOf::kFinerMesh, Costs::kWithPowers, 1e-4, 1e-4, 1000, 2.2, true, 1e-8, 1e-4},
+    {StartOf::kSameMesh, Costs::kWithoutPowers, 1e-4, 1e-4, 1000, 2.2, true, 1e-8, 1e-4},
+    {StartOf::kSameMesh, Costs::kWithPowers, 1e-5, 1e-5, 1000, 2.2, true, 1e-8, 1e-4},
+};
+
+}  // namespace
+
+NlpOptions SettingsFor(StartOf start, const GaitSpec& spec) {
+  const Costs costs = LeastSmoothing(spec) ? Costs::kWithPowers : Costs::kWithoutPowers;
+  for (const Settings& row : kTable) {
+    if (row.start != start || (row.costs != Costs::kAny && row.costs != costs)) continue;
+    NlpOptions options;
+    options.tolerance = spec.kkt_tolerance;
+    options.max_iterations = spec.max_iterations;
+    options.initial_barrier = row.initial_barrier;
+    options.warm_push = row.warm_push;
+    options.barrier_tolerance = row.barrier_tolerance;
+    options.barrier_exponent = row.barrier_exponent;
+    options.recentre = row.recentre;
+    options.step_residual = row.step_residual;
+    options.first_shift = row.first_shift;
+    return options;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
+}  // namespace rollgait

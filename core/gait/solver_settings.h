@@ -1,0 +1,23 @@
+#ifndef ROLLGAIT_CORE_GAIT_SOLVER_SETTINGS_H_
+#define ROLLGAIT_CORE_GAIT_SOLVER_SETTINGS_H_
+
+#include "core/gait/gait_spec.h"
+#include "core/nlp/nlp_options.h"
+
+namespace rollgait {
+
+// What a program starts from.
+enum class StartOf {
+  kGuess,         // a guess that knows nothing of the solution
+  kNeighbour,     // the solution of a problem that differs a little: smoother powers, pairs of bodies that were free
+  kOtherRequest,  // the solution of another request
+  kFinerMesh,     // the solution of this problem on a coarser mesh
+  kSameMesh,      // the solution of this problem on a mesh whose intervals are nowhere longer
+};
+
+// Settings of the interior point method for a program of the spec that starts so.
+NlpOptions SettingsFor(StartOf start, const GaitSpec& spec);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_GAIT_SOLVER_SETTINGS_H_
