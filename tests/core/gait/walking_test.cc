@@ -56,7 +56,7 @@ TEST(Starts, KeepTheCheapestAndSayWhichItWas) {
   const GaitSolution two = Solve(request), again = Solve(request);
   ASSERT_EQ(one.termination, Termination::kOptimal);
   ASSERT_EQ(two.termination, Termination::kOptimal);
-  EXPECT_LE(two.objective, one.objective);
+  EXPECT_LE(two.objective, (1 + 1e-6) * one.objective) << "to the tolerance of the optimality conditions";
   EXPECT_EQ(two.meshes.size(), 3u);  // one from each start with smooth powers, one with the preset's
   EXPECT_NE(two.message.find("from 2 starts"), std::string::npos) << two.message;
   EXPECT_EQ(two.objective, again.objective);
