@@ -140,10 +140,11 @@ NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
 bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
 
-// The error to which a mesh is solved before its motion is judged: what follows is a third of the iterations, and is saved
-// where the mesh is then refined. bench/success_rate, six requests of human29: 476 iterations in all with 1e-2, 456 with
-// 0.1. But with 0.1 motions of squared torque on steep slopes are refined for what they are on the way to, until no
-// refinement is left: of the first 13 requests of bench/verdict_audit (seed 1) three exceeded a bound, with 1e-2 one.
+// The error to which a mesh is solved before its motion is judged: what follows is a third of the iterations, and is
+// saved where the mesh is then refined. bench/success_rate, six requests of human29: 476 iterations in all with 1e-2,
+// 456 with 0.1. But with 0.1 motions of squared torque on steep slopes are refined for what they are on the way to,
+// until no refinement is left: of the first 13 requests of bench/verdict_audit (seed 1) three exceeded a bound, with
+// 1e-2 one.
 constexpr double kFirstJudged = 1e-2;
 
 // Nothing is left for a finer mesh to do.
