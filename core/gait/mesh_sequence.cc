@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -183,12 +184,46 @@ Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& prob
   return solved;
 }
 
+// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the
+// same. None without multipliers, and where their numbers tell that it had other rows.
+Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution,
+                          const Mesh& mesh) {
+  Predecessor previous;
+  if (!solution.multipliers) return previous;
+  const SolutionMultipliers& multipliers = *solution.multipliers;
+  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh, solution.added);
+  if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
+  previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
+  previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
+  previous.result.upper_bound_multipliers = -nlp->objective_scale() * multipliers.bounds.cwiseMin(0);
+  previous.nlp = std::move(nlp);
+  return previous;
+}
+
+// Solves the mesh of a rough solution to the tolerance of the request, since no finer mesh follows.
+void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget, GaitSolution* solution) {
+  const WarmStart start{*solution->trajectory, solution->multipliers, solution->added};
+  const Mesh mesh = MeshOf(start.trajectory);
+  const Predecessor finished =
+      SolveOneMesh(spec, problem, mesh, start.added, GuessFromTrajectory(start.trajectory),
+                   PredecessorOf(spec, problem, start, mesh), SettingsFor(StartOf::kSameMesh, spec), false, budget);
+  MeshStatistics statistics = Describe(spec, *finished.nlp, finished.result);
+  solution->termination = finished.result.termination;
+  solution->message = finished.result.message;
+  if (finished.result.x.size() > 0 && finished.result.x.allFinite()) {
+    Adopt(spec, problem, *finished.nlp, finished.result, solution, &statistics);
+  }
+  solution->meshes.push_back(statistics);
+}
+
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess,
                        NlpOptions options, Predecessor previous, Mesh mesh, AddedConstraints added,
                        SolveBudget* budget) {
   constexpr int kMostAdditions = 4;  // rounds that add constraints on the mesh as it is
   GaitSolution solution;
   int refinements = 0, additions = 0;
+  bool is_rough = false;
+  std::string remark;
   while (true) {
     const bool can_refine = IsBounded(spec) && refinements < spec.max_refinements;
     Predecessor current =
@@ -202,13 +237,14 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
+      is_rough = result.rough;
       if (result.x.size() > 0 && result.x.allFinite()) {
         Adopt(spec, problem, nlp, result, &solution, &statistics);
       }
     }
     solution.meshes.push_back(statistics);
     if (keep_previous) {
-      solution.message += " The next finer mesh did not converge (" + result.message + ")";
+      remark = " The next finer mesh did not converge (" + result.message + ")";
       break;
     }
     if (!Converged(result.termination) || IsDone(solution)) break;
@@ -239,6 +275,8 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     options = OptionsFor(spec, guess);
     previous = std::move(current);
   }
+  if (is_rough) Finish(spec, problem, budget, &solution);
+  solution.message += remark;
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) {
     RefuseArtefact(spec, &solution);
@@ -247,22 +285,6 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   }
   solution.wall_time = budget->elapsed();
   return solution;
-}
-
-// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the
-// same. None without multipliers, and where their numbers tell that it had other rows.
-Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution,
-                          const Mesh& mesh) {
-  Predecessor previous;
-  if (!solution.multipliers) return previous;
-  const SolutionMultipliers& multipliers = *solution.multipliers;
-  auto nlp = std::make_unique<CollocationNlp>(problem, spec.scheme, mesh, solution.added);
-  if (multipliers.rows.size() != nlp->constraints() || multipliers.bounds.size() != nlp->variables()) return previous;
-  previous.result.constraint_multipliers = nlp->objective_scale() * multipliers.rows;
-  previous.result.lower_bound_multipliers = nlp->objective_scale() * multipliers.bounds.cwiseMax(0);
-  previous.result.upper_bound_multipliers = -nlp->objective_scale() * multipliers.bounds.cwiseMin(0);
-  previous.nlp = std::move(nlp);
-  return previous;
 }
 
 AddedConstraints ConstraintsAfter(const WarmStart& start) {

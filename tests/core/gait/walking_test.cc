@@ -62,6 +62,27 @@ TEST(Starts, KeepTheCheapestAndSayWhichItWas) {
   EXPECT_EQ(two.objective, again.objective);
 }
 
+// A mesh is left before its optimum where a finer one is to follow. If that one fails, what is returned is no less
+// optimal than it says.
+TEST(Refinement, NeverCallsARoughSolutionOptimal) {
+  GaitRequest request = Draft(0);
+  request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
+  int converged = 0, limited = 0;
+  for (int iterations = 20; iterations <= 100; iterations += 8) {
+    request.solver_limits.max_iterations = iterations;
+    const GaitSolution solution = Solve(request);
+    if (solution.termination == Termination::kOptimal) {
+      EXPECT_LE(solution.kkt_error, 1e-6) << iterations << ": " << solution.message;
+      ++converged;
+    } else {
+      EXPECT_NE(solution.verdict.kind, Verdict::Kind::kWithin);
+      ++limited;
+    }
+  }
+  EXPECT_GT(converged, 0);
+  EXPECT_GT(limited, 0);
+}
+
 TEST(Starts, StopWhenTheyAreToldTo) {
   GaitRequest request = Draft(0);
   request.starts = 3;
