@@ -41,6 +41,7 @@ class EliminatedScheme {
   explicit EliminatedScheme(const Tableau& tableau);
 
   enum Kind { kPosition = 0, kVelocity = 1, kAcceleration = 2 };
+  static constexpr Kind kKinds[] = {kPosition, kVelocity, kAcceleration};
   int points() const { return points_; }
   int sources() const { return sources_; }
   const Tableau& tableau() const { return tableau_; }

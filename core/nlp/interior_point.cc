@@ -121,7 +121,7 @@ class Solver {
     return rough_;
   }
 
-  bool HasAcceptableError() const { return error_.scaled <= kAcceptableFactor * options_.tolerance; }
+  bool HasAcceptableError() const { return error_.scaled <= AcceptableError(options_.tolerance); }
 
   // ∇f + Aᵀ y of w = (x, s), without the multipliers of bounds.
   void SetLagrangian() {

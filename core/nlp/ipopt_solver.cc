@@ -175,8 +175,8 @@ Termination Interpret(Ipopt::ApplicationReturnStatus status, const Adapter& adap
       break;
   }
   if (control.stop != nullptr && control.stop->requested()) return Termination::kCancelled;
-  if (result.x.size() > 0 && result.kkt_error <= kAcceptableFactor * options.tolerance) return Termination::kAcceptable;
-  if (status == Ipopt::Restoration_Failed && result.constraint_violation > kAcceptableFactor * options.tolerance) {
+  if (result.x.size() > 0 && result.kkt_error <= AcceptableError(options.tolerance)) return Termination::kAcceptable;
+  if (status == Ipopt::Restoration_Failed && result.constraint_violation > AcceptableError(options.tolerance)) {
     return Termination::kInfeasible;
   }
   return Termination::kNumericalDifficulty;

@@ -196,8 +196,6 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::JumpConstra
   for (int contact : TakenUp(phase)) {
     constraints.push_back(std::make_unique<ApproachConstraint>(model, contacts, contact, layout));
   }
-  auto shares = MakeForceShares(contacts, active, layout, impulse_size());
-  if (shares) constraints.push_back(std::move(shares));
   std::vector<ForceRow> friction = FrictionRows(contacts, active, friction_coefficient);
   if (!friction.empty()) {
     constraints.push_back(std::make_unique<FrictionConstraint>(std::move(friction), layout, impulse_size()));

@@ -117,7 +117,9 @@ struct OptimalControlProblem {
   PointLayout JumpLayout(int phase) const;
   // Rows of a jump on that z, with a tree at rest and without gravity:  M(q) (v⁺ − v⁻) = Σ Jᵀ Λ, and impulses in the
   // friction cone, contacts that are taken up coming from above. That the contacts are at rest afterwards is among
-  // EntryConstraints.  Source: contact-math 7.
+  // EntryConstraints. What contacts of one link bear along the line that joins them is left open: impulses may be zero,
+  // and where they all are, the gradient of ForceSharesConstraint is zero as well and its multiplier without limit.
+  // Source: contact-math 7.
   std::vector<std::unique_ptr<PointConstraint>> JumpConstraints(int phase) const;
 };
 

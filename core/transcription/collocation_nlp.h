@@ -91,8 +91,7 @@ class CollocationNlp : public NlpProblem {
   void TransferJump(const CollocationNlp& from, const NlpResult& of, int p, NlpStart* start) const;
   TrajectoryPhase ExtractPhase(const double* x, int phase, double start);
   void ExtractImpact(const double* x, int phase, TrajectoryPhase* extracted);
-  // Divides the forces of a point, or the impulses, that contacts of one link have along x as ForceSharesConstraint
-  // asks for.
+  // Divides the forces of a point that contacts of one link have along x as ForceSharesConstraint asks for.
   void ShareForces(int phase, double* forces) const;
   void SetDenominator();
   void SetStateBounds();

@@ -2,6 +2,7 @@
 
 #include "core/trajectory/sampling.h"
 #include "core/transcription/collocation_nlp.h"
+#include "core/transcription/impulse_distribution.h"
 
 namespace rollgait {
 
@@ -31,7 +32,6 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
       }
       ++index;
     }
-    ShareForces(p, x.data() + first);
   };
   for (int p = 0; p < layout_.phases(); ++p) {
     if (!layout_.jumps(p)) continue;
@@ -50,6 +50,7 @@ VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
         x.segment(layout_.free_acceleration(k, i), n) = sample.acceleration / kAccelerationScale;
       x.segment(layout_.efforts(k, i), sample.efforts.size()) = sample.efforts / problem_.effort_size();
       set_forces(p, sample.forces, problem_.force_size(), layout_.forces(k, i));
+      ShareForces(p, x.data() + layout_.forces(k, i));
     }
   }
   set_node(layout_.node(layout_.intervals()), guess.motion(layout_.phases() - 1, 1));
@@ -146,6 +147,7 @@ void CollocationNlp::ExtractImpact(const double* x, int p, TrajectoryPhase* phas
     }
     ++index;
   }
+  TakeLeastImpulses(problem_, p, phase->node_positions.col(0), &phase->impulses);
   phase->impact_loss = jumps_.EnergyLoss(x, p);
 }
 

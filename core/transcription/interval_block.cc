@@ -6,14 +6,13 @@ namespace rollgait {
 namespace {
 
 using Kind = EliminatedScheme::Kind;
-constexpr Kind kKinds[] = {EliminatedScheme::kPosition, EliminatedScheme::kVelocity, EliminatedScheme::kAcceleration};
 
 }  // namespace
 
 void IntervalBlock::SetStep(double h) {
   if (h == step_) return;
   step_ = h;
-  for (Kind kind : kKinds) {
+  for (Kind kind : EliminatedScheme::kKinds) {
     for (int i = 0; i < points_count_; ++i) {
       for (int s = 0; s < scheme_.sources(); ++s) {
         value_[kind](i, s) = scheme_.Value(kind, i, s, h);
@@ -35,7 +34,7 @@ void IntervalBlock::LoadPoint(const double* y, int i) {
     const Eigen::Map<const VectorX> unknown(y + offset, n);
     const double scale = scale_(offset);
     for (int kind = 0; kind < 3; ++kind) {
-      if (!scheme_.Depends(kKinds[kind], i, s)) continue;
+      if (!scheme_.Depends(EliminatedScheme::kKinds[kind], i, s)) continue;
       z_.segment(kind * n, n) += scale * value_[kind](i, s) * unknown;
       z_rate_.segment(kind * n, n) += scale * first_[kind](i, s) * unknown;
       z_curve_.segment(kind * n, n) += scale * second_[kind](i, s) * unknown;
@@ -289,7 +288,7 @@ void IntervalBlock::AccumulateStep(int i) {
   auto step_row = local_.row(local_size_);
   for (int s = 0; s < scheme_.sources(); ++s) {
     for (int kind = 0; kind < 3; ++kind) {
-      if (!scheme_.Depends(kKinds[kind], i, s)) continue;
+      if (!scheme_.Depends(EliminatedScheme::kKinds[kind], i, s)) continue;
       step_row.segment(SourceOffset(s), n) += value_[kind](i, s) * turned_.segment(kind * n, n).transpose() +
                                               first_[kind](i, s) * gradient_.segment(kind * n, n).transpose();
     }

@@ -10,7 +10,6 @@ namespace rollgait {
 namespace {
 
 using Kind = EliminatedScheme::Kind;
-constexpr Kind kKinds[] = {EliminatedScheme::kPosition, EliminatedScheme::kVelocity, EliminatedScheme::kAcceleration};
 
 }  // namespace
 
@@ -114,7 +113,8 @@ void IntervalBlock::BuildJacobianPattern() {
     for (const auto& [where, bits] : kinds) {
       for (int source = 0; source < scheme_.sources(); ++source) {
         bool depends = false;
-        for (Kind kind : kKinds) depends |= ((bits >> kind) & 1) != 0 && scheme_.Depends(kind, i, source);
+        for (Kind kind : EliminatedScheme::kKinds)
+          depends |= ((bits >> kind) & 1) != 0 && scheme_.Depends(kind, i, source);
         if (depends) point.state_entries.push_back({where.first, where.second, source});
       }
       dense_rows.insert(where.first);

@@ -43,6 +43,9 @@ INSTANTIATE_TEST_SUITE_P(
                            [](GaitRequest& r) { r.discretization.scheme = Scheme::kHermiteSimpson; }},
                       Case{"Plastic", 0, 1.3, Preset::kTorque,
                            [](GaitRequest& r) { r.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic; }},
+                      // Impulses of heel and forefoot that vanish together.
+                      Case{"SoftPlasticUphill", 23, 0.45, Preset::kHuman,
+                           [](GaitRequest& r) { r.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic; }},
                       Case{"SlowHuman", 0, 1.0, Preset::kHuman, Nothing},
                       Case{"DownhillHuman", -20, 1.3, Preset::kHuman, Nothing},
                       Case{"FullCycle", 0, 1.3, Preset::kHuman, [](GaitRequest& r) { r.cycle = Cycle::kFull; }},

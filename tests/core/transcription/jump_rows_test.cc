@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 #include <string>
 
+#include "core/contact/rolling_kinematics.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/transcription/collocation_nlp.h"
@@ -43,8 +45,8 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     }
   }
 
-  // Rows that hold a phase's velocities after its jump and its impulses. All but the shares of a foot's surfaces are
-  // linear in them.
+  // Rows that hold a phase's velocities after its jump and its impulses. They are linear in them, and leave open what
+  // the surfaces of one foot bear along the line that joins them.
   std::vector<int> RowsOf(int phase) const {
     std::vector<int> rows;
     bool entries = false;
@@ -52,12 +54,17 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
       const RowInfo info = nlp_->Describe(x_.data(), row);
       entries |= info.name.starts_with("touch-down");
       if (!entries || info.phase != phase) continue;
-      if (info.name.starts_with("rolling") || info.name.starts_with("impact, dynamics") ||
-          info.name.starts_with("impact, share")) {
-        rows.push_back(row);
-      }
+      if (info.name.starts_with("rolling") || info.name.starts_with("impact, dynamics")) rows.push_back(row);
     }
     return rows;
+  }
+
+  // Feet that stand on two surfaces.
+  size_t SharedLinks(int phase) const {
+    std::set<int> links;
+    const std::vector<int>& active = problem_->phases[phase].active;
+    for (int contact : active) links.insert(problem_->contacts[contact].joint);
+    return active.size() - links.size();
   }
 
   void SolveJump(int phase) {
@@ -66,12 +73,8 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     for (int j = 0; j < n_; ++j) unknowns.push_back(layout.node(layout.first_interval(phase)) + n_ + j);
     for (int i = 0; i < layout.impulse_size(phase); ++i) unknowns.push_back(layout.impulse(phase) + i);
     const std::vector<int> rows = RowsOf(phase);
-    ASSERT_EQ(rows.size(), unknowns.size());
-    // The shares are of normal impulses that are not zero.
-    for (const ActiveContact& active : problem_->ActiveContacts(phase)) {
-      x_(layout.impulse(phase) + active.offset + static_cast<int>(active.directions.size()) - 1) = 1;
-    }
-    for (int iteration = 0; iteration < 60; ++iteration) NewtonStep(rows, unknowns);
+    ASSERT_EQ(rows.size() + SharedLinks(phase), unknowns.size());
+    NewtonStep(rows, unknowns);
   }
 
   void NewtonStep(const std::vector<int>& rows, const std::vector<int>& unknowns) {
@@ -82,7 +85,7 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     for (int e = 0; e < values.size(); ++e) {
       jacobian(nlp_->jacobian_pattern().rows[e], nlp_->jacobian_pattern().columns[e]) += values(e);
     }
-    const VectorX step = jacobian(rows, unknowns).fullPivLu().solve(-g(rows));
+    const VectorX step = jacobian(rows, unknowns).completeOrthogonalDecomposition().solve(-g(rows));
     x_(unknowns) += step;
   }
 
@@ -150,6 +153,48 @@ TEST_P(JumpRowsTest, ImpulsesAreProportionalToWhatTheyStop) {
                   1e-9 * first.phases[p].impact_loss);
     }
   }
+}
+
+// Of all impulses that stop the same velocities the least are returned, whichever of them the solver found.
+TEST_P(JumpRowsTest, ImpulsesOfOneFootAreTheLeast) {
+  const BodyDynamics dynamics(spec_->scene.model);
+  int shared = 0;
+  for (int p = 0; p < nlp_->layout().phases(); ++p) {
+    if (!nlp_->layout().jumps(p) || SharedLinks(p) == 0) continue;
+    const std::vector<ActiveContact> active = problem_->ActiveContacts(p);
+    BodyDynamics::State state;
+    dynamics.ComputeState(x_.segment(nlp_->layout().node(nlp_->layout().first_interval(p)), n_), VectorX::Zero(n_),
+                          &state);
+    const auto place = [&](size_t i) {
+      return ComputeRollingContact(problem_->contacts[active[i].contact], state).p_WP;
+    };
+    size_t last = 1;
+    while (problem_->contacts[active[last].contact].joint != problem_->contacts[active[0].contact].joint) ++last;
+    Vector3 line = place(last) - place(0);
+    if (active[0].directions.size() == 2) line.y() = 0;
+    line.normalize();
+    const Vector3 one(0.1, 0.02, 1), other(-0.05, 0.01, 0.8);
+    const auto impulses = [&](double along_the_line) {
+      VectorX x = x_;
+      for (const size_t i : {size_t{0}, last}) {
+        const Vector3 impulse = i == 0 ? Vector3(one + along_the_line * line) : Vector3(other - along_the_line * line);
+        for (size_t d = 0; d < active[i].directions.size(); ++d) {
+          x(nlp_->layout().impulse(p) + active[i].offset + static_cast<int>(d)) = impulse(active[i].directions[d]);
+        }
+      }
+      return VectorX(nlp_->Extract(x.data()).phases[p].impulses / problem_->impulse_size());
+    };
+    const VectorX least = impulses(0);
+    const auto first = least.head<3>(), second = least.segment<3>(3 * static_cast<int>(last));
+    EXPECT_NEAR(first.x() + second.x(), 0.05, 1e-12);
+    EXPECT_NEAR(first.z() + second.z(), 1.8, 1e-12);
+    // The least: neither more nor less along the line makes the sum of squares smaller.
+    EXPECT_NEAR((first - second).dot(line), 0, 1e-9) << "phase " << p;
+    EXPECT_LT((impulses(0.3) - least).norm(), 1e-9) << "phase " << p;
+    EXPECT_LT((impulses(-2) - least).norm(), 1e-9) << "phase " << p;
+    ++shared;
+  }
+  EXPECT_EQ(shared, GetParam().cycle == Cycle::kHalf ? 1 : 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, JumpRowsTest,
