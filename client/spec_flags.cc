@@ -245,7 +245,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
       "max_pull_bw=1e-4; may be repeated")
       ->take_all();
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
-  add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 10]");
+  add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 20]");
   add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");
   add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
 }

@@ -64,7 +64,7 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_
     bounds[Criterion::kOverlap] = kInfinity;
   }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
-          check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 8, 0, 10)};
+          check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 12, 0, 20)};
 }
 
 // The phases and the motion of a walk.

@@ -56,7 +56,7 @@ const NumberRule kWrittenNumbers[] = {
     {"discretization.single_support_intervals", 1, 1000},
     {"discretization.double_support_intervals", 1, 1000},
     {"accuracy.kkt_tolerance", 1e-12, 1e-2},
-    {"accuracy.max_refinements", 0, 10},
+    {"accuracy.max_refinements", 0, 20},
     {"solver_limits.max_iterations", 1, 100'000},
     {"solver_limits.max_wall_time_s", 0.01, 86'400},
     {"phases.phases[0].intervals", 1, 1000, false, kPhases},

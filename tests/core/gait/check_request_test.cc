@@ -48,7 +48,7 @@ TEST(CheckRequest, FillsTheDocumentedDefaults) {
   EXPECT_EQ(spec.kkt_tolerance, 1e-6);
   EXPECT_EQ(spec.bounds[Criterion::kGap], 1e-4);
   EXPECT_EQ(spec.bounds[Criterion::kSlip], 1e-3);
-  EXPECT_EQ(spec.max_refinements, 8);
+  EXPECT_EQ(spec.max_refinements, 12);
   EXPECT_EQ(spec.max_iterations, 1000);
   EXPECT_EQ(spec.max_wall_time, 600);
 }

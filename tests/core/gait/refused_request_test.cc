@@ -315,7 +315,7 @@ const BadCase kBadCases[] = {
      "accuracy.max_overlap_m", "leave one of the two out"},
     {"Slip", [](GaitRequest& r) { r.accuracy.bounds[Criterion::kSlip] = 0; }, "accuracy.max_slip_m_s",
      "[1e-09, 1] m/s"},
-    {"Refinements", [](GaitRequest& r) { r.accuracy.max_refinements = 11; }, "accuracy.max_refinements", "[0, 10]"},
+    {"Refinements", [](GaitRequest& r) { r.accuracy.max_refinements = 21; }, "accuracy.max_refinements", "[0, 20]"},
     {"Iterations", [](GaitRequest& r) { r.solver_limits.max_iterations = 0; }, "solver_limits.max_iterations",
      "[1, 100000]"},
     {"WallTime", [](GaitRequest& r) { r.solver_limits.max_wall_time = 1e6; }, "solver_limits.max_wall_time_s",
