@@ -1,14 +1,26 @@
-# Writes text files into a C++ header as string constants.
-#   cmake -DOUTPUT=assets.h -DNAMESPACE=rollgait::client -DASSETS=kReportHtml=report.html,kReportCss=report.css -P EmbedText.cmake
+# Writes files into a C++ header as string constants. NAME=A+B is the text of A, then that of B; NAME=gzip:FILE is the
+# file packed by gzip, in base64.
+#   cmake -DOUTPUT=assets.h -DNAMESPACE=rollgait::client -DASSETS=kPage=page.html,kStyle=a.css+b.css -P EmbedText.cmake
 string(REPLACE "," ";" assets "${ASSETS}")
 set(text "// Made by cmake/EmbedText.cmake.\n#pragma once\n\nnamespace ${NAMESPACE} {\n")
 foreach(asset ${assets})
-  string(REGEX MATCH "^([A-Za-z0-9_]+)=(.*)$" whole "${asset}")
+  string(REGEX MATCH "^([A-Za-z0-9_]+)=(gzip:)?(.*)$" whole "${asset}")
   set(name "${CMAKE_MATCH_1}")
-  file(READ "${CMAKE_MATCH_2}" content)
+  set(packed "${CMAKE_MATCH_2}")
+  set(paths "${CMAKE_MATCH_3}")
+  set(content "")
+  if(packed)
+    execute_process(COMMAND gzip -9nc "${paths}" COMMAND base64 -w 0 OUTPUT_VARIABLE content COMMAND_ERROR_IS_FATAL ANY)
+  else()
+    string(REPLACE "+" ";" paths "${paths}")
+    foreach(path ${paths})
+      file(READ "${path}" part)
+      string(APPEND content "${part}")
+    endforeach()
+  endif()
   string(FIND "${content}" ")_asset" found)
   if(NOT found EQUAL -1)
-    message(FATAL_ERROR "${CMAKE_MATCH_2} contains the delimiter )_asset")
+    message(FATAL_ERROR "${paths} contains the delimiter )_asset")
   endif()
   string(APPEND text "inline constexpr char ${name}[] = R\"_asset(${content})_asset\";\n")
 endforeach()

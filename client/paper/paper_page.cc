@@ -83,7 +83,7 @@ json PaperData(const std::vector<v1::Solve>& solves) {
 }
 
 std::string PaperHtml(const std::vector<v1::Solve>& solves) {
-  return PageHtml(solves, "Figure 2 of the paper, computed again", PaperData(solves));
+  return PageHtml({solves.begin(), solves.end()}, "Figure 2 of the paper, computed again", PaperData(solves));
 }
 
 }  // namespace rollgait::client

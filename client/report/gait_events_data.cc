@@ -50,8 +50,11 @@ void RequireInstants(const v1::FootOnGround& foot) {
 }
 
 json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model) {
-  json data = {
-      {"phases", json::array()}, {"events", json::array()}, {"feet", json::array()}, {"double_support", json()}};
+  json data = {{"phases", json::array()},
+               {"events", json::array()},
+               {"feet", json::array()},
+               {"double_support", json()},
+               {"flight", json()}};
   if (events.feet_size() == 0) return data;
   for (const v1::SupportPhase& phase : events.phases()) {
     data["phases"].push_back({{"start", phase.start_percent()},
@@ -70,10 +73,14 @@ json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model) {
                             {"right", foot.foot() == v1::FOOT_RIGHT},
                             {"stance", foot.stance_fraction()},
                             {"normal", Column(foot.force_n(), 2, percent)},
-                            {"tangential", Column(foot.force_n(), 0, percent)},
+                            {"along", Column(foot.force_n(), 0, percent)},
+                            {"sideways", Column(foot.force_n(), 1, percent)},
+                            {"vertical", Column(foot.level_force_n(), 2, percent)},
+                            {"forward", Column(foot.level_force_n(), 0, percent)},
                             {"pressure", Advance(foot.center_of_pressure_m())}});
   }
   data["double_support"] = events.double_support_fraction();
+  data["flight"] = events.flight_fraction();
   return data;
 }
 

@@ -15,13 +15,13 @@ inline constexpr int kCycleSteps = 200;
 // Throws Failure(kUsage) if the curves of the foot do not have kCycleSteps + 1 instants.
 void RequireInstants(const v1::FootOnGround& foot);
 
-// {phases: [{start, end, contacts, feet}],                                    contacts by name, feet: how many
-//  events: [{percent, foot, name}],                                           foot "right" or "left", name as EventName
-//  feet: [{name, right, stance, normal: [...], tangential: [...], pressure: [...]}],   stance 0 … 1; % of body weight,
-//  tangential
-//          along +x; pressure: centre of pressure along x after its first place in the stance of this instant, mm, null
+// {phases: [{start, end, contacts, feet}]     contacts by name, feet: how many
+//  events: [{percent, foot, name}]            foot "right" or "left", name as EventName
+//  feet: [{name, right, stance, normal, along, sideways, vertical, forward, pressure}]
+//          stance 0 … 1; lists in % of body weight: normal to the ground, along +x and +y, and in axes that gravity
+//          gives; pressure: centre of pressure along x after its first place in the stance of this instant, mm, null
 //          where it is none
-//  double_support}                                                            0 … 1
+//  double_support, flight}                    0 … 1
 // Lists are empty and double_support null without events (of an older server).
 nlohmann::json GaitEventsData(const v1::GaitEvents& events, const v1::Model& model);
 

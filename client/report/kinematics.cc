@@ -1,20 +1,11 @@
 #include "client/report/kinematics.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "client/failure.h"
 
 namespace rollgait::client {
 namespace {
-
-// An unset quaternion is the identity.
-Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
-  const Eigen::Quaterniond quaternion(q.w(), q.x(), q.y(), q.z());
-  if (quaternion.norm() < 1e-12) return Eigen::Matrix3d::Identity();
-  return quaternion.normalized().toRotationMatrix();
-}
 
 // The ellipsoid { c + R diag(axes) u : |u| ≤ 1 }, with the shape matrix R diag(axes²) Rᵀ; a projection has that of the
 // kept rows.
@@ -35,6 +26,12 @@ PlacedEllipsoid Place(const v1::ContactSurface& contact, const std::vector<Pose>
 }
 
 }  // namespace
+
+Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
+  const Eigen::Quaterniond quaternion(q.w(), q.x(), q.y(), q.z());
+  if (quaternion.norm() < 1e-12) return Eigen::Matrix3d::Identity();
+  return quaternion.normalized().toRotationMatrix();
+}
 
 std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions) {
   if (static_cast<int>(positions.size()) != model.joints_size()) {
@@ -68,26 +65,6 @@ std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& p
 Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
   const PlacedEllipsoid placed = Place(contact, poses);
   return placed.center - placed.shape.col(2) / std::sqrt(placed.shape(2, 2));
-}
-
-Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
-  const auto [center, shape] = Place(contact, poses);
-  Eigen::Matrix2d projected;
-  projected << shape(0, 0), shape(0, 2), shape(2, 0), shape(2, 2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(projected);
-  Eigen::Vector2d first = eigen.eigenvectors().col(1);
-  if (first.x() < 0 || (first.x() == 0 && first.y() < 0)) first = -first;
-
-  Outline outline;
-  outline.x = center.x();
-  outline.z = center.z();
-  outline.semi_a = std::sqrt(eigen.eigenvalues()(1));
-  outline.semi_b = std::sqrt(eigen.eigenvalues()(0));
-  outline.angle_rad = std::atan2(first.y(), first.x());
-  const double depth = std::sqrt(shape(2, 2));
-  outline.lowest_x = center.x() - shape(0, 2) / depth;
-  outline.lowest_z = center.z() - depth;
-  return outline;
 }
 
 std::string PositiveDirection(const v1::Model& model, int joint) {

@@ -1,8 +1,10 @@
-// Forward kinematics of a Model message, and its picture in the x–z plane.
+// Forward kinematics of a Model message.
 #ifndef ROLLGAIT_CLIENT_REPORT_KINEMATICS_H_
 #define ROLLGAIT_CLIENT_REPORT_KINEMATICS_H_
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "rollgait/v1/model.pb.h"
@@ -10,6 +12,9 @@
 namespace rollgait::client {
 
 inline Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+// An unset quaternion is the identity.
+Eigen::Matrix3d ToRotation(const v1::Quaternion& q);
 
 // Pose of a link frame in the world.
 struct Pose {
@@ -21,17 +26,9 @@ struct Pose {
 // a joint's parent does not come before it.
 std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions);
 
-// The outline of an ellipsoid seen along y, and its lowest point.
-struct Outline {
-  double x, z;                // centre, m
-  double semi_a, semi_b;      // m, semi_a ≥ semi_b
-  double angle_rad;           // of the first semi-axis, from x towards z, (−π/2, π/2]
-  double lowest_x, lowest_z;  // m; the contact point if the surface touches the ground
-};
-
-// Both throw Failure(kUsage) for a contact that is on no joint of the poses, or not an ellipsoid.
+// The lowest point of an ellipsoid in the world; the contact point if the surface touches the ground. Throws
+// Failure(kUsage) for a contact that is on no joint of the poses, or not an ellipsoid.
 Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
-Outline SurfaceOutline(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
 
 // In which direction a positive position moves what hangs on the joint, at the zero posture: "forward", "backward",
 // "up" or "down" for the mass centre of the subtree; "left" or "right" if it moves sideways most; "" if it does not

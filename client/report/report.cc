@@ -3,7 +3,6 @@
 #include <map>
 
 #include "client/report/assets.h"
-#include "client/report/report_data.h"
 
 namespace rollgait::client {
 namespace {
@@ -40,18 +39,18 @@ std::string Page(const nlohmann::json& data, const char* script) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return Fill(kReportHtml, {{"title", EscapeHtml(data.at("title"))},
                             {"style", kReportCss},
-                            {"script", std::string(kReportChartsJs) + kReportWalkerJs + kReportSectionsJs +
-                                           kReportPeopleJs + script},
+                            {"three", kThreeJs},
+                            {"script", std::string(kReportScript) + script},
                             {"data", EscapeScript(text)}});
 }
 
 }  // namespace
 
-std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title) {
-  return Page(ReportData(solves, title), kReportPageJs);
+std::string ReportHtml(const std::vector<ReportedSolve>& solves, const std::string& title) {
+  return Page(ReportData(solves, title), kReportGaitsJs);
 }
 
-std::string PageHtml(const std::vector<v1::Solve>& solves, const std::string& title, const nlohmann::json& paper) {
+std::string PageHtml(const std::vector<ReportedSolve>& solves, const std::string& title, const nlohmann::json& paper) {
   nlohmann::json data = ReportData(solves, title);
   data["paper"] = paper;
   return Page(data, kReportPaperJs);

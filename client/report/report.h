@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "rollgait/v1/solve.pb.h"
+#include "client/report/report_data.h"
 
 namespace rollgait::client {
 
 // The page about finished solves, in the given order. An empty title gives "Optimal gait" or "Optimal gaits".
 // Throws Failure(kUsage) if a trajectory does not fit its model.
-std::string ReportHtml(const std::vector<v1::Solve>& solves, const std::string& title);
+std::string ReportHtml(const std::vector<ReportedSolve>& solves, const std::string& title);
 
 // The page that lays these solves beside the paper; `paper` as PaperData makes it.
-std::string PageHtml(const std::vector<v1::Solve>& solves, const std::string& title, const nlohmann::json& paper);
+std::string PageHtml(const std::vector<ReportedSolve>& solves, const std::string& title, const nlohmann::json& paper);
 
 }  // namespace rollgait::client
 

@@ -9,8 +9,10 @@
 #include "client/failure.h"
 #include "client/json.h"
 #include "client/report/gait_events_data.h"
+#include "client/report/model_data.h"
 #include "client/report/rolling_path.h"
-#include "client/report/walker_data.h"
+#include "client/report/scene_data.h"
+#include "client/report/stride_data.h"
 #include "client/summary.h"
 #include "client/text.h"
 
@@ -26,21 +28,21 @@ std::string SlopeLabel(double slope_rad) {
 }
 
 // One label a solve: the slope; with the speed, then with the name, where that is needed to tell them apart.
-std::vector<std::string> Labels(const std::vector<v1::Solve>& solves) {
+std::vector<std::string> Labels(const std::vector<ReportedSolve>& solves) {
   std::vector<std::string> labels;
-  for (const v1::Solve& solve : solves) labels.push_back(SlopeLabel(solve.spec().slope_rad()));
+  for (const ReportedSolve& at : solves) labels.push_back(SlopeLabel(at.solve.spec().slope_rad()));
   const auto ambiguous = [&labels] {
     return std::set<std::string>(labels.begin(), labels.end()).size() < labels.size();
   };
   if (ambiguous()) {
     for (size_t i = 0; i < solves.size(); ++i) {
-      if (solves[i].spec().has_manoeuvre()) continue;  // from rest to rest: no speed tells it from others
-      labels[i] += ", " + FormatNumber(solves[i].result().speed_m_s(), 3) + " m/s";
+      if (solves[i].solve.spec().has_manoeuvre()) continue;  // from rest to rest: no speed tells it from others
+      labels[i] += ", " + FormatNumber(solves[i].solve.result().speed_m_s(), 3) + " m/s";
     }
   }
   if (ambiguous()) {
     for (size_t i = 0; i < solves.size(); ++i) {
-      const std::string& name = solves[i].name();
+      const std::string& name = solves[i].solve.name();
       labels[i] += ", " + (name.empty() ? "no. " + std::to_string(i + 1) : name);
     }
   }
@@ -135,18 +137,74 @@ json UnmetTable(const v1::SolveResult& result) {
   return rows;
 }
 
-json PathData(const RollingPath& path) {
+json IterationTable(const std::vector<v1::Iteration>& iterations) {
+  json rows = json::array();
+  for (const v1::Iteration& at : iterations) {
+    rows.push_back({at.index(), at.mesh(), at.objective(), at.primal_infeasibility(), at.dual_infeasibility(),
+                    at.barrier_parameter(), at.elapsed_s()});
+  }
+  return rows;
+}
+
+// What belongs to one gait: the comparison without the data that it is compared with.
+json OwnComparison(const v1::SolveResult& result) {
+  if (!result.has_normative()) return json();
+  v1::NormativeComparison own = result.normative();
+  for (v1::NormativeDatasetComparison& set : *own.mutable_datasets()) {
+    for (v1::NormativeCurve& curve : *set.mutable_curves()) {
+      curve.clear_ours();
+      curve.clear_mean();
+      curve.clear_deviation();
+    }
+  }
+  return json::parse(ToJsonLine(own));
+}
+
+// The data of the first gait that is compared with any.
+json Datasets(const std::vector<ReportedSolve>& solves) {
+  for (const ReportedSolve& at : solves) {
+    if (at.solve.result().normative().datasets_size() == 0) continue;
+    v1::NormativeComparison data;
+    *data.mutable_datasets() = at.solve.result().normative().datasets();
+    for (v1::NormativeDatasetComparison& set : *data.mutable_datasets()) {
+      for (v1::NormativeCurve& curve : *set.mutable_curves()) curve.clear_ours();
+    }
+    return json::parse(ToJsonLine(data)).at("datasets");
+  }
+  return json::array();
+}
+
+// {duration, contact: [[x, y]], center: [[x, y]], couple: [N m], scene}
+json PathData(const v1::SolveResult& result) {
+  const RollingPath path = BuildRollingPath(result.trajectory(), result.model());
   json contact = json::array(), center = json::array(), couple = json::array();
   for (const RollingPath::Sample& at : path.samples) {
     contact.push_back({at.contact_x_m, at.contact_y_m});
     center.push_back({at.center_x_m, at.center_y_m});
     couple.push_back(at.couple_n_m);
   }
-  return {{"duration", path.duration_s}, {"contact", contact}, {"center", center}, {"couple", couple}};
+  return {{"duration", path.duration_s},
+          {"contact", contact},
+          {"center", center},
+          {"couple", couple},
+          {"scene", SceneData(path.instants, result.model(), {})}};
+}
+
+// The members of a gait: those of StrideData and of GaitEventsData, and scene.
+json GaitData(const v1::SolveResult& result) {
+  const v1::GaitEvents& events = result.gait_events();
+  const Stride stride = BuildStride(result.trajectory(), result.model(), events.start_s(), kCycleSteps);
+  std::vector<Instant> instants;
+  for (const StrideSample& sample : stride.samples) instants.push_back(sample.instant);
+  json data = StrideData(stride, result.model());
+  data.update(GaitEventsData(events, result.model()));
+  data["scene"] = SceneData(instants, result.model(), events);
+  return data;
 }
 
 // The members of a solve that do not need its motion.
-json SolveData(const v1::Solve& solve, const std::string& label) {
+json SolveData(const ReportedSolve& reported, const std::string& label) {
+  const v1::Solve& solve = reported.solve;
   const v1::SolveResult& result = solve.result();
   int iterations = 0;
   for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
@@ -166,14 +224,16 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
           {"step_length", result.step_length_m()},
           {"objective", result.objective()},
           {"iterations", iterations},
+          {"wall_s", result.wall_time_s()},
           {"wall", FormatDuration(result.wall_time_s())},
           {"build", result.solver_build()},
           {"scheme", SchemeName(result.trajectory().scheme())},
           {"costs", CostTable(result)},
           {"accuracy", result.has_accuracy() ? AccuracyTable(solve) : json::array()},
           {"meshes", MeshTable(result)},
+          {"log", IterationTable(reported.iterations)},
           {"unmet", UnmetTable(result)},
-          {"people", result.has_normative() ? json::parse(ToJsonLine(result.normative())) : json()},
+          {"people", OwnComparison(result)},
           {"model", ModelData(result.model())},
           {"stride", json()},
           {"path", json()}};
@@ -181,29 +241,25 @@ json SolveData(const v1::Solve& solve, const std::string& label) {
 
 }  // namespace
 
-json ReportData(const std::vector<v1::Solve>& solves, const std::string& title) {
+json ReportData(const std::vector<ReportedSolve>& solves, const std::string& title) {
   const std::vector<std::string> labels = Labels(solves);
   json list = json::array();
+  bool gaits = true;
   for (size_t i = 0; i < solves.size(); ++i) {
     json solve = SolveData(solves[i], labels[i]);
-    const v1::SolveResult& result = solves[i].result();
+    const v1::SolveResult& result = solves[i].solve.result();
+    const bool manoeuvre = solves[i].solve.spec().has_manoeuvre();
+    gaits = gaits && !manoeuvre;
     if (result.has_trajectory() && result.trajectory().phases_size() > 0 && result.has_model()) {
-      if (solves[i].spec().has_manoeuvre()) {
-        solve["path"] = PathData(BuildRollingPath(result.trajectory(), result.model()));
-        list.push_back(std::move(solve));
-        continue;
-      }
-      const v1::GaitEvents& events = result.gait_events();
-      const Stride stride = BuildStride(result.trajectory(), result.model(), events.start_s(), kCycleSteps);
-      solve["stride"] = StrideData(stride, result.model());
-      solve["stride"].update(GaitEventsData(events, result.model()));
+      solve[manoeuvre ? "path" : "stride"] = manoeuvre ? PathData(result) : GaitData(result);
     }
     list.push_back(std::move(solve));
   }
-  const bool gaits =
-      std::none_of(solves.begin(), solves.end(), [](const v1::Solve& s) { return s.spec().has_manoeuvre(); });
   const std::string standard = !gaits ? "Optimal motions" : solves.size() == 1 ? "Optimal gait" : "Optimal gaits";
-  return {{"title", title.empty() ? standard : title}, {"program", "rollgait " ROLLGAIT_VERSION}, {"solves", list}};
+  return {{"title", title.empty() ? standard : title},
+          {"program", "rollgait " ROLLGAIT_VERSION},
+          {"datasets", Datasets(solves)},
+          {"solves", list}};
 }
 
 }  // namespace rollgait::client

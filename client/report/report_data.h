@@ -4,16 +4,26 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rollgait/v1/solve.pb.h"
 
 namespace rollgait::client {
 
-// {title, solves: [...]}; the members of a solve are named where they are made. Angles in degrees, forces in % of body
-// weight, percentages of the gait cycle, everything else SI. Curves are sampled at 201 equal steps from 0 to 100 %.
-// Throws Failure(kUsage) if a trajectory does not fit its model.
-nlohmann::json ReportData(const std::vector<v1::Solve>& solves, const std::string& title);
+// A finished solve, and the lines of the solver's log where they are known.
+struct ReportedSolve {
+  ReportedSolve(v1::Solve solve_, std::vector<v1::Iteration> iterations_ = {})  // NOLINT: a solve is one without a log
+      : solve(std::move(solve_)), iterations(std::move(iterations_)) {}
+  v1::Solve solve;
+  std::vector<v1::Iteration> iterations;
+};
+
+// {title, program, datasets: [...], solves: [...]}; the members of a solve are named where they are made. Angles in
+// degrees, forces in % of body weight, percentages of the gait cycle, everything else SI. Curves have 201 equal steps
+// from 0 to 100 %. datasets: the normative data that gaits are compared with, as NormativeDatasetComparison without
+// what belongs to one gait. Throws Failure(kUsage) if a trajectory does not fit its model.
+nlohmann::json ReportData(const std::vector<ReportedSolve>& solves, const std::string& title);
 
 }  // namespace rollgait::client
 

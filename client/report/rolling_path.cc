@@ -4,7 +4,6 @@
 
 #include "client/failure.h"
 #include "client/report/kinematics.h"
-#include "client/report/motion.h"
 
 namespace rollgait::client {
 namespace {
@@ -44,6 +43,7 @@ RollingPath BuildRollingPath(const v1::Trajectory& trajectory, const v1::Model& 
     const Eigen::Vector3d lowest = LowestPoint(model.contacts(0), poses);
     path.samples.push_back(
         {lowest.x(), lowest.y(), center.x(), center.y(), (axes.transpose().inverse() * efforts).norm()});
+    path.instants.push_back(at);
   }
   return path;
 }

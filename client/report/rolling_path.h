@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "client/report/motion.h"
 #include "rollgait/v1/model.pb.h"
 #include "rollgait/v1/trajectory.pb.h"
 
@@ -18,6 +19,7 @@ struct RollingPath {
   };
   double duration_s = 0;
   std::vector<Sample> samples;
+  std::vector<Instant> instants;  // of the samples
 };
 
 // Of a model with one ellipsoid on the last link of a chain of three slides and three actuated revolute joints. Throws

@@ -184,9 +184,9 @@ TEST(SpecFlagsTest, AWeightAfterAnEqualsSignIsToldWhereToStand) {
 
 class SpecFileTest : public testing::Test {
  protected:
-  std::string Write(const std::string& json) const {
+  std::string Write(const std::string& text) const {
     const std::string path = testing::TempDir() + "spec_flags_test.json";
-    std::ofstream(path) << json;
+    std::ofstream(path) << text;
     return path;
   }
 };

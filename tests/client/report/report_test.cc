@@ -16,19 +16,69 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(ReportDataTest, CurvesOfTheRightLeg) {
+// Row `row` of PackedRows::ToJson, decoded here by hand.
+std::vector<double> Decode(const json& packed, int row) {
+  const std::string text = packed["data"], digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0, count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    if ((count += 6) >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 0xff);
+  }
+  std::vector<double> values;
+  const int columns = packed["columns"];
+  for (int i = row * columns; i < (row + 1) * columns; ++i) {
+    const auto low = static_cast<unsigned char>(bytes.at(2 * i)),
+               high = static_cast<unsigned char>(bytes.at(2 * i + 1));
+    const auto integer = static_cast<int16_t>(low | high << 8);
+    values.push_back(integer == -32768 ? std::nan("") : integer * packed["scales"][row].get<double>());
+  }
+  return values;
+}
+
+TEST(ReportDataTest, CurvesOfEveryJointOfBothLegs) {
   const v1::Solve solve = SampleSolve("solves/a", 0.1);
   const json data = ReportData({solve}, "");
   const json& stride = data["solves"][0]["stride"];
-  ASSERT_EQ(stride["torques"].size(), 3u);
-  EXPECT_EQ(stride["torques"][1]["joint"], "knee_r");
-  ASSERT_EQ(stride["angles"].size(), 4u);  // and the trunk
-  EXPECT_EQ(stride["angles"][3]["joint"], "base_pitch");
+  ASSERT_EQ(stride["joints"].size(), 7u);  // six of the legs and the trunk; no slides
   const v1::Model model = SampleModel();
-  // 25 % of the cycle, knee_r, in degrees; five digits are kept.
-  const double expected = SamplePosition(model, 7, kSampleSpan_s + 0.25 * 2 * kSampleSpan_s) * 180 / M_PI;
-  EXPECT_NEAR(stride["angles"][1]["values"][50].get<double>(), expected, 0.01);
-  EXPECT_EQ(stride["contacts"][1]["right"], true);
+  int found = 0;
+  for (const json& joint : stride["joints"]) {
+    for (int i = 0; i < model.joints_size(); ++i) {
+      if (joint["name"] != model.joints(i).name()) continue;
+      ++found;
+      const std::vector<double> angles = Decode(stride["curves"], joint["angle"]);
+      ASSERT_EQ(angles.size(), 201u);
+      for (const int sample : {0, 50, 137}) {
+        const double time = kSampleSpan_s + sample / 200.0 * 2 * kSampleSpan_s;
+        EXPECT_NEAR(angles[sample], SamplePosition(model, i, time) * 180 / M_PI, 0.01) << joint["name"];
+      }
+      EXPECT_EQ(joint["torque"].is_null(), !model.joints(i).actuated());
+    }
+  }
+  EXPECT_EQ(found, 7);
+  EXPECT_EQ(stride["joints"][1]["title"], "hip");
+  EXPECT_EQ(stride["joints"][1]["side"], 2);
+  EXPECT_EQ(stride["joints"][0]["title"], "pelvis tilt");
+}
+
+TEST(ReportDataTest, IterationsAndNormativeDataAreThere) {
+  v1::Solve solve = SampleSolve("solves/a", 0.1);
+  v1::NormativeDatasetComparison& set = *solve.mutable_result()->mutable_normative()->add_datasets();
+  set.set_name("people");
+  set.add_curves()->add_mean(3.5);
+  v1::Iteration iteration;
+  iteration.set_index(7);
+  iteration.set_objective(2.5);
+  iteration.set_primal_infeasibility(1e-3);
+  iteration.set_mesh(1);
+  const json data = ReportData({ReportedSolve(solve, {iteration}), SampleSolve("solves/b", 0)}, "");
+  EXPECT_EQ(data["datasets"][0]["curves"][0]["mean"], json({3.5}));
+  // The data stand once on the page, not in every gait.
+  EXPECT_FALSE(data["solves"][0]["people"]["datasets"][0]["curves"][0].contains("mean"));
+  EXPECT_EQ(data["solves"][0]["log"][0], json({7, 1, 2.5, 1e-3, 0.0, 0.0, 0.0}));
+  EXPECT_TRUE(data["solves"][1]["log"].empty());
 }
 
 // Every figure of the page is that of the message, even where the message is wrong.
@@ -61,26 +111,8 @@ TEST(ReportDataTest, AnOlderServersResultHasNoEvents) {
   EXPECT_TRUE(stride["events"].empty());
   EXPECT_TRUE(stride["feet"].empty());
   EXPECT_TRUE(stride["double_support"].is_null());
-  EXPECT_EQ(stride["torques"].size(), 3u);
-}
-
-TEST(ReportDataTest, WalkerHasLimbsOnItsSides) {
-  const json data = ReportData({SampleSolve("solves/a", 0)}, "");
-  const json& walker = data["solves"][0]["stride"]["walker"];
-  // Nine joints, the end of the trunk, two feet.
-  EXPECT_EQ(walker["points"][0].size(), 2u * 12);
-  int trunk = 0, right = 0, left = 0;
-  for (const json& segment : walker["segments"]) {
-    (segment[2] == 0 ? trunk : segment[2] == 1 ? right : left)++;
-  }
-  EXPECT_EQ(trunk, 3);  // to both hips and up
-  EXPECT_EQ(right, 3);  // thigh, shank, foot
-  EXPECT_EQ(left, 3);
-  // The trunk's end is twice as far from the hips as its mass centre.
-  const json& first = walker["points"][0];
-  const double dx = first[18].get<double>() - first[4].get<double>();
-  const double dz = first[19].get<double>() - first[5].get<double>();
-  EXPECT_NEAR(std::hypot(dx, dz), 0.64, 3e-4);
+  EXPECT_EQ(stride["joints"].size(), 7u);
+  EXPECT_TRUE(stride["scene"]["feet"].empty());
 }
 
 TEST(ReportDataTest, LabelsTellSolvesApart) {
@@ -99,12 +131,26 @@ TEST(ReportTest, OneFileWithoutTheNetwork) {
   const std::string page = ReportHtml({SampleSolve("solves/a", 0), SampleSolve("solves/b", 0.1)}, "");
   EXPECT_THAT(page, Not(HasSubstr("{{")));
   std::string rest = page;
-  // The only address is the name of the SVG name space.
-  for (size_t at = rest.find("http"); at != std::string::npos; at = rest.find("http", at + 1)) {
+  // The only address is the name of the SVG name space; three.js is packed.
+  for (size_t at = rest.find("http:"); at != std::string::npos; at = rest.find("http:", at + 1)) {
     EXPECT_EQ(rest.substr(at, 26), "http://www.w3.org/2000/svg");
   }
+  EXPECT_THAT(page, Not(HasSubstr("https:")));
   EXPECT_THAT(page, Not(HasSubstr("<link")));
   EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));  // nor may it ask for any
+}
+
+// The library stands in the page with its licence, and is less than a third of its 850 kB.
+TEST(ReportTest, CarriesThreeJsAndItsLicence) {
+  const std::string page = ReportHtml({SampleSolve("solves/a", 0)}, "");
+  const std::string mark = "<script id=\"three\" type=\"text/plain\">";
+  const size_t start = page.find(mark) + mark.size(), length = page.find("</script>", start) - start;
+  EXPECT_EQ(page.substr(start, 4), "H4sI");  // gzip in base64
+  EXPECT_GT(length, 100000u);
+  EXPECT_LT(length, 283000u);
+  EXPECT_THAT(page, HasSubstr("three.js authors"));
+  EXPECT_THAT(page, HasSubstr("Permission is hereby granted"));
 }
 
 TEST(ReportTest, TextCannotBecomeMarkup) {
