@@ -1,27 +1,28 @@
-// A finished solve as a file.
+// A finished solve, or a model, as files.
 #ifndef ROLLGAIT_CLIENT_OUTPUT_H_
 #define ROLLGAIT_CLIENT_OUTPUT_H_
 
+#include <iosfwd>
 #include <string>
+#include <vector>
 
+#include "client/formats/format_table.h"
 #include "rollgait/v1/solve.pb.h"
 
 namespace rollgait::client {
 
-// Refuses a path that WriteSolve could not write, before any work is done. Throws Failure(kUsage) if the ending is not
-// .json, .csv or .sto, or if the directory does not exist or is not writable.
+// Refuses a path that WriteSolve could not write, before any work is done. Throws Failure(kUsage) if no format has its
+// ending, or if the directory does not exist or is not writable.
 void RequireOutputPath(const std::string& path);
 
-// Writes the solve as its path's ending says:
-//   .json  the Solve as proto3 JSON
-//   .csv   the trajectory at its collocation points, a header line with units, comma separated
-//   .sto   the whole gait cycle at 201 equal steps, OpenSim storage, SI units, tab separated
-// Throws Failure(kNoSolution) if .csv or .sto is asked for and there is no trajectory, kInternal if writing fails.
+// Writes the solve in the format that the path's ending stands for (format_table.h). Throws Failure(kNoSolution) if the
+// format needs a trajectory and there is none, kInternal if writing fails.
 void WriteSolve(const v1::Solve& solve, const std::string& path);
 
-// The contents of the files.
-std::string ToCsv(const v1::Solve& solve);
-std::string ToSto(const v1::Solve& solve);
+// The same for --format with --output: a folder is made if it does not exist; an empty path and "-" are standard
+// output, which a format of several files refuses.
+void RequireOutput(const std::string& path, const Format& format);
+void WriteExport(const std::vector<ExportedFile>& files, const std::string& path, std::ostream& out);
 
 }  // namespace rollgait::client
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "client/commands/commands.h"
+#include "client/formats/format_table.h"
 
 namespace rollgait::client {
 namespace {
@@ -30,7 +31,8 @@ constexpr char kSolveHelp[] = R"(Ctrl-C cancels the solve and waits for its end;
 Example: rollgait solve --model planar --slope 10 --speed 1.3 --output uphill.json)";
 
 constexpr char kOutputHelp[] =
-    "Write FILE: .json the finished Solve, .csv the trajectory, .sto the gait cycle as OpenSim storage";
+    "Write FILE: .json the finished Solve, .csv the trajectory, .sto the gait cycle as OpenSim storage, or another "
+    "ending of `rollgait export`";
 
 // Everything that the command line can set.
 struct Arguments {
@@ -41,7 +43,8 @@ struct Arguments {
   ListOptions list;
   ReportOptions report;
   ReproducePaperOptions paper;
-  SpecFlags models;
+  ModelsOptions models;
+  ExportOptions exported;
   SimulateOptions simulate;
   PoincareOptions poincare;
   std::vector<std::string> cancel, remove;
@@ -97,6 +100,21 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
   }
 }
 
+void AddExport(CLI::App& app, ExportOptions& options) {
+  CLI::App* const command = app.add_subcommand("export", "Write a finished solve for other programs");
+  command->add_option("SOLVE", options.solve, "solves/ID or ID, or a .json file of --output")->required();
+  command->add_option("--format", options.format, "One of the formats below; default: by the ending of --output");
+  command->add_option("-o,--output", options.output,
+                      "A file, a folder for formats of several files, - for standard output");
+  std::string footer = "Formats (docs/formats.md has their axes, units and names):\n";
+  for (const Format& format : Formats()) {
+    footer += "  " + format.name + std::string(format.name.size() < 10 ? 10 - format.name.size() : 1, ' ') +
+              (format.ending.empty() ? "folder" : format.ending) +
+              std::string(8 - (format.ending.empty() ? 6 : format.ending.size()), ' ') + format.what + "\n";
+  }
+  command->footer(footer + "Example: rollgait export solves/ID --format opensim -o walk");
+}
+
 void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const get = app.add_subcommand("get", "Print a solve as it stands");
   get->add_option("SOLVE", arguments.get.name, "solves/ID or ID")->required();
@@ -116,8 +134,14 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
       ->required();
 
   CLI::App* const models = app.add_subcommand("models", "Models of the server, or one of them whole");
-  models->add_option("NAME", arguments.models.model, "Print this model: joints, links, limits, contact surfaces");
-  AddBodyFlags(*models, arguments.models);
+  models->add_option("NAME", arguments.models.flags.model, "Print this model: joints, links, limits, contact surfaces");
+  AddBodyFlags(*models, arguments.models.flags);
+  models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
+  models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");
+  models->add_option("--slope", arguments.models.slope_deg, "With --format: of the ground, degrees; uphill is positive")
+      ->check(CLI::Range(-45.0, 45.0));
+
+  AddExport(app, arguments.exported);
 
   CLI::App* const report = app.add_subcommand("report", "Write an HTML page about one or several solves");
   report->add_option("SOLVE", arguments.report.solves, "Names on the server, or .json files of --output")->required();
@@ -178,6 +202,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "list") return RunList(arguments.list, global, terminal);
   if (command == "cancel") return RunCancel(arguments.cancel, global, terminal);
   if (command == "delete") return RunDelete(arguments.remove, global, terminal);
+  if (command == "export") return RunExport(arguments.exported, global, terminal);
   if (command == "models") return RunModels(arguments.models, global, terminal);
   if (command == "simulate") return RunSimulate(arguments.simulate, global, terminal);
   if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);

@@ -51,8 +51,22 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
 ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
 ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
 
+struct ModelsOptions {
+  SpecFlags flags;
+  std::string format;               // of format_table.h; empty: a table for people
+  std::string output;               // with a format: a file; empty or "-": terminal.out
+  std::optional<double> slope_deg;  // of the ground that the model stands on, with a format
+};
 // Without a model name in the flags: the list; with one: the whole model.
-ExitCode RunModels(const SpecFlags& flags, const GlobalOptions& global, const Terminal& terminal);
+ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct ExportOptions {
+  std::string solve;   // a name on the server, or a .json file
+  std::string format;  // empty: by the ending of `output`
+  std::string output;  // a file, a folder for formats of several files; empty or "-": terminal.out
+};
+// Writes a finished solve in one of the formats.
+ExitCode RunExport(const ExportOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct ReportOptions {
   std::vector<std::string> solves;  // names on the server, or .json files

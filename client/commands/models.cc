@@ -1,5 +1,6 @@
 #include "client/commands/commands.h"
 #include "client/json.h"
+#include "client/output.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -57,7 +58,15 @@ std::string ModelText(const v1::Model& model) {
 
 }  // namespace
 
-ExitCode RunModels(const SpecFlags& flags, const GlobalOptions& global, const Terminal& terminal) {
+ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  const SpecFlags& flags = options.flags;
+  if (options.format.empty() && (options.slope_deg || !options.output.empty())) {
+    throw Failure(ExitCode::kUsage, "--output and --slope: need --format, one of " + ModelFormatNames());
+  }
+  if (!options.format.empty()) {
+    if (!flags.model) throw Failure(ExitCode::kUsage, "--format: needs the NAME of a model");
+    RequireOutput(options.output, FindModelFormat(options.format));
+  }
   Connection connection(global);
   grpc::ClientContext context;
   connection.SetDeadline(context);
@@ -66,6 +75,11 @@ ExitCode RunModels(const SpecFlags& flags, const GlobalOptions& global, const Te
     ApplyBodyFlags(flags, *request.mutable_model());
     v1::Model model;
     RequireOk(connection.stub().GetModel(&context, request, &model), "get model " + *flags.model, connection.server());
+    if (!options.format.empty()) {
+      const Ground ground{.slope_rad = options.slope_deg.value_or(0) * kPi / 180, .gravity_m_s2 = model.gravity_m_s2()};
+      WriteExport({{"", FindModelFormat(options.format).of_model(model, ground)}}, options.output, terminal.out);
+      return ExitCode::kSuccess;
+    }
     terminal.out << (global.json ? ToJsonText(model) : ModelText(model)) << std::flush;
     return ExitCode::kSuccess;
   }

@@ -1,12 +1,11 @@
 #include "client/report/report.h"
 
-#include <filesystem>
 #include <memory>
 
 #include "client/commands/commands.h"
+#include "client/commands/finished_solve.h"
 #include "client/failure.h"
 #include "client/json.h"
-#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -33,36 +32,15 @@ std::vector<v1::Iteration> Iterations(Connection& connection, const v1::Solve& s
   return iterations;
 }
 
-bool IsFile(const std::string& solve) { return std::filesystem::path(solve).extension() == ".json"; }
-
-void RequireFinished(const v1::Solve& solve, const std::string& given) {
-  switch (solve.state()) {
-    case v1::SOLVE_STATE_SUCCEEDED:
-    case v1::SOLVE_STATE_FAILED:
-    case v1::SOLVE_STATE_CANCELLED:
-      return;
-    default:
-      throw Failure(ExitCode::kUsage, given + " is " + StateName(solve.state()) +
-                                          "; wait for its end with `rollgait watch " + given + "`");
-  }
-}
-
 }  // namespace
 
 ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   std::vector<ReportedSolve> solves;
   std::unique_ptr<Connection> connection;
   for (const std::string& given : options.solves) {
-    v1::Solve solve;
+    v1::Solve solve = FinishedSolve(given, global, connection);
     std::vector<v1::Iteration> iterations;
-    if (IsFile(given)) {
-      ReadJsonFile(given, solve);
-    } else {
-      if (connection == nullptr) connection = std::make_unique<Connection>(global);
-      solve = connection->GetSolve(given);
-    }
-    RequireFinished(solve, given);
-    if (!IsFile(given)) iterations = Iterations(*connection, solve, terminal);
+    if (!IsSolveFile(given)) iterations = Iterations(*connection, solve, terminal);
     if (options.without_people) solve.mutable_result()->clear_normative();
     solves.emplace_back(std::move(solve), std::move(iterations));
   }

@@ -2,7 +2,7 @@
 # share/bash-completion/completions/rollgait.
 _rollgait() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= word
-  local commands="solve watch get list cancel delete models report reproduce-paper simulate poincare server-info health help"
+  local commands="solve watch get list cancel delete models export report reproduce-paper simulate poincare server-info health help"
   local global="--server --tls-ca --tls-cert --tls-key --token-file --insecure --json --quiet --timeout --version --help"
   local body="--sex --stature --mass --segment --feet --ranges --toes --sagittal --drop-arms --rigid-trunk --lock
     --semi-axes"
@@ -29,6 +29,7 @@ _rollgait() {
     --ranges) COMPREPLY=($(compgen -W "anatomical walking" -- "$current")); return ;;
     --preset) COMPREPLY=($(compgen -W "torque transport human" -- "$current")); return ;;
     --normalize) COMPREPLY=($(compgen -W "distance time none" -- "$current")); return ;;
+    --format) COMPREPLY=($(compgen -W "json csv sto stride mjcf urdf opensim osim mot grf trc bvh gltf glb mcap" -- "$current")); return ;;
     --state) COMPREPLY=($(compgen -W "queued running succeeded failed cancelled" -- "$current")); return ;;
     --output | -o | --spec | --scene | --tls-ca | --tls-cert | --tls-key | --token-file) COMPREPLY=($(compgen -f -- "$current")); return ;;
   esac
@@ -40,7 +41,8 @@ _rollgait() {
       watch) options+=" --after-sequence --output --reconnect" ;;
       get) options+=" --output" ;;
       list) options+=" --state --limit" ;;
-      models) options+=" $body" ;;
+      models) options+=" $body --format --output --slope" ;;
+      export) options+=" --format --output" ;;
       report) options+=" --output --title --no-normative" ;;
       simulate) options+=" --scene --duration --tolerance --output-step --output --validate-only --max-wall-time" ;;
       poincare) options+=" --scene --duration --tolerance --residual --max-iterations --max-wall-time" ;;
@@ -51,10 +53,10 @@ _rollgait() {
   case $command in
     "") COMPREPLY=($(compgen -W "$commands" -- "$current")) ;;
     help) COMPREPLY=($(compgen -W "$commands" -- "$current")) ;;
-    watch | get | cancel | delete | report)
+    watch | get | cancel | delete | report | export)
       local names
       names=$(rollgait --timeout 1 list --limit 100 2> /dev/null | awk 'NR > 1 { print $1 }')
-      COMPREPLY=($(compgen -W "$names" -- "$current") $( [[ $command == report ]] && compgen -f -X '!*.json' -- "$current")) ;;
+      COMPREPLY=($(compgen -W "$names" -- "$current") $( [[ $command == report || $command == export ]] && compgen -f -X '!*.json' -- "$current")) ;;
     models)
       COMPREPLY=($(compgen -W "$(rollgait --timeout 1 models 2> /dev/null | awk 'NR > 1 { print $1 }')" -- "$current")) ;;
   esac

@@ -12,6 +12,8 @@
 namespace rollgait::client {
 
 inline Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+// An unset quaternion is the identity.
+Eigen::Matrix3d ToRotation(const v1::Quaternion& q);
 
 // An unset quaternion is the identity.
 Eigen::Matrix3d ToRotation(const v1::Quaternion& q);

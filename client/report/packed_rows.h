@@ -26,9 +26,6 @@ class PackedRows {
   std::string bytes_;
 };
 
-// RFC 4648, with padding.
-std::string Base64(const std::string& bytes);
-
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_REPORT_PACKED_ROWS_H_

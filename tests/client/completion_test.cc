@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "client/bound_flags.h"
+#include "client/formats/format_table.h"
 #include "tests/client/client_process.h"
 
 namespace rollgait::client {
@@ -22,7 +23,7 @@ TEST(CompletionTest, KnowsEveryFlag) {
   const std::string script = text.str();
   for (std::sregex_iterator at(script.begin(), script.end(), flag), end; at != end; ++at) completed.insert(at->str());
   for (const std::string command :
-       {"", "solve", "watch", "get", "list", "models", "report", "reproduce-paper", "simulate", "poincare"}) {
+       {"", "solve", "watch", "get", "list", "models", "export", "report", "reproduce-paper", "simulate", "poincare"}) {
     ClientProcess client(command.empty() ? std::vector<std::string>{"--help"}
                                          : std::vector<std::string>{command, "--help"});
     ASSERT_EQ(client.Wait(), 0);
@@ -47,6 +48,19 @@ TEST(CompletionTest, KnowsEveryBound) {
   for (const std::string& name : BoundNames()) {
     EXPECT_TRUE(std::regex_search(text.str(), std::regex("[\" ]" + name + "[\" \n]"))) << name;
   }
+}
+
+TEST(CompletionTest, KnowsEveryFormat) {
+  std::ifstream file(ROLLGAIT_COMPLETION);
+  std::ostringstream text;
+  text << file.rdbuf();
+  const std::regex formats("--format\\) COMPREPLY=\\(\\$\\(compgen -W \"([a-z ]+)\"");
+  const std::string script = text.str();
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(script, match, formats));
+  std::string expected;
+  for (const Format& format : Formats()) expected += (expected.empty() ? "" : " ") + format.name;
+  EXPECT_EQ(match[1], expected);
 }
 
 }  // namespace

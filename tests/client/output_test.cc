@@ -7,6 +7,8 @@
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
+#include "client/formats/points_csv.h"
+#include "client/formats/sto.h"
 #include "tests/client/sample_solve.h"
 
 namespace rollgait::client {
@@ -116,7 +118,7 @@ TEST(OutputTest, RefusesWhatCannotBeWritten) {
   v1::Solve solve = SampleSolve("solves/a", 0);
   solve.mutable_result()->clear_trajectory();
   try {
-    ToCsv(solve);
+    ExportSolve(solve, FindFormat("csv"));
     FAIL() << "wrote a table without a trajectory";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::kNoSolution);

@@ -110,7 +110,7 @@ TEST_F(SolveCommandTest, ExitCodesOfTheOutcomes) {
   EXPECT_EQ(exit_code({"watch", "nosuch"}), 7);
   EXPECT_EQ(exit_code({"solve", "--no-such-flag"}), 2);
   EXPECT_EQ(exit_code({"solve", "--scheme", "euler"}), 2);
-  EXPECT_EQ(exit_code({"solve", "--model", "planar", "--output", "a.xml"}), 2);
+  EXPECT_EQ(exit_code({"solve", "--model", "planar", "--output", "a.txt"}), 2);
   EXPECT_EQ(exit_code({"solve", "--model", "planar", "--spec", "no-such-file.json"}), 2);
   EXPECT_EQ(exit_code({}), 2);
   EXPECT_EQ(exit_code({"solve", "--help"}), 0);

@@ -176,6 +176,20 @@ class StrideOfBothLegs(unittest.TestCase):
         table = np.genfromtxt(path, delimiter=",", names=True, deletechars="")
         np.testing.assert_array_equal(table["knee_r"], stride["knee_r"])
 
+    def test_agrees_with_the_table_of_the_command_line(self):
+        path = work() / "exported.json"
+        gait.to_json(path)
+        run = subprocess.run([os.environ["ROLLGAIT"], "export", str(path), "--format", "stride"], stdout=subprocess.PIPE, check=True)
+        names, *lines = run.stdout.decode().splitlines()
+        table = dict(zip(names.split(","), np.array([[float(cell) for cell in line.split(",")] for line in lines]).T))
+        stride = gait.stride(201)
+        self.assertEqual(list(table)[:len(stride.columns)], stride.columns)
+        for name in stride:
+            if ".effort" in name:  # lines between points here, the polynomials through them there
+                self.assertLess(np.median(np.abs(table[name] - stride[name])), 0.5, name)
+            else:
+                np.testing.assert_allclose(table[name], stride[name], atol=1e-6, err_msg=name)
+
     def test_says_which_columns_there_are(self):
         with self.assertRaisesRegex(KeyError, "no column 'knee'.*knee_r"):
             gait.stride()["knee"]
