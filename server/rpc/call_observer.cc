@@ -21,7 +21,6 @@ namespace {
 using grpc::experimental::InterceptionHookPoints;
 using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
 
-constexpr int64_t kRefusalsPerSecond = 50;
 constexpr size_t kMaxRequestId = 128;
 
 std::string Value(const Metadata& metadata, const char* name) {
@@ -44,17 +43,6 @@ bool IsDefect(grpc::StatusCode code) {
 }
 
 }  // namespace
-
-bool CallObserver::Shared::MayLogRefusal(int64_t* held_back) {
-  const int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::seconds(1);
-  if (second.exchange(now) != now) written = 0;
-  if (written.fetch_add(1) >= kRefusalsPerSecond) {
-    ++suppressed;
-    return false;
-  }
-  *held_back = suppressed.exchange(0);
-  return true;
-}
 
 // One call, from its metadata to its end. gRPC calls Intercept from one thread at a time for each direction.
 class CallObserver::Call : public grpc::experimental::Interceptor {
@@ -101,8 +89,8 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     shared_->rpc.Handled(method_, status.error_code()).Increment();
     method_.seconds->Observe(duration.count());
     const bool refused = !status.ok() && !IsDefect(status.error_code());
-    int64_t suppressed = 0;
-    if (record_ == nullptr || (refused && !shared_->MayLogRefusal(&suppressed))) return;
+    const std::optional<int64_t> suppressed = refused ? shared_->refusals.Take() : 0;
+    if (record_ == nullptr || !suppressed) return;
     const auto level = IsDefect(status.error_code())    ? spdlog::level::err
                        : refused || !OnlyReads(method_) ? spdlog::level::info
                                                         : spdlog::level::debug;
@@ -118,7 +106,7 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
                 {"duration_s", duration.count()},
                 {"peer", record_->origin().peer},
                 {"reason", status.error_message()},
-                {"suppressed", suppressed}});
+                {"suppressed", *suppressed}});
     }
   }
 

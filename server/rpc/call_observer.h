@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/base/rate_limit.h"
 #include "server/rpc/rpc_metrics.h"
 
 namespace rollgait::server {
@@ -30,11 +31,9 @@ class CallObserver : public grpc::experimental::ServerInterceptorFactoryInterfac
   class Call;
   struct Shared {
     explicit Shared(Metrics& metrics) : rpc(metrics) {}
-    // True if a refusal may be written now; how many were not since the last that was.
-    bool MayLogRefusal(int64_t* suppressed);
 
     RpcMetrics rpc;
-    std::atomic<int64_t> second{0}, written{0}, suppressed{0};
+    RateLimit refusals{50};  // lines a second: a screenful, and 0.2 KB each
   };
   const std::shared_ptr<Shared> shared_;  // calls may outlive the builder's list of observers
 };
