@@ -14,12 +14,13 @@
 #include "server/base/logging.h"
 #include "server/base/trace_context.h"
 #include "server/rpc/call_record.h"
+#include "server/rpc/door.h"
 
 namespace rollgait::server {
 namespace {
 
 using grpc::experimental::InterceptionHookPoints;
-using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
+using Metadata = CallMetadata;
 
 constexpr size_t kMaxRequestId = 128;
 
@@ -66,6 +67,10 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     if (at(InterceptionHookPoints::POST_RECV_MESSAGE) && batch->GetRecvMessage() != nullptr)
       method_.messages_received->Increment();
     if (at(InterceptionHookPoints::PRE_SEND_MESSAGE)) method_.messages_sent->Increment();
+    if (at(InterceptionHookPoints::PRE_SEND_INITIAL_METADATA) && at(InterceptionHookPoints::PRE_SEND_STATUS) &&
+        shared_->behind_door && batch->GetSendStatus().error_code() == grpc::StatusCode::UNAUTHENTICATED) {
+      batch->GetSendInitialMetadata()->emplace(kDoorRefused, "unauthenticated");
+    }
     if (at(InterceptionHookPoints::PRE_SEND_STATUS) && !ended_) End(batch->GetSendStatus());
     batch->Proceed();
   }
@@ -77,7 +82,8 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     origin.method = method_.service == "unknown" ? "unknown" : info_.method();
     origin.request_id = IsRequestId(wish) ? wish : RandomId();
     origin.traceparent = ContinueTrace(Value(metadata, "traceparent"));
-    origin.peer = context_.peer();
+    const Outcome<std::string> told = shared_->behind_door ? PeerBehindDoor(metadata) : context_.peer();
+    origin.peer = told.ok() ? told.value() : context_.peer();
     context_.AddInitialMetadata("x-request-id", origin.request_id);
     record_ = std::make_shared<CallRecord>(std::move(origin));
     KeepRecord(context_, record_);

@@ -23,16 +23,19 @@ namespace rollgait::server {
 // not.
 class CallObserver : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  // Metrics outlive the server.
-  explicit CallObserver(Metrics& metrics) : shared_(std::make_shared<Shared>(metrics)) {}
+  // Metrics outlive the server. Behind a door (door.h) it is the door that knows the peer, and it is told in the
+  // initial metadata of an answer when that is UNAUTHENTICATED.
+  explicit CallObserver(Metrics& metrics, bool behind_door = false)
+      : shared_(std::make_shared<Shared>(metrics, behind_door)) {}
   grpc::experimental::Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* info) override;
 
  private:
   class Call;
   struct Shared {
-    explicit Shared(Metrics& metrics) : rpc(metrics) {}
+    Shared(Metrics& metrics, bool door) : rpc(metrics), behind_door(door) {}
 
     RpcMetrics rpc;
+    const bool behind_door;
     RateLimit refusals{50};  // lines a second: a screenful, and 0.2 KB each
   };
   const std::shared_ptr<Shared> shared_;  // calls may outlive the builder's list of observers
