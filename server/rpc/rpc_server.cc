@@ -30,7 +30,12 @@ std::string HostOf(const std::string& listen) {
   return host;
 }
 
+// What messages that have not come to their end may occupy: nobody has been asked for a token by then. Above it gRPC
+// ends connections that are idle and calls that wait. 64 requests of the largest size.
+constexpr size_t kMostReadAhead = size_t{256} << 20;
+
 void SetLimits(grpc::ServerBuilder& builder) {
+  builder.SetResourceQuota(grpc::ResourceQuota("rollgaitd").Resize(kMostReadAhead));
   // The transport takes four times what is looked at, so that a request over the limit is refused with a reason of
   // ours.
   builder.SetMaxReceiveMessageSize(static_cast<int>(4 * kMaxRequestBytes));
