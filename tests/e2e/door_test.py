@@ -98,8 +98,8 @@ class Server:
                  "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **door})
 
     def token(self):
-        return run(os.environ["ROLLGAITD"], "token", "create", "--data-dir", self.directory + "/data", "--tenant", "lab",
-                   "--scopes", "read,solve").strip()
+        return run(os.environ["ROLLGAITD"], "token", "create", "--data-dir", self.directory + "/data", "--tenant",
+                   "lab", "--scopes", "read,solve").strip()
 
     def stop(self):
         for process in (self.haproxy, self.rollgaitd):
@@ -179,15 +179,16 @@ class DoorTest(unittest.TestCase):
         caller.start()
         attacks = ["continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections",
                    "half_handshakes", "half_calls", "half_bodies", "unread_refusals", "unread_answers"]
-        print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | haproxy MiB |")
+        print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB |")
         try:
             for number, name in enumerate(attacks):
                 more = ("--token", server.directory + "/token") if name == "unread_answers" else ()
                 caller.times.clear()
-                made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"), *more)
+                made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
+                                   *more)
                 peaks = memory(server.rollgaitd), memory(server.haproxy)
-                print(f"| {name} | {made['connections']} | {made['streams']} | {made['bytes'] / 1e6:.0f} | {caller.row()} "
-                      f"| {peaks[0]} | {peaks[1]} |", flush=True)
+                print(f"| {name} | {made['connections']} | {made['streams']} | {made['bytes'] / 1e6:.0f} "
+                      f"| {caller.row()} | {peaks[0]} | {peaks[1]} |", flush=True)
                 self.assertGreater(made["connections"], 0, "the attack never reached the door")
                 self.assertIsNone(server.rollgaitd.poll(), "rollgaitd has ended")
                 self.assertIsNone(server.haproxy.poll(), "haproxy has ended")
@@ -229,11 +230,21 @@ class DoorTest(unittest.TestCase):
         audit = run(os.environ["ROLLGAITD"], "audit", "--data-dir", server.directory + "/data")
         self.assertIn("peer=ipv4:127.0.0.1:", audit)
 
+    def test_the_configuration_holds_no_warning(self):
+        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")}):
+            checked = subprocess.run(
+                ["haproxy", "-c", "-f", SOURCE + "/docker/door/haproxy.cfg"], capture_output=True, text=True, check=False,
+                env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin",
+                     "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **more})
+            self.assertEqual(checked.returncode, 0, checked.stderr)
+            self.assertNotIn("WARNING", checked.stderr)
+
     def test_a_certificate_is_asked_for_where_it_must_be(self):
         server = self.serve("--behind-door", "--require-token",
                             door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")})
         credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
-        with grpc.secure_channel(server.address, credentials, (("grpc.ssl_target_name_override", "localhost"),)) as channel:
+        options = (("grpc.ssl_target_name_override", "localhost"), ("grpc.use_local_subchannel_pool", 1))
+        with grpc.secure_channel(server.address, credentials, options) as channel:
             with self.assertRaises(grpc.RpcError) as caught:
                 channel.unary_unary("/rollgait.v1.GaitService/GetServerInfo")(b"", timeout=5)
             self.assertIn(caught.exception.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED))
@@ -241,8 +252,8 @@ class DoorTest(unittest.TestCase):
     def test_a_reader_of_the_log_that_stands_still_holds_up_nobody(self):
         ends = os.pipe()
         server = subprocess.Popen(
-            [os.environ["ROLLGAITD"], "--data-dir", self.directory.name + "/still", "--listen", "127.0.0.1:0", "--solver",
-             os.environ["SLOW_SOLVER"], "--log-level", "debug"], stdout=subprocess.PIPE, stderr=ends[1])
+            [os.environ["ROLLGAITD"], "--data-dir", self.directory.name + "/still", "--listen", "127.0.0.1:0",
+             "--solver", os.environ["SLOW_SOLVER"], "--log-level", "debug"], stdout=subprocess.PIPE, stderr=ends[1])
         os.close(ends[1])
         address = server.stdout.readline().decode().strip().removeprefix("rollgaitd listening on ")
         with grpc.insecure_channel(address) as channel:
