@@ -212,7 +212,7 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
   app.add_option("--max-connections", flags.connections.total,
                  "Connections at once; default: what the limit of open files leaves")
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: all")
+  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: half")
       ->check(CLI::Range(1, 1'000'000));
 }
 
