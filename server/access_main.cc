@@ -190,17 +190,16 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
       app.add_option("--tls-cert", flags.tls.cert, "Certificate chain of this server, PEM; read again when it changes");
   auto* key = app.add_option("--tls-key", flags.tls.key, "Private key of --tls-cert, PEM")->needs(cert);
   cert->needs(key);
-  auto* ca = app.add_option("--tls-client-ca", flags.tls.client_ca,
-                            "Every client must show a certificate signed by one of these, PEM")
-                 ->needs(cert);
+  app.add_option("--tls-client-ca", flags.tls.client_ca,
+                 "Every client must show a certificate signed by one of these, PEM")
+      ->needs(cert);
   app.add_option("--certificate-tenant", flags.certificate_tenant,
                  "A client's certificate stands for the tenant in its cn (common name) or uri (alternative name); "
                  "default: none")
       ->transform(
           CLI::CheckedTransformer(std::map<std::string, CertificateTenant>{{"none", CertificateTenant::kNone},
                                                                            {"cn", CertificateTenant::kCommonName},
-                                                                           {"uri", CertificateTenant::kUri}}))
-      ->needs(ca);
+                                                                           {"uri", CertificateTenant::kUri}}));
   app.add_flag("--require-token", flags.require_token, "Ask every call for a token; see `rollgaitd token --help`");
   app.add_option("--tenant-max-queued", flags.limits.max_queued,
                  "Solves of a tenant that may wait; 0: no limit of its own")
@@ -213,7 +212,7 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
   app.add_option("--max-connections", flags.connections.total,
                  "Connections at once; default: what the limit of open files leaves")
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: all")
+  app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: half")
       ->check(CLI::Range(1, 1'000'000));
 }
 

@@ -21,12 +21,14 @@
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
 #include "server/base/logging.h"
+#include "server/base/memory_return.h"
 #include "server/base/metrics.h"
 #include "server/base/notify.h"
 #include "server/base/sandbox.h"
 #include "server/base/solver_build.h"
 #include "server/base/solver_choice.h"
 #include "server/base/supervisor.h"
+#include "server/listen_main.h"
 #include "server/rpc/grpc_log.h"
 #include "server/rpc/rpc_server.h"
 #include "server/service/core_knowledge.h"
@@ -49,8 +51,7 @@ struct Flags {
   int store_wait_s = kDefaultStoreWaitSeconds;
   double keep_solves_days = 0, keep_events_days = 0, keep_audit_days = 0;
   int64_t keep_solves_mb = 0, reserve_mb = 64;
-  std::string listen = "127.0.0.1:50051";
-  bool insecure_listen = false;
+  ListenFlags listen;
   AccessFlags access;
   int solver_slots = -1;  // -1: not said
   int simulation_slots = 2;
@@ -80,9 +81,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--store-wait-s", flags.store_wait_s, kStoreWaitHelp)
       ->check(CLI::Range(0, 86400))
       ->capture_default_str();
-  app.add_option("--listen", flags.listen, "HOST:PORT, port 0: any free one; printed as `rollgaitd listening on ...`")
-      ->capture_default_str();
-  app.add_flag("--insecure-listen", flags.insecure_listen, "Allow plain text beyond the loopback interface");
+  AddListenFlags(app, flags.listen);
   AddAccessFlags(app, flags.access);
   app.add_option(
          "--solver-slots", flags.solver_slots,
@@ -278,7 +277,8 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   gate.limits = flags.access.limits;
   Gatekeeper gatekeeper(gate, &access, &clock);
   RpcOptions rpc_options;
-  rpc_options.listen = flags.listen;
+  rpc_options.listen = flags.listen.address;
+  rpc_options.behind_door = flags.listen.behind_door;
   rpc_options.tls = flags.access.tls;
   rpc_options.certificate_tenant = flags.access.certificate_tenant;
   rpc_options.connections = flags.access.connections;
@@ -302,6 +302,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   std::printf("rollgaitd listening on %s\n", server.value()->address().c_str());
   std::fflush(stdout);
 
+  const MemoryReturn memory_return;
   const RetentionTask retention(measured_store, Retention(flags), std::chrono::minutes(1));
 
   int received = 0;
@@ -326,13 +327,11 @@ int Main(int argc, char** argv) {
   LogWhatGrpcSays();
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");
-  if (!IsLoopback(flags.listen) && flags.access.tls.cert.empty() && !flags.insecure_listen) {
-    return Fail(
-        "--listen " + flags.listen + " is not a loopback address and this server speaks plain text: anyone on the " +
-        "network could read and use it. Give --tls-cert and --tls-key, listen on 127.0.0.1, or say --insecure-listen");
-  }
-  if (!IsLoopback(flags.listen) && !flags.access.asks_who_calls() && flags.access.tls.client_ca.empty()) {
-    spdlog::warn("everyone who reaches {} may use this server: give --require-token or --tls-client-ca", flags.listen);
+  if (const auto obstacle = ListenObstacle(flags.listen, flags.access)) return Fail(*obstacle);
+  const bool is_reached = flags.listen.behind_door || !IsLoopback(flags.listen.address);
+  if (is_reached && !flags.access.asks_who_calls() && flags.access.tls.client_ca.empty()) {
+    spdlog::warn("everyone who reaches {} may use this server: give --require-token or --tls-client-ca",
+                 flags.listen.address);
   }
   if (const auto obstacle = flags.unconfined_solver ? std::nullopt : SandboxObstacle()) {
     return Fail(*obstacle + "; --unconfined-solver runs solves and simulations without it");

@@ -183,7 +183,6 @@ void Gatekeeper::Note(const Caller& caller, const Error& error) {
 
 void Gatekeeper::AuditRefusal(const MethodRule& rule, const Presented& presented, const std::string& token_id,
                               const Error& error) {
-  spdlog::info("{} of {} refused: {}", rule.name, presented.peer, error.message);
   if (store_ == nullptr) return;
   std::string detail = error.message;
   {

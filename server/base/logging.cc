@@ -1,7 +1,7 @@
 #include "server/base/logging.h"
 
 #include <spdlog/formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -9,8 +9,10 @@
 #include <cstdio>
 #include <ctime>
 #include <memory>
+#include <mutex>
 
 #include "server/base/log_line.h"
+#include "server/base/log_writer.h"
 
 namespace rollgait::server {
 namespace {
@@ -37,7 +39,7 @@ std::string_view LevelName(spdlog::level::level_enum level) {
 
 }  // namespace
 
-// The sink is synchronous: a line is formatted in the thread that logs it, where its fields are.
+// A line is formatted in the thread that logs it, where its fields are.
 class LogFormatter : public spdlog::formatter {
  public:
   LogFormatter(std::string program, LogFormat format) : program_(std::move(program)), format_(format) {}
@@ -72,6 +74,33 @@ class LogFormatter : public spdlog::formatter {
   const LogFormat format_;
 };
 
+// Hands formatted lines to the thread that writes them.
+class QueueSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  QueueSink(const std::string& program, LogFormat format)
+      : writer_({STDERR_FILENO, LogWriter::Options().most_bytes,
+                 [program, format](int64_t lines) { return DroppedLine(program, format, lines); }}) {}
+
+ private:
+  static std::string DroppedLine(const std::string& program, LogFormat format, int64_t lines) {
+    LogLine line(format);
+    line.AddWord("ts", Rfc3339(std::chrono::system_clock::now()));
+    line.AddWord("level", "warning");
+    line.AddWord("program", program);
+    line.AddWord("event", "log.dropped");
+    line.Add({"lines", lines});
+    return std::move(line).Take() + "\n";
+  }
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t text;
+    formatter_->format(message, text);
+    writer_.Write(std::string(text.data(), text.size()));
+  }
+  void flush_() override { writer_.Flush(LogWriter::kEndWait); }
+
+  LogWriter writer_;
+};
+
 std::vector<std::string> LogFormatWishes() { return {"auto", "json", "text"}; }
 std::vector<std::string> LogLevels() { return {"debug", "info", "warning", "error"}; }
 
@@ -81,10 +110,11 @@ LogFormat ChooseLogFormat(const std::string& wish) {
 }
 
 void StartLogging(const LogOptions& options) {
-  auto logger = std::make_shared<spdlog::logger>(options.program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  auto logger =
+      std::make_shared<spdlog::logger>(options.program, std::make_shared<QueueSink>(options.program, options.format));
   logger->set_formatter(std::make_unique<LogFormatter>(options.program, options.format));
   logger->set_level(spdlog::level::from_str(options.level));
-  logger->flush_on(spdlog::level::trace);
+  logger->flush_on(spdlog::level::critical);
   spdlog::set_default_logger(std::move(logger));
 }
 

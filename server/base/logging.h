@@ -17,7 +17,9 @@ namespace rollgait::server {
 
 // The log of a program: standard error, one line an event, as JSON or for people. Strings of others are safe to log:
 // control characters, quotes and bytes that are no UTF-8 are escaped, so no value can end its line or its field.
-// Secrets are not: tokens and passwords are never given to a log. Threads may share everything here.
+// Lines are written by a thread of their own: who logs never waits for the reader of standard error, and of lines that
+// do not fit into 4 MiB the oldest are dropped; event "log.dropped" counts them.
+// Secrets are not safe to log: tokens and passwords are never given to a log. Threads may share everything here.
 //
 // Plain spdlog::info("...") belongs to it as event "message".
 
@@ -35,7 +37,8 @@ LogFormat ChooseLogFormat(const std::string& wish);
 // The values of --log-level.
 std::vector<std::string> LogLevels();
 
-// From now on the process logs so. Before, spdlog's own format goes to standard output.
+// From now on the process logs so. A critical line is waited for, for at most half a second. Before, spdlog's own
+// format goes to standard output.
 void StartLogging(const LogOptions& options);
 
 // A field of a line. The name is of [a-z0-9_.] and outlives the line, as does text that is not owned.

@@ -10,6 +10,14 @@
 #include "server/base/process_metrics.h"
 
 namespace rollgait::server {
+namespace {
+
+// A request that does not come holds one of these threads for no longer than this: 32 half requests a second keep
+// others out, and fewer do not. A scraper sends its request in one piece.
+constexpr char kThreads[] = "32";
+constexpr char kRequestTimeoutMillis[] = "1000";
+
+}  // namespace
 
 Metrics::Metrics(const std::string& program, const std::string& version, const std::string& build)
     : registry_(std::make_shared<prometheus::Registry>()) {
@@ -33,7 +41,8 @@ Outcome<std::string> Metrics::Listen(const std::string& address) {
                  "--metrics-listen is " + address + ", must be HOST:PORT, for example 127.0.0.1:9464"};
   }
   try {
-    exposer_ = std::make_unique<prometheus::Exposer>(address);
+    exposer_ = std::make_unique<prometheus::Exposer>(std::vector<std::string>{
+        "listening_ports", address, "num_threads", kThreads, "request_timeout_ms", kRequestTimeoutMillis});
   } catch (const std::exception&) {  // its text is empty or about its own options
     return Error{ErrorCode::kUnavailable,
                  "cannot serve metrics on " + address +

@@ -4,14 +4,21 @@
 #include <grpcpp/grpcpp.h>
 
 #include "server/access/gatekeeper.h"
+#include "server/base/outcome.h"
 
 namespace rollgait::server {
 
 // Which name in a client's certificate is its tenant's.
 enum class CertificateTenant { kNone, kCommonName, kUri };
 
-// What a call shows of where it comes from. A certificate counts only if TLS has verified it.
-Presented ReadIdentity(const grpc::CallbackServerContext& context, CertificateTenant certificate_tenant);
+struct IdentitySource {
+  CertificateTenant certificate_tenant = CertificateTenant::kNone;
+  bool behind_door = false;  // the door has verified certificates and knows addresses
+};
+
+// What a call shows of where it comes from. A certificate counts only if TLS has verified it, here or at the door.
+// kFailedPrecondition: the door does not say what it must.
+Outcome<Presented> ReadIdentity(const grpc::CallbackServerContext& context, const IdentitySource& source);
 
 }  // namespace rollgait::server
 

@@ -14,14 +14,14 @@
 #include "server/base/logging.h"
 #include "server/base/trace_context.h"
 #include "server/rpc/call_record.h"
+#include "server/rpc/door.h"
 
 namespace rollgait::server {
 namespace {
 
 using grpc::experimental::InterceptionHookPoints;
-using Metadata = std::multimap<grpc::string_ref, grpc::string_ref>;
+using Metadata = CallMetadata;
 
-constexpr int64_t kRefusalsPerSecond = 50;
 constexpr size_t kMaxRequestId = 128;
 
 std::string Value(const Metadata& metadata, const char* name) {
@@ -45,17 +45,6 @@ bool IsDefect(grpc::StatusCode code) {
 
 }  // namespace
 
-bool CallObserver::Shared::MayLogRefusal(int64_t* held_back) {
-  const int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::seconds(1);
-  if (second.exchange(now) != now) written = 0;
-  if (written.fetch_add(1) >= kRefusalsPerSecond) {
-    ++suppressed;
-    return false;
-  }
-  *held_back = suppressed.exchange(0);
-  return true;
-}
-
 // One call, from its metadata to its end. gRPC calls Intercept from one thread at a time for each direction.
 class CallObserver::Call : public grpc::experimental::Interceptor {
  public:
@@ -78,6 +67,10 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     if (at(InterceptionHookPoints::POST_RECV_MESSAGE) && batch->GetRecvMessage() != nullptr)
       method_.messages_received->Increment();
     if (at(InterceptionHookPoints::PRE_SEND_MESSAGE)) method_.messages_sent->Increment();
+    if (at(InterceptionHookPoints::PRE_SEND_INITIAL_METADATA) && at(InterceptionHookPoints::PRE_SEND_STATUS) &&
+        shared_->behind_door && batch->GetSendStatus().error_code() == grpc::StatusCode::UNAUTHENTICATED) {
+      batch->GetSendInitialMetadata()->emplace(kDoorRefused, "unauthenticated");
+    }
     if (at(InterceptionHookPoints::PRE_SEND_STATUS) && !ended_) End(batch->GetSendStatus());
     batch->Proceed();
   }
@@ -89,7 +82,8 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     origin.method = method_.service == "unknown" ? "unknown" : info_.method();
     origin.request_id = IsRequestId(wish) ? wish : RandomId();
     origin.traceparent = ContinueTrace(Value(metadata, "traceparent"));
-    origin.peer = context_.peer();
+    const Outcome<std::string> told = shared_->behind_door ? PeerBehindDoor(metadata) : context_.peer();
+    origin.peer = told.ok() ? told.value() : context_.peer();
     context_.AddInitialMetadata("x-request-id", origin.request_id);
     record_ = std::make_shared<CallRecord>(std::move(origin));
     KeepRecord(context_, record_);
@@ -101,8 +95,8 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
     shared_->rpc.Handled(method_, status.error_code()).Increment();
     method_.seconds->Observe(duration.count());
     const bool refused = !status.ok() && !IsDefect(status.error_code());
-    int64_t suppressed = 0;
-    if (record_ == nullptr || (refused && !shared_->MayLogRefusal(&suppressed))) return;
+    const std::optional<int64_t> suppressed = refused ? shared_->refusals.Take() : 0;
+    if (record_ == nullptr || !suppressed) return;
     const auto level = IsDefect(status.error_code())    ? spdlog::level::err
                        : refused || !OnlyReads(method_) ? spdlog::level::info
                                                         : spdlog::level::debug;
@@ -118,7 +112,7 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
                 {"duration_s", duration.count()},
                 {"peer", record_->origin().peer},
                 {"reason", status.error_message()},
-                {"suppressed", suppressed}});
+                {"suppressed", *suppressed}});
     }
   }
 

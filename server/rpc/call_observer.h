@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/base/rate_limit.h"
 #include "server/rpc/rpc_metrics.h"
 
 namespace rollgait::server {
@@ -22,19 +23,20 @@ namespace rollgait::server {
 // not.
 class CallObserver : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  // Metrics outlive the server.
-  explicit CallObserver(Metrics& metrics) : shared_(std::make_shared<Shared>(metrics)) {}
+  // Metrics outlive the server. Behind a door (door.h) it is the door that knows the peer, and it is told in the
+  // initial metadata of an answer when that is UNAUTHENTICATED.
+  explicit CallObserver(Metrics& metrics, bool behind_door = false)
+      : shared_(std::make_shared<Shared>(metrics, behind_door)) {}
   grpc::experimental::Interceptor* CreateServerInterceptor(grpc::experimental::ServerRpcInfo* info) override;
 
  private:
   class Call;
   struct Shared {
-    explicit Shared(Metrics& metrics) : rpc(metrics) {}
-    // True if a refusal may be written now; how many were not since the last that was.
-    bool MayLogRefusal(int64_t* suppressed);
+    Shared(Metrics& metrics, bool door) : rpc(metrics), behind_door(door) {}
 
     RpcMetrics rpc;
-    std::atomic<int64_t> second{0}, written{0}, suppressed{0};
+    const bool behind_door;
+    RateLimit refusals{50};  // lines a second: a screenful, and 0.2 KB each
   };
   const std::shared_ptr<Shared> shared_;  // calls may outlive the builder's list of observers
 };

@@ -95,7 +95,7 @@ ConnectionAcceptor::ConnectionAcceptor(const ConnectionLimits& limits)
     : limits_(limits), reserve_fd_(OpenReserve()), stop_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   const int room = std::max(16, DescriptorLimit() - kOwnDescriptors);
   limits_.total = limits.total > 0 ? std::min(limits.total, room) : room;
-  if (limits_.per_peer <= 0) limits_.per_peer = limits_.total;
+  if (limits_.per_peer <= 0) limits_.per_peer = std::max(1, limits_.total / 2);
 }
 
 ConnectionAcceptor::~ConnectionAcceptor() {

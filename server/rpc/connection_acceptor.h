@@ -18,8 +18,9 @@
 namespace rollgait::server {
 
 struct ConnectionLimits {
-  int total = 0;     // 0: what the limit of descriptors leaves beside those the server needs itself
-  int per_peer = 0;  // from one IPv4 address or one IPv6 /64 network; 0: total
+  int total = 0;  // 0: what the limit of descriptors leaves beside those the server needs itself
+  int per_peer =
+      0;  // from one IPv4 address or one IPv6 /64 network; 0: half of all, so that no one keeps all others out
 };
 
 // Listens and accepts in gRPC's place, and hands connections over. gRPC 1.51 stops accepting for ever when descriptors

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/rpc/call_record.h"
+#include "server/rpc/door.h"
 #include "server/rpc/simulation_stream.h"
 #include "server/rpc/status.h"
 #include "server/rpc/watch_stream.h"
@@ -44,7 +45,9 @@ Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule,
                                                      const grpc::CallbackServerContext& context) {
   Outcome<std::shared_ptr<void>> place = gatekeeper_.Check(rule);
   if (!place.ok()) return place.error();
-  Presented presented = ReadIdentity(context, certificate_tenant_);
+  Outcome<Presented> identity = ReadIdentity(context, identity_source_);
+  if (!identity.ok()) return identity.error();
+  Presented presented = std::move(identity).value();
   std::shared_ptr<CallRecord> record = RecordOf(context);
   if (record != nullptr) presented.traceparent = record->origin().traceparent;
   return Admit([this, &rule, presented = std::move(presented), held = std::move(place).value(),
@@ -63,7 +66,7 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   Outcome<Admit> admit = Enter(rule, *context);
   if (!admit.ok()) {
-    reactor->Finish(Report(context->peer(), admit.error()));
+    reactor->Finish(Report(PeerOf(*context), admit.error()));
     return reactor;
   }
   const bool taken = executor_.TryPost(
@@ -72,7 +75,7 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
         const LogFields fields = FieldsOf(*context);
         const LogScope scope(fields);
         if (!admitted.ok()) {
-          reactor->Finish(Report(context->peer(), admitted.error()));
+          reactor->Finish(Report(PeerOf(*context), admitted.error()));
           return;
         }
         const Caller& caller = admitted.value()->caller();
@@ -81,7 +84,7 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
           reactor->Finish(grpc::Status::OK);
         } else {
           gatekeeper.Note(caller, served.error());
-          reactor->Finish(Report(context->peer(), served.error()));
+          reactor->Finish(Report(PeerOf(*context), served.error()));
         }
       });
   if (!taken) reactor->Finish(ToStatus(TooManyCalls()));

@@ -24,15 +24,14 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
  public:
   // All outlive the gRPC server that this is registered with.
   GaitServiceRpc(SolveService& service, WatchHub& hub, Gatekeeper& gatekeeper, Executor& executor,
-                 SimulationHost& simulations, std::chrono::milliseconds slow_write,
-                 CertificateTenant certificate_tenant)
+                 SimulationHost& simulations, std::chrono::milliseconds slow_write, IdentitySource identity_source)
       : service_(service),
         hub_(hub),
         gatekeeper_(gatekeeper),
         executor_(executor),
         simulations_(simulations),
         slow_write_(slow_write),
-        certificate_tenant_(certificate_tenant) {}
+        identity_source_(identity_source) {}
 
   grpc::ServerWriteReactor<v1::SolveEvent>* RunSolve(grpc::CallbackServerContext* context,
                                                      const v1::RunSolveRequest* request) override;
@@ -87,7 +86,7 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
   Executor& executor_;
   SimulationHost& simulations_;
   const std::chrono::milliseconds slow_write_;
-  const CertificateTenant certificate_tenant_;
+  const IdentitySource identity_source_;
 };
 
 }  // namespace rollgait::server

@@ -4,8 +4,11 @@
 #include <arpa/inet.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -27,7 +30,12 @@ std::string HostOf(const std::string& listen) {
   return host;
 }
 
+// What messages that have not come to their end may occupy: nobody has been asked for a token by then. Above it gRPC
+// ends connections that are idle and calls that wait. 64 requests of the largest size.
+constexpr size_t kMostReadAhead = size_t{256} << 20;
+
 void SetLimits(grpc::ServerBuilder& builder) {
+  builder.SetResourceQuota(grpc::ResourceQuota("rollgaitd").Resize(kMostReadAhead));
   // The transport takes four times what is looked at, so that a request over the limit is refused with a reason of
   // ours.
   builder.SetMaxReceiveMessageSize(static_cast<int>(4 * kMaxRequestBytes));
@@ -52,7 +60,8 @@ RpcServer::RpcServer(const RpcOptions& options, SolveService& service, WatchHub&
       gatekeeper_(gatekeeper),
       executor_(options.executor_threads, options.max_waiting_calls),
       simulations_(options.simulation),
-      rpc_(service, hub, gatekeeper, executor_, simulations_, options.slow_write, options.certificate_tenant),
+      rpc_(service, hub, gatekeeper, executor_, simulations_, options.slow_write,
+           {options.certificate_tenant, options.behind_door}),
       credentials_(grpc::InsecureServerCredentials()) {}
 
 RpcServer::~RpcServer() { Stop(std::chrono::milliseconds(0)); }
@@ -78,7 +87,7 @@ Outcome<Done> RpcServer::Open(const RpcOptions& options) {
   SetDiscovery(builder, {options.discovery, options.discovery, false});
   if (options.metrics != nullptr) {
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> observers;
-    observers.push_back(std::make_unique<CallObserver>(*options.metrics));
+    observers.push_back(std::make_unique<CallObserver>(*options.metrics, options.behind_door));
     builder.experimental().SetInterceptorCreators(std::move(observers));
   }
   builder.RegisterService(&rpc_);
@@ -96,10 +105,18 @@ Outcome<Done> RpcServer::Open(const RpcOptions& options) {
     hand_over = builder.experimental().AddExternalConnectionAcceptor(
         grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials_);
   }
+  // Who may open the door's socket must be of its group; nobody may connect before the mode is set.
+  const mode_t before = umask(is_unix ? 0177 : 0077);
   server_ = builder.BuildAndStart();
+  umask(before);
   if (server_ == nullptr || port == 0) {
     return Error{ErrorCode::kUnavailable,
                  "cannot listen on " + options.listen + ": gRPC refuses; is the path writable?"};
+  }
+  const char* const socket_path = options.listen.c_str() + sizeof("unix:") - 1;
+  if (options.behind_door && (!is_unix || chmod(socket_path, 0660) != 0)) {
+    return Error{ErrorCode::kUnavailable,
+                 "the door's socket " + options.listen + " cannot be given to its group: " + std::strerror(errno)};
   }
   if (options.discovery) server_->GetHealthCheckService()->SetServingStatus(v1::GaitService::service_full_name(), true);
   address_ =

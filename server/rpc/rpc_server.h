@@ -23,6 +23,7 @@ namespace rollgait::server {
 
 struct RpcOptions {
   std::string listen = "127.0.0.1:0";  // HOST:PORT, port 0: any free one; or unix:PATH
+  bool behind_door = false;            // `listen` is a unix socket, mode 0660, and metadata say who calls: door.h
   TlsFiles tls;                        // without a certificate: plain text
   CertificateTenant certificate_tenant = CertificateTenant::kNone;
   ConnectionLimits connections;               // not of unix sockets

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "server/rpc/door.h"
 #include "server/rpc/status.h"
 
 namespace rollgait::server {
@@ -118,7 +119,7 @@ grpc::Status SimulationStream::Run(SimulationCancel& cancel) {
       host_.Run(request_, WallTime(request_), cancel, [this](v1::SimulationMessage&& m) { return Emit(std::move(m)); });
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!outcome.ok() && outcome.error().code == ErrorCode::kInternal) {
-    spdlog::error("simulation of {}: {}", context_->peer(), outcome.error().message);
+    spdlog::error("simulation of {}: {}", PeerOf(*context_), outcome.error().message);
   }
   if (withdrawn_) return ToStatus(*withdrawn_);
   if (client_gone_) return {grpc::StatusCode::CANCELLED, "the client has gone"};

@@ -1,9 +1,10 @@
 """Checks what is deployed: docker/compose*.yaml, docker/kubernetes, docker/slurm, docker/observability.
 
-    python3 tests/container/check_deployments.py DIRECTORY
+    python3 tests/container/check_deployments.py DIRECTORY [CERTIFICATE]
 
 The files parse; every service and pod is confined as docs/operations.md says; flags that they give to programs exist (DIRECTORY
-holds what `rollgaitd --help` and `rollgait-agent --help` print, in files of these names); names that refer to each other agree.
+holds what `rollgaitd --help` and `rollgait-agent --help` print, in files of these names); haproxy takes the door's configuration
+(with CERTIFICATE, name.crt beside its name.key); names that refer to each other agree.
 Prints one line a problem; exit code 1 if there is one.
 """
 import json
@@ -34,6 +35,9 @@ FLAGS = {program: flags_of(program) for program in ("rollgaitd", "rollgait-agent
 
 
 def check_command(where, command):
+    if command[:1] == ["haproxy"]:
+        expect(command[1:] == ["-W", "-db", "-f", "/etc/rollgait/door.cfg"], where, "does not start the door as docs/door.md says")
+        return
     expect(command and command[0] in FLAGS, where, f"the program {command[:1]} is none of {sorted(FLAGS)}")
     for argument in command[1:]:
         flag = argument.split("=")[0]
@@ -111,6 +115,14 @@ check_kubernetes(DOCKER / "kubernetes/rollgait.yaml")
 for yaml_file in sorted((DOCKER / "observability").glob("*.yml")):
     yaml.safe_load(yaml_file.read_text())
 json.loads((DOCKER / "observability/dashboard.json").read_text())
+door = subprocess.run(["haproxy", "-c", "-f", DOCKER / "door/haproxy.cfg"], capture_output=True, text=True,
+                      env={"PATH": "/usr/sbin:/usr/bin:/bin", "ROLLGAIT_DOOR_CERTIFICATE": sys.argv[2]}) if len(sys.argv) > 2 else None
+expect(door is None or door.returncode == 0 and "WARNING" not in door.stderr, "haproxy.cfg", door and door.stderr.strip())
+for unit in (DOCKER / "systemd").glob("*.service"):
+    for line in re.findall(r"^ExecStart=(.*)$", unit.read_text().replace("\\\n", " "), re.M):
+        words = line.split()
+        if words[0].endswith("/rollgaitd"):
+            check_command(unit.name, ["rollgaitd", *words[1:]])
 for script in (DOCKER / "slurm/agents.sbatch", DOCKER / "runtime-packages"):
     checked = subprocess.run(["bash", "-n", script], capture_output=True, text=True)
     expect(checked.returncode == 0, script.name, checked.stderr.strip())

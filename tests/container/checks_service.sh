@@ -1,8 +1,8 @@
 # To be sourced by run: the service over the network.
 # shellcheck shell=bash
 
-# How the server is reached and who may use it: TLS with a certificate authority of this run, and tokens.
-server_access=(--listen 0.0.0.0:50051 --tls-cert /run/secrets/tls.crt --tls-key /run/secrets/tls.key --require-token)
+# How the server is reached and who may use it: without a door (checks_kubernetes has it), TLS with a certificate authority of this run, and tokens.
+server_access=(--listen 0.0.0.0:50051 --without-door --tls-cert /run/secrets/tls.crt --tls-key /run/secrets/tls.key --require-token)
 
 # make_certificate NAME ALTERNATIVE-NAME: NAME.crt and NAME.key, signed by ca.crt.
 make_certificate() {

@@ -222,7 +222,7 @@ FaultReport CutNetwork(const FaultOptions& options) {
   server::Daemon::Options daemon;
   daemon.launcher = host.Launcher();
   daemon.listen = host.address() + ":0";
-  daemon.flags = {"--insecure-listen"};
+  daemon.flags = {"--insecure-listen", "--without-door"};
   FaultyServer server(daemon);
   Load load({server.address()});
   constexpr int kSeconds[] = {2, 40, 8};  // the second is longer than keepalive waits

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/support/scrape.h"
 
 namespace rollgait::server {
@@ -21,6 +24,31 @@ TEST(MetricsTest, AreServedInTheExpositionFormat) {
   EXPECT_GE(samples.at("process_threads"), 1);
   EXPECT_GT(samples.at("process_start_time_seconds"), 1.6e9);
   EXPECT_GE(samples.at("process_cpu_seconds_total"), 0);
+}
+
+// Half requests hold threads of the listener, each for at most a second.
+TEST(MetricsTest, AreServedBesideHalfRequests) {
+  Metrics metrics("tester", "", "");
+  const Outcome<std::string> address = metrics.Listen("127.0.0.1:0");
+  ASSERT_TRUE(address.ok());
+  std::vector<int> halves;
+  for (int i = 0; i < 20; ++i) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<uint16_t>(std::stoi(address.value().substr(address.value().rfind(':') + 1))));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    halves.push_back(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    ASSERT_EQ(connect(halves.back(), reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+    ASSERT_EQ(write(halves.back(), "GET /met", 8), 8);
+  }
+  EXPECT_NE(Scrape(address.value()).find("rollgait_build_info"), std::string::npos);
+  // Each is given up: the server closes, also without an answer.
+  for (const int fd : halves) {
+    char block[4096];
+    while (read(fd, block, sizeof block) > 0) {
+    }
+    close(fd);
+  }
 }
 
 TEST(MetricsTest, AnAddressThatCannotBeServedIsNamed) {

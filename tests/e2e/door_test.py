@@ -1,0 +1,278 @@
+"""The door of docs/door.md: rollgaitd behind haproxy with TLS and tokens, good calls during every attack, and that the
+server learns who calls from the door alone.
+
+  door_test.py [TEST...]    environment: ROLLGAITD, SLOW_SOLVER, ROLLGAIT_SOURCE; exit code 77: haproxy is missing
+
+Asserts answers and memory, not times; prints a row of docs/door.md's table for each attack.
+"""
+import json
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+if shutil.which("haproxy", path=os.environ["PATH"] + ":/usr/sbin") is None or shutil.which("openssl") is None:
+    print("skipped: there is no haproxy here; scripts/install-packages installs it")
+    sys.exit(77)
+try:
+    import grpc
+except ImportError:
+    print("skipped: Python has no grpc here; scripts/install-packages installs it")
+    sys.exit(77)
+
+SOURCE = os.environ["ROLLGAIT_SOURCE"]
+ATTACKS = SOURCE + "/tests/faults/attacks.py"
+MOST_MIB = 512  # a quarter of what the Kubernetes manifest gives rollgaitd
+SECONDS = float(os.environ.get("ROLLGAIT_ATTACK_SECONDS", "4"))
+ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith("ROLLGAIT_DOOR")}
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def memory(process, name="VmHWM"):
+    """MiB of a process: its peak, or what it holds now (VmRSS)."""
+    with open(f"/proc/{process.pid}/status", encoding="utf-8") as status:
+        return int(re.search(name + r":\s+(\d+) kB", status.read()).group(1)) // 1024
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Certificates:
+    def __init__(self, directory):
+        self.directory = directory
+        run("openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days",
+            "2", "-keyout", self.path("ca.key"), "-out", self.path("ca.crt"), "-subj", "/CN=authority")
+        self.make("tls", "localhost", "DNS:localhost")
+        self.make("client", "lab", "URI:urn:lab")
+
+    def path(self, name):
+        return f"{self.directory}/{name}"
+
+    def make(self, name, common_name, alternative_name):
+        with open(self.path("extension"), "w", encoding="utf-8") as extension:
+            extension.write("subjectAltName=" + alternative_name)
+        run("openssl", "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-keyout",
+            self.path(name + ".key"), "-out", self.path(name + ".csr"), "-subj", "/CN=" + common_name)
+        run("openssl", "x509", "-req", "-in", self.path(name + ".csr"), "-CA", self.path("ca.crt"), "-CAkey",
+            self.path("ca.key"), "-CAcreateserial", "-days", "2", "-out", self.path(name + ".crt"), "-extfile",
+            self.path("extension"))
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+
+class Server:
+    """rollgaitd and, unless `flags` say otherwise, the door in front of it."""
+
+    def __init__(self, directory, certificates, flags, door=None):
+        self.directory, self.certificates, self.haproxy = directory, certificates, None
+        os.mkdir(directory)
+        listen = f"unix:{directory}/door.sock" if door is not None else "127.0.0.1:0"
+        self.log = open(directory + "/log", "ab")
+        self.rollgaitd = subprocess.Popen(
+            [os.environ["ROLLGAITD"], "--data-dir", directory + "/data", "--listen", listen, "--solver",
+             os.environ["SLOW_SOLVER"], "--log-level", "debug", *flags], stdout=subprocess.PIPE, stderr=self.log)
+        self.address = self.rollgaitd.stdout.readline().decode().strip().removeprefix("rollgaitd listening on ")
+        if door is not None:
+            self.address = f"127.0.0.1:{free_port()}"
+            self.start_door(door)
+
+    def start_door(self, door):
+        self.haproxy = subprocess.Popen(
+            ["haproxy", "-db", "-f", SOURCE + "/docker/door/haproxy.cfg"], stdout=self.log, stderr=self.log,
+            env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin", "ROLLGAIT_DOOR_LISTEN": self.address,
+                 "ROLLGAIT_DOOR_SOCKET": self.directory + "/door.sock",
+                 "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **door})
+
+    def token(self):
+        return run(os.environ["ROLLGAITD"], "token", "create", "--data-dir", self.directory + "/data", "--tenant",
+                   "lab", "--scopes", "read,solve").strip()
+
+    def stop(self):
+        for process in (self.haproxy, self.rollgaitd):
+            if process is not None:
+                process.terminate()
+                process.wait(30)
+        self.rollgaitd.stdout.close()
+        self.log.close()
+
+    def logged(self):
+        with open(self.directory + "/log", encoding="utf-8", errors="replace") as log:
+            return log.read()
+
+
+def ask(channel, metadata=(), method="GetServerInfo", message=b""):
+    """The bytes of the answer; raises grpc.RpcError."""
+    call = channel.unary_unary("/rollgait.v1.GaitService/" + method)
+    return call(message, metadata=metadata, timeout=30, wait_for_ready=True)
+
+
+class GoodCaller(threading.Thread):
+    """One who calls again and again, now and then over a new connection."""
+
+    def __init__(self, server, token):
+        super().__init__()
+        self.server, self.metadata, self.times, self.failures = server, (("authorization", "Bearer " + token),), [], []
+        self.stopping = threading.Event()
+
+    def run(self):
+        tls = grpc.ssl_channel_credentials(self.server.certificates.read("ca.crt"))
+        while not self.stopping.is_set():
+            options = (("grpc.use_local_subchannel_pool", 1), ("grpc.ssl_target_name_override", "localhost"))
+            with grpc.secure_channel(self.server.address, tls, options) as channel:
+                for _ in range(20):
+                    start = time.monotonic()
+                    try:
+                        ask(channel, self.metadata)
+                    except grpc.RpcError as error:
+                        self.failures.append(str(error.code()) + " " + str(error.details()))
+                    self.times.append(time.monotonic() - start)
+                    if self.stopping.wait(0.02):
+                        break
+
+    def row(self):
+        times = sorted(self.times)
+        return f"{len(times)} | {1000 * times[len(times) // 2]:.0f} | {1000 * times[len(times) * 99 // 100]:.0f}"
+
+
+class DoorTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory(prefix="rollgait-door-")
+        cls.certificates = Certificates(cls.directory.name)
+        cls.servers = 0
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    def serve(self, *flags, door=None):
+        type(self).servers += 1
+        server = Server(f"{self.directory.name}/{self.servers}", self.certificates, flags, door)
+        self.addCleanup(server.stop)
+        return server
+
+    def attack(self, name, server, source, *more):
+        line = run("/usr/bin/python3", ATTACKS, name, "--to", server.address, "--seconds", str(SECONDS), "--source",
+                   source, *more)
+        return json.loads(line)
+
+    def test_good_calls_are_answered_during_every_attack(self):
+        server = self.serve("--behind-door", "--require-token", door={})
+        token = server.token()
+        with open(server.directory + "/token", "w", encoding="utf-8") as file:
+            file.write(token)
+        caller = GoodCaller(server, token)  # from 127.0.0.1
+        caller.start()
+        attacks = ["continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections",
+                   "half_handshakes", "half_calls", "half_bodies", "unread_refusals", "unread_answers"]
+        print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB |")
+        try:
+            for number, name in enumerate(attacks):
+                more = ("--token", server.directory + "/token") if name == "unread_answers" else ()
+                caller.times.clear()
+                made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
+                                   *more)
+                peaks = memory(server.rollgaitd), memory(server.haproxy)
+                print(f"| {name} | {made['connections']} | {made['streams']} | {made['bytes'] / 1e6:.0f} "
+                      f"| {caller.row()} | {peaks[0]} | {peaks[1]} |", flush=True)
+                self.assertGreater(made["connections"], 0, "the attack never reached the door")
+                self.assertIsNone(server.rollgaitd.poll(), "rollgaitd has ended")
+                self.assertIsNone(server.haproxy.poll(), "haproxy has ended")
+                self.assertLess(peaks[0], MOST_MIB, name)
+                self.assertLess(peaks[1], MOST_MIB, name)
+        finally:
+            caller.stopping.set()
+            caller.join()
+        self.assertEqual(caller.failures, [])
+
+    def test_without_the_door_the_attack_is_felt(self):
+        """What the test above would see if the door did not hold."""
+        server = self.serve()
+        deadline, peak = time.monotonic() + 120, 0
+        while peak <= MOST_MIB and time.monotonic() < deadline:
+            self.attack("rapid_reset", server, "127.0.0.2")
+            peak = memory(server.rollgaitd)
+        print(f"| rapid_reset without the door | rollgaitd {peak} MiB |")
+        self.assertGreater(peak, MOST_MIB)
+
+    def test_the_door_and_nobody_else_says_who_calls(self):
+        server = self.serve("--behind-door", "--certificate-tenant", "cn",
+                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt"),
+                                  "ROLLGAIT_DOOR_VERIFY": "optional"})
+        ca, key, cert = (self.certificates.read(name) for name in ("ca.crt", "client.key", "client.crt"))
+        options = (("grpc.ssl_target_name_override", "localhost"), ("grpc.use_local_subchannel_pool", 1))
+        with grpc.secure_channel(server.address, grpc.ssl_channel_credentials(ca, key, cert), options) as channel:
+            self.assertIn(b"lab", ask(channel))
+        forged = run("openssl", "x509", "-in", self.certificates.path("client.crt"), "-outform", "pem")
+        forged = "".join(forged.split("\n")[1:-2])
+        with grpc.secure_channel(server.address, grpc.ssl_channel_credentials(ca), options) as channel:
+            for name, value in (("x-rollgait-client-certificate", forged), ("x-rollgait-peer", "ipv4:203.0.113.9:1")):
+                with self.assertRaises(grpc.RpcError) as caught:
+                    ask(channel, ((name, value),))
+                self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAUTHENTICATED)
+        time.sleep(0.5)
+        self.assertIn('"peer":"ipv4:127.0.0.1:', server.logged())
+        self.assertNotIn("203.0.113.9", server.logged())
+        audit = run(os.environ["ROLLGAITD"], "audit", "--data-dir", server.directory + "/data")
+        self.assertIn("peer=ipv4:127.0.0.1:", audit)
+
+    def test_the_configuration_holds_no_warning(self):
+        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")}):
+            checked = subprocess.run(
+                ["haproxy", "-c", "-f", SOURCE + "/docker/door/haproxy.cfg"], capture_output=True, text=True, check=False,
+                env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin",
+                     "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **more})
+            self.assertEqual(checked.returncode, 0, checked.stderr)
+            self.assertNotIn("WARNING", checked.stderr)
+
+    def test_a_certificate_is_asked_for_where_it_must_be(self):
+        server = self.serve("--behind-door", "--require-token",
+                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")})
+        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+        options = (("grpc.ssl_target_name_override", "localhost"), ("grpc.use_local_subchannel_pool", 1))
+        with grpc.secure_channel(server.address, credentials, options) as channel:
+            with self.assertRaises(grpc.RpcError) as caught:
+                channel.unary_unary("/rollgait.v1.GaitService/GetServerInfo")(b"", timeout=5)
+            self.assertIn(caught.exception.code(), (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED))
+
+    def test_a_reader_of_the_log_that_stands_still_holds_up_nobody(self):
+        ends = os.pipe()
+        server = subprocess.Popen(
+            [os.environ["ROLLGAITD"], "--data-dir", self.directory.name + "/still", "--listen", "127.0.0.1:0",
+             "--solver", os.environ["SLOW_SOLVER"], "--log-level", "debug"], stdout=subprocess.PIPE, stderr=ends[1])
+        os.close(ends[1])
+        address = server.stdout.readline().decode().strip().removeprefix("rollgaitd listening on ")
+        with grpc.insecure_channel(address) as channel:
+            for _ in range(2000):  # 0.4 KB of log each; a pipe holds 64 KB
+                ask(channel)
+        server.terminate()
+        self.assertEqual(server.wait(60), 0)
+        server.stdout.close()
+        os.close(ends[0])
+
+    def test_beyond_loopback_a_door_is_asked_for(self):
+        for flags, word in ((("--listen", "0.0.0.0:0"), "--without-door"),
+                            (("--listen", "0.0.0.0:0", "--without-door"), "--insecure-listen"),
+                            (("--listen", "127.0.0.1:0", "--behind-door"), "unix:/PATH")):
+            ended = subprocess.run([os.environ["ROLLGAITD"], "--data-dir", self.directory.name + "/none", *flags],
+                                   capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(ended.returncode, 1)
+            self.assertIn(word, ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
