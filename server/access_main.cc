@@ -201,8 +201,9 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
                                                                            {"cn", CertificateTenant::kCommonName},
                                                                            {"uri", CertificateTenant::kUri}}));
   app.add_flag("--require-token", flags.require_token, "Ask every call for a token; see `rollgaitd token --help`");
-  app.add_option("--tenant-max-queued", flags.limits.max_queued,
-                 "Solves of a tenant that may wait; 0: no limit of its own")
+  app.add_option("--tenant-max-queued", flags.tenant_max_queued,
+                 "Solves of a tenant that may wait; 0: no limit of its own; default: half of --max-queued where it is "
+                 "asked who calls")
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--tenant-max-watches", flags.limits.max_watches, "Streams of a tenant that may be open; 0: no limit")
       ->check(CLI::Range(0, 1'000'000));
@@ -214,6 +215,12 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-connections-per-peer", flags.connections.per_peer, "Of them from one address; default: half")
       ->check(CLI::Range(1, 1'000'000));
+}
+
+TenantLimits AccessFlags::TenantDefaults(int max_queued) const {
+  TenantLimits all = limits;
+  all.max_queued = tenant_max_queued.value_or(asks_who_calls() ? (max_queued + 1) / 2 : 0);
+  return all;
 }
 
 std::optional<int> RunAccessCommand(int argc, char** argv) {

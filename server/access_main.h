@@ -19,10 +19,13 @@ struct AccessFlags {
   TlsFiles tls;
   CertificateTenant certificate_tenant = CertificateTenant::kNone;
   bool require_token = false;
-  TenantLimits limits;
+  TenantLimits limits;                   // but for max_queued: TenantDefaults
+  std::optional<int> tenant_max_queued;  // not given: half of the queue, where it is asked who calls
   ConnectionLimits connections;
 
   bool asks_who_calls() const { return require_token || certificate_tenant != CertificateTenant::kNone; }
+  // The limits of a tenant that has none of its own, on a server that queues at most `max_queued` solves.
+  TenantLimits TenantDefaults(int max_queued) const;
 };
 void AddAccessFlags(CLI::App& app, AccessFlags& flags);
 

@@ -30,8 +30,7 @@ std::optional<std::string> ListenObstacle(const ListenFlags& flags, const Access
            "to the door (docs/door.md) and leave --tls-cert, --tls-key and --tls-client-ca away";
   }
   if (access.certificate_tenant != CertificateTenant::kNone && access.tls.client_ca.empty() && !flags.behind_door) {
-    return "--certificate-tenant needs certificates of clients: give --tls-client-ca, or --behind-door with a door "
-           "that "
+    return "--certificate-tenant needs certificates of clients: give --tls-client-ca, or --behind-door where the door "
            "asks for them";
   }
   if (IsLoopback(flags.address)) return std::nullopt;

@@ -274,7 +274,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   AccessStore access(store.value()->database(), clock);
   Gatekeeper::Options gate;
   gate.require_identity = flags.access.asks_who_calls();
-  gate.limits = flags.access.limits;
+  gate.limits = flags.access.TenantDefaults(flags.max_queued);
   Gatekeeper gatekeeper(gate, &access, &clock);
   RpcOptions rpc_options;
   rpc_options.listen = flags.listen.address;
@@ -303,7 +303,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   std::fflush(stdout);
 
   const MemoryReturn memory_return;
-  const RetentionTask retention(measured_store, Retention(flags), std::chrono::minutes(1));
+  const RetentionTask retention(measured_store, Retention(flags), std::chrono::minutes(1), clock);
 
   int received = 0;
   sigwait(&end_signals, &received);

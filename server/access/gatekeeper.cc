@@ -1,6 +1,7 @@
 #include "server/access/gatekeeper.h"
 
 #include <spdlog/spdlog.h>
+#include <strings.h>
 
 #include <set>
 #include <utility>
@@ -24,6 +25,12 @@ const Error& NoSuchToken() {
 Error Withdrawn(const TokenRecord& token) {
   return Unauthenticated(token.revoke_time_us != 0 ? "the token " + token.id + " was revoked; ask for a new one"
                                                    : "the token " + token.id + " has expired; ask for a new one");
+}
+
+// The scheme's name has no case (RFC 9110, 11.1).
+bool StartsWithBearer(const std::string& authorization) {
+  const size_t size = sizeof(kBearer) - 1;
+  return authorization.size() >= size && strncasecmp(authorization.c_str(), kBearer, size) == 0;
 }
 
 }  // namespace
@@ -71,7 +78,6 @@ Outcome<std::shared_ptr<void>> Gatekeeper::Check(const MethodRule& rule) {
                  std::chrono::milliseconds(1000)};
   }
   if (!rule.creates) return std::shared_ptr<void>();
-  if (std::optional<Error> full = backpressure_.QueueIsFull("")) return *std::move(full);
   return backpressure_.Enter();
 }
 
@@ -91,7 +97,6 @@ Outcome<std::shared_ptr<Admission>> Gatekeeper::Admit(const MethodRule& rule, co
     return error;
   }
   if (rule.creates) {
-    if (std::optional<Error> full = backpressure_.QueueIsFull(known.tenant)) return *std::move(full);
     if (std::optional<Error> fast = quotas_.TakeCreate(known.tenant, known.limits.creates_per_s))
       return *std::move(fast);
   }
@@ -132,7 +137,7 @@ Outcome<Caller> Gatekeeper::Identify(const Presented& presented) {
 }
 
 Outcome<Caller> Gatekeeper::ByToken(const Presented& presented) {
-  if (presented.authorization.rfind(kBearer, 0) != 0) return NoSuchToken();
+  if (!StartsWithBearer(presented.authorization)) return NoSuchToken();
   const std::optional<Token> token =
       Token::Parse(std::string_view(presented.authorization).substr(sizeof(kBearer) - 1));
   if (!token) return NoSuchToken();
@@ -174,11 +179,6 @@ Outcome<TenantLimits> Gatekeeper::LimitsOf(const std::string& tenant) {
 bool Gatekeeper::WaitUntilLeft(std::chrono::milliseconds at_most) {
   std::unique_lock<std::mutex> lock(admissions_mutex_);
   return left_.wait_for(lock, at_most, [this] { return admissions_ == 0; });
-}
-
-void Gatekeeper::Note(const Caller& caller, const Error& error) {
-  if (error.code != ErrorCode::kResourceExhausted) return;
-  backpressure_.QueueWasFull(error.quota ? caller.tenant : "", error);
 }
 
 void Gatekeeper::AuditRefusal(const MethodRule& rule, const Presented& presented, const std::string& token_id,

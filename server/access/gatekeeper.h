@@ -76,8 +76,6 @@ class Gatekeeper {
   // kUnauthenticated, kPermissionDenied, kResourceExhausted (a quota), kUnavailable (the store).
   Outcome<std::shared_ptr<Admission>> Admit(const MethodRule& rule, const Presented& presented,
                                             std::shared_ptr<void> place);
-  // Tells what became of a call that was admitted: a full queue is remembered for a moment.
-  void Note(const Caller& caller, const Error& error);
   // Check refuses from now on.
   void Drain() { draining_ = true; }
   bool draining() const { return draining_; }

@@ -81,18 +81,4 @@ Outcome<std::shared_ptr<void>> Backpressure::Enter() {
   return std::shared_ptr<void>(nullptr, [inside = inside_](void*) { inside->fetch_sub(1); });
 }
 
-void Backpressure::QueueWasFull(const std::string& tenant, const Error& error) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const Clock::time_point now = Clock::now();
-  std::erase_if(full_, [&](const auto& entry) { return entry.second.until < now; });
-  full_.insert_or_assign(tenant, Full{error, now + kMemory});
-}
-
-std::optional<Error> Backpressure::QueueIsFull(const std::string& tenant) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto place = full_.find(tenant);
-  if (place == full_.end() || place->second.until < Clock::now()) return std::nullopt;
-  return place->second.error;
-}
-
 }  // namespace rollgait::server

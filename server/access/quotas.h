@@ -46,33 +46,17 @@ class Quotas {
   const std::shared_ptr<Watches> watches_ = std::make_shared<Watches>();
 };
 
-// Refuses calls that make work before they cost anything: when too many of them are being answered, and for a moment
-// after the store said that the queue is full. Any thread may call; nothing blocks.
+// Refuses calls that make work when too many of them are being answered. Any thread may call; nothing blocks.
 class Backpressure {
  public:
-  using Clock = std::chrono::steady_clock;
-
   explicit Backpressure(int most_at_once) : most_at_once_(most_at_once) {}
 
   // A place for one call until the hold is released. kResourceExhausted.
   Outcome<std::shared_ptr<void>> Enter();
-  // The queue was full, as the error says; `tenant` empty: for everyone.
-  void QueueWasFull(const std::string& tenant, const Error& error);
-  // That error, if it was a moment ago.
-  std::optional<Error> QueueIsFull(const std::string& tenant);
 
  private:
-  static constexpr std::chrono::milliseconds kMemory{100};
-
-  struct Full {
-    Error error;
-    Clock::time_point until;
-  };
-
   const int most_at_once_;
   const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);
-  std::mutex mutex_;  // protects what follows
-  std::map<std::string, Full> full_;
 };
 
 }  // namespace rollgait::server

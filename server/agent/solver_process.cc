@@ -43,17 +43,18 @@ class Descriptor {
   int fd_;
 };
 
-// This process's environment with the thread variables set.
+// All that a solver sees of this process's environment, which may hold secrets (PGPASSWORD): where its libraries are
+// and what sanitizers are told.
+constexpr std::string_view kInherited[] = {
+    "LD_LIBRARY_PATH=", "ASAN_OPTIONS=", "LSAN_OPTIONS=", "UBSAN_OPTIONS=", "TSAN_OPTIONS="};
+
 std::vector<std::string> ChildEnvironment() {
   std::vector<std::string> variables(std::begin(kOneThreadVariables), std::end(kOneThreadVariables));
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view variable(*entry);
-    bool replaced = false;
-    for (const std::string_view ours : kOneThreadVariables) {
-      const std::string_view name = ours.substr(0, ours.find('=') + 1);
-      replaced = replaced || variable.substr(0, name.size()) == name;
+    for (const std::string_view name : kInherited) {
+      if (variable.substr(0, name.size()) == name) variables.emplace_back(variable);
     }
-    if (!replaced) variables.emplace_back(variable);
   }
   return variables;
 }

@@ -19,7 +19,7 @@ extern char** environ;
 namespace rollgait::server {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 // Attributes and file actions of posix_spawn, freed at the end.
 struct SpawnPlan {
@@ -103,9 +103,9 @@ int Supervisor::Wait() {
 void Supervisor::Loop() {
   auto pause = options_.first_pause;
   while (true) {
-    const Clock::time_point start = Clock::now();
+    const SteadyClock::time_point start = SteadyClock::now();
     const int status = Wait();
-    if (Clock::now() - start >= options_.stable) pause = options_.first_pause;
+    if (SteadyClock::now() - start >= options_.stable) pause = options_.first_pause;
     std::unique_lock<std::mutex> lock(mutex_);
     if (stopping_) return;
     LogEvent(spdlog::level::err, "child.died",

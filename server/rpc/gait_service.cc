@@ -69,24 +69,21 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
     reactor->Finish(Report(PeerOf(*context), admit.error()));
     return reactor;
   }
-  const bool taken = executor_.TryPost(
-      [&gatekeeper = gatekeeper_, decide = std::move(admit).value(), context, reactor, serve = std::move(serve)] {
-        const Outcome<std::shared_ptr<Admission>> admitted = decide();
-        const LogFields fields = FieldsOf(*context);
-        const LogScope scope(fields);
-        if (!admitted.ok()) {
-          reactor->Finish(Report(PeerOf(*context), admitted.error()));
-          return;
-        }
-        const Caller& caller = admitted.value()->caller();
-        const Outcome<Done> served = serve(caller);
-        if (served.ok()) {
-          reactor->Finish(grpc::Status::OK);
-        } else {
-          gatekeeper.Note(caller, served.error());
-          reactor->Finish(Report(PeerOf(*context), served.error()));
-        }
-      });
+  const bool taken = executor_.TryPost([decide = std::move(admit).value(), context, reactor, serve = std::move(serve)] {
+    const Outcome<std::shared_ptr<Admission>> admitted = decide();
+    const LogFields fields = FieldsOf(*context);
+    const LogScope scope(fields);
+    if (!admitted.ok()) {
+      reactor->Finish(Report(PeerOf(*context), admitted.error()));
+      return;
+    }
+    const Outcome<Done> served = serve(admitted.value()->caller());
+    if (served.ok()) {
+      reactor->Finish(grpc::Status::OK);
+    } else {
+      reactor->Finish(Report(PeerOf(*context), served.error()));
+    }
+  });
   if (!taken) reactor->Finish(ToStatus(TooManyCalls()));
   return reactor;
 }
@@ -138,7 +135,6 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
     create.set_request_id(request->request_id());
     const Outcome<v1::Solve> solve = service_.CreateSolve(caller, create);
     if (solve.ok()) return WatchStream::Target{SolveId(solve.value().name()).value(), 0};
-    gatekeeper_.Note(caller, solve.error());
     return solve.error();
   };
   return Stream(RuleOf("RunSolve"), context, create_and_watch, request->cancel_on_disconnect());

@@ -70,6 +70,17 @@ Outcome<SolveService::Checked> SolveService::CheckSpec(const Caller& caller, con
   return checked;
 }
 
+Outcome<CreatedSolve> SolveService::Store(const NewSolve& solve) {
+  if (std::optional<Error> full = full_queue_.Refusal(solve.actor.tenant)) {
+    const Outcome<bool> needs_place = store_.NeedsPlace(solve);
+    if (!needs_place.ok()) return needs_place.error();
+    if (needs_place.value()) return *std::move(full);
+  }
+  Outcome<CreatedSolve> created = store_.Create(solve);
+  if (!created.ok()) full_queue_.Note(solve.actor.tenant, created.error());
+  return created;
+}
+
 Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckRequestId(request.request_id());
@@ -88,7 +99,7 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   solve.max_queued_tenant = caller.limits.max_queued;
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
   solve.solver_fingerprint = options_.solver_fingerprint;
-  const Outcome<CreatedSolve> created = store_.Create(solve);
+  const Outcome<CreatedSolve> created = Store(solve);
   if (!created.ok()) return created.error();
   const SolveRecord& record = created.value().record;
   if (created.value().created) {

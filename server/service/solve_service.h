@@ -9,6 +9,7 @@
 #include "rollgait/v1/gait_service.pb.h"
 #include "server/access/caller.h"
 #include "server/base/outcome.h"
+#include "server/service/full_queue.h"
 #include "server/service/gait_knowledge.h"
 #include "server/service/solve_message.h"
 #include "server/service/warm_start_search.h"
@@ -54,12 +55,15 @@ class SolveService {
     std::optional<FoundWarmStart> warm_start;
     std::string key;
   };
+  // Creates it in the store, unless a queue was full a moment ago and it would need a place there.
+  Outcome<CreatedSolve> Store(const NewSolve& solve);
   Outcome<Checked> CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec);
 
   SolveStore& store_;
   const GaitKnowledge knowledge_;
   const ServiceOptions options_;
   const std::function<void(const std::string& id)> announce_;
+  FullQueue full_queue_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -50,6 +50,10 @@ Outcome<CreatedSolve> MeasuredStore::Create(const NewSolve& solve) {
   return outcome;
 }
 
+Outcome<bool> MeasuredStore::NeedsPlace(const NewSolve& solve) {
+  return Measure("needs_place", [&] { return store_.NeedsPlace(solve); });
+}
+
 Outcome<SolveRecord> MeasuredStore::Get(const std::string& id) {
   return Measure("get", [&] { return store_.Get(id); });
 }

@@ -19,6 +19,7 @@ class MeasuredStore : public SolveStore {
   MeasuredStore(SolveStore& store, Metrics& metrics);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<std::string> TenantOf(const std::string& id) override;
   Outcome<SolvePage> List(const ListQuery& query) override;

@@ -13,6 +13,7 @@ struct RetentionLimits {
   std::chrono::seconds audit{0};
   int64_t solve_bytes = 0;  // of all finished solves together
 
+  RetentionLimits WithoutAges() const { return {.solve_bytes = solve_bytes}; }
   bool any() const { return solves.count() > 0 || events.count() > 0 || audit.count() > 0 || solve_bytes > 0; }
 };
 

@@ -4,8 +4,9 @@
 
 namespace rollgait::server {
 
-RetentionTask::RetentionTask(SolveStore& store, const RetentionLimits& limits, std::chrono::milliseconds interval)
-    : store_(store), limits_(limits), interval_(interval) {
+RetentionTask::RetentionTask(SolveStore& store, const RetentionLimits& limits, std::chrono::milliseconds interval,
+                             const Clock& clock, std::chrono::nanoseconds settle)
+    : store_(store), limits_(limits), interval_(interval), clock_(clock, settle) {
   if (limits_.any()) thread_ = std::thread([this] { Loop(); });
 }
 
@@ -26,7 +27,7 @@ bool RetentionTask::Pause(std::chrono::milliseconds time) {
 void RetentionTask::Clean() {
   Removed all;
   while (true) {
-    const Outcome<Removed> removed = store_.Retain(limits_);
+    const Outcome<Removed> removed = store_.Retain(clock_.Look() ? limits_ : limits_.WithoutAges());
     if (!removed.ok()) spdlog::warn("retention waits: {}", removed.error().message);
     if (!removed.ok() || !removed.value().any()) break;
     all.solves += removed.value().solves;

@@ -25,6 +25,9 @@ class SolveStore {
   // Inserts a queued solve and its first event (QUEUED); or, if a reusable result of the same key is held, a solve that
   // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec. kResourceExhausted: queue is full.
   virtual Outcome<CreatedSolve> Create(const NewSolve& solve) = 0;
+  // Whether Create would have to put it in the queue: false if the tenant's request_id is known or a reusable result is
+  // held. Reads only.
+  virtual Outcome<bool> NeedsPlace(const NewSolve& solve) = 0;
   // kNotFound.
   virtual Outcome<SolveRecord> Get(const std::string& id) = 0;
   // kNotFound.

@@ -23,6 +23,7 @@ class SqlStore : public SolveStore {
                                                  DiskRoom room = {});
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<std::string> TenantOf(const std::string& id) override;
   Outcome<SolvePage> List(const ListQuery& query) override;

@@ -129,6 +129,16 @@ Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
   return *std::move(created).value();
 }
 
+Outcome<bool> SqlStore::NeedsPlace(const NewSolve& solve) {
+  return database_->Read([&](SqlConnection& connection) -> Outcome<bool> {
+    Query earlier(connection, "SELECT 1 FROM solves WHERE tenant = ? AND request_id = NULLIF(?, '')",
+                  solve.actor.tenant, solve.request_id);
+    Query reusable(connection, "SELECT 1 FROM results WHERE solve_key = NULLIF(?, '') AND reusable = 1 LIMIT 1",
+                   solve.solve_key);
+    return !earlier.Step() && !reusable.Step();
+  });
+}
+
 Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, LockMode mode) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<CreatedSolve>> {
     // Everybody in this order. What is counted under a lock is counted after it is held.

@@ -118,6 +118,7 @@ TEST_F(AccessTest, ARevokedTokenEndsItsStream) {
   ASSERT_TRUE(Ask(*stub, token, &info).ok());
   EXPECT_EQ(info.caller().tenant(), "acme");
   EXPECT_EQ(info.caller().authentication(), v1::Caller::AUTHENTICATION_TOKEN);
+  EXPECT_EQ(info.caller().limits().max_queued(), 500) << "half of the queue";
   grpc::ClientContext context;
   context.AddMetadata("authorization", "Bearer " + token);
   const auto stream = stub->RunSolve(&context, Endless());

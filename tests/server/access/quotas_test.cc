@@ -50,15 +50,5 @@ TEST(BackpressureTest, TooManyAtOnceAreRefused) {
   EXPECT_TRUE(pressure.Enter().ok());
 }
 
-TEST(BackpressureTest, AFullQueueIsForgottenSoon) {
-  Backpressure pressure(1);
-  EXPECT_FALSE(pressure.QueueIsFull("a").has_value());
-  pressure.QueueWasFull("a", {ErrorCode::kResourceExhausted, "full"});
-  EXPECT_FALSE(pressure.QueueIsFull("b").has_value());
-  while (pressure.QueueIsFull("a").has_value()) {  // ends by itself, or the test does not
-  }
-  EXPECT_FALSE(pressure.QueueIsFull("a").has_value());
-}
-
 }  // namespace
 }  // namespace rollgait::server

@@ -129,7 +129,8 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--fd") == 0) stream = std::atoi(argv[i + 1]);
   }
   // What the agent promises its children.
-  if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr || HasOtherDescriptors()) return 9;
+  if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr || std::getenv("PGPASSWORD") != nullptr) return 9;
+  if (std::getenv("HOME") != nullptr || std::getenv("PATH") != nullptr || HasOtherDescriptors()) return 9;
   rollgait::wire::SolverMessage ready;
   ready.mutable_ready();
   Send(ready);

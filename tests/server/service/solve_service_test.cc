@@ -220,5 +220,29 @@ TEST(SolveServiceTest, TheQuotaOfATenantIsHisOwn) {
   EXPECT_TRUE(bench.service().CreateSolve(Of("rival"), create).ok());
 }
 
+TEST(SolveServiceTest, AFullQueueRefusesOnlyWhatNeedsAPlaceInIt) {
+  ServiceOptions options;
+  options.max_queued = 1;
+  ServiceBench bench(std::chrono::hours(1), options);
+  v1::CreateSolveRequest solved, waiting, further, wrong;
+  *solved.mutable_spec() = PlanarSpec(0.1);
+  *waiting.mutable_spec() = PlanarSpec(0.2);
+  *further.mutable_spec() = PlanarSpec(0.3);
+  *wrong.mutable_spec() = PlanarSpec(0.9);
+  bench.Create(solved.spec());
+  bench.Finish(bench.Claim());
+  waiting.set_request_id("mine");
+  const std::string name = bench.service().CreateSolve({}, waiting).value().name();
+  for (int i = 0; i < 3; ++i) {  // asked of the store, then remembered
+    EXPECT_EQ(bench.service().CreateSolve({}, further).error().code, ErrorCode::kResourceExhausted);
+    EXPECT_EQ(bench.service().CreateSolve({}, waiting).value().name(), name);
+    EXPECT_TRUE(bench.service().CreateSolve({}, solved).value().from_cache());
+    EXPECT_EQ(bench.service().CreateSolve({}, wrong).error().code, ErrorCode::kInvalidArgument);
+    v1::CreateSolveRequest question = further;
+    question.set_validate_only(true);
+    EXPECT_TRUE(bench.service().CreateSolve({}, question).ok());
+  }
+}
+
 }  // namespace
 }  // namespace rollgait::server

@@ -182,6 +182,25 @@ TEST_P(SolveStoreConformance, AnEqualRequestIsAnsweredFromTheStore) {
   EXPECT_EQ(bench.Add("c", "key").state, SolveState::kQueued);
 }
 
+TEST_P(SolveStoreConformance, WhatIsAnsweredWithoutAPlaceNeedsNone) {
+  StoreBench bench(GetParam());
+  const auto needs_place = [&](const std::string& request_id, const std::string& key) {
+    return bench.store().NeedsPlace({"new", request_id, "s", key}).value();
+  };
+  EXPECT_TRUE(needs_place("", ""));
+  ASSERT_TRUE(bench.store().Create({"a", "mine", "s", "key"}).ok());
+  EXPECT_FALSE(needs_place("mine", ""));
+  EXPECT_TRUE(needs_place("another", ""));
+  EXPECT_TRUE(needs_place("", "key")) << "its result is not here yet";
+  NewSolve of_another_tenant{"new", "mine", "s", ""};
+  of_another_tenant.actor.tenant = "rival";
+  EXPECT_TRUE(bench.store().NeedsPlace(of_another_tenant).value());
+  ASSERT_TRUE(bench.store().Finish(bench.Claim(), {}, kAnswer).ok());
+  EXPECT_FALSE(needs_place("", "key"));
+  EXPECT_TRUE(needs_place("", "another key"));
+  EXPECT_TRUE(needs_place("", "")) << "what has no key has no held result";
+}
+
 TEST_P(SolveStoreConformance, OnlyReusableResultsOfTheSameKeyAnswer) {
   StoreBench bench(GetParam());
   bench.Add("a", "key");

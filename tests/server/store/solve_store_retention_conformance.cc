@@ -124,7 +124,25 @@ TEST_P(SolveStoreConformance, ATaskKeepsTheLimits) {
   bench.clock().Advance(hours(3));
   RetentionLimits limits;
   limits.solves = hours(2);
-  const RetentionTask task(bench.store(), limits, std::chrono::milliseconds(10));
+  const RetentionTask task(bench.store(), limits, std::chrono::milliseconds(10), bench.clock(), hours(0));
+  bool gone = false;
+  for (int tries = 0; tries < 6000 && !gone; ++tries) {
+    gone = !Held(bench, "a");
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(gone);
+}
+
+TEST_P(SolveStoreConformance, AClockThatJumpsRemovesNothing) {
+  StoreBench bench(GetParam());
+  Finish(bench, "a");
+  RetentionLimits limits;
+  limits.solves = hours(24 * 365);
+  const RetentionTask task(bench.store(), limits, std::chrono::milliseconds(1), bench.clock());
+  bench.clock().JumpWall(hours(24 * 400));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // some looks of the task
+  EXPECT_TRUE(Held(bench, "a"));
+  bench.clock().Advance(hours(1));  // it was no mistake: the year is over
   bool gone = false;
   for (int tries = 0; tries < 6000 && !gone; ++tries) {
     gone = !Held(bench, "a");
