@@ -86,12 +86,13 @@ const Format& FindModelFormat(const std::string& name) {
   return format;
 }
 
-const Format& FormatOfPath(const std::string& path, const std::string& flag) {
+const Format& FormatOfPath(const std::string& path, std::string_view flag) {
   const std::string ending = std::filesystem::path(path).extension().string();
   for (const Format& format : Formats()) {
     if (!ending.empty() && format.ending == ending) return format;
   }
-  throw Failure(ExitCode::kUsage, flag + " " + path + ": the name must end in one of " + Join(kAny, &Format::ending));
+  throw Failure(ExitCode::kUsage,
+                std::string(flag) + " " + path + ": the name must end in one of " + Join(kAny, &Format::ending));
 }
 
 std::string ModelFormatNames() {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "client/formats/ground.h"
@@ -38,7 +39,7 @@ const Format& FindFormat(const std::string& name);
 const Format& FindModelFormat(const std::string& name);
 
 // The format that the ending of a path stands for. Throws Failure(kUsage) that names `flag` and lists the endings.
-const Format& FormatOfPath(const std::string& path, const std::string& flag);
+const Format& FormatOfPath(const std::string& path, std::string_view flag);
 
 // "mjcf, urdf": the formats of a model alone, or of a solve.
 std::string ModelFormatNames();
