@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/trajectory/sampling.h"
 
@@ -12,7 +13,8 @@ constexpr int kSamples = 16;  // an interval; what they miss of the largest exce
 // Of the bound: a joint so close to it would violate it on the next mesh.
 constexpr double kNear = 0.5;
 
-bool Insert(int value, std::vector<int>* values) {
+template <typename T>
+bool Insert(const T& value, std::vector<T>* values) {
   const auto place = std::lower_bound(values->begin(), values->end(), value);
   if (place != values->end() && *place == value) return false;
   values->insert(place, value);
@@ -77,6 +79,20 @@ bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedCon
 
 void KeepApart(const std::vector<int>& pairs, AddedConstraints* added) {
   for (int pair : pairs) Insert(pair, &added->separated);
+}
+
+bool AddFrictionEdges(const std::vector<FlatSide>& sides, double objective, double share, AddedConstraints* added) {
+  bool any = false;
+  for (const FlatSide& flat : sides) {
+    if (!(flat.cost > share * std::abs(objective))) continue;
+    const double step = 2 * std::numbers::pi / FrictionEdge::kDirections;
+    const int direction = static_cast<int>(std::lround(flat.direction / step));
+    if (direction <= flat.side.from || direction >= flat.side.to) continue;
+    const size_t phase = static_cast<size_t>(flat.phase);
+    if (added->between.size() <= phase) added->between.resize(phase + 1);
+    any |= Insert(FrictionEdge{flat.contact, direction}, &added->between[phase].friction);
+  }
+  return any;
 }
 
 bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,

@@ -3,56 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/gait/added_constraints.h"
+#include "core/gait/adopt_solution.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
-#include "core/gait/power_smoothing.h"
 #include "core/gait/solver_settings.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 namespace {
-
-std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, CollocationNlp& nlp, const double* x) {
-  const VectorX integrals = nlp.CostIntegrals(x), unsmoothed = nlp.CostIntegrals(x, CostForm::kUnsmoothed);
-  std::vector<CostValue> values;
-  for (size_t t = 0; t < problem.costs.size(); ++t) {
-    const CostDescription& term = problem.costs[t];
-    CostValue value;
-    value.name = term.Name();
-    value.unit = term.Unit();
-    value.weight = term.weight;
-    value.value = integrals(static_cast<int>(t));
-    value.unsmoothed = unsmoothed(static_cast<int>(t));
-    value.contribution = term.weight * value.value / nlp.Denominator(x);
-    values.push_back(value);
-  }
-  return values;
-}
-
-// Rows that miss their bounds by more than the tolerance, worst (in natural sizes) first.
-std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, double tolerance) {
-  constexpr size_t kMost = 10;
-  VectorX g(nlp.constraints());
-  if (!nlp.Constraints(x, g.data())) return {};
-  std::vector<std::pair<double, int>> misses;
-  for (int r = 0; r < g.size(); ++r) {
-    const double miss = std::max(nlp.constraint_lower()(r) - g(r), g(r) - nlp.constraint_upper()(r));
-    if (miss > tolerance) misses.emplace_back(miss, r);
-  }
-  std::sort(misses.rbegin(), misses.rend());
-  std::vector<UnmetConstraint> unmet;
-  for (size_t i = 0; i < std::min(kMost, misses.size()); ++i) {
-    const auto info = nlp.Describe(x, misses[i].second);
-    unmet.push_back({info.name, info.phase, info.time, misses[i].first * info.size, info.unit});
-  }
-  return unmet;
-}
 
 // What converged on every mesh is no motion of the body: say so, and where.
 void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
@@ -63,42 +28,6 @@ void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
   solution->unmet_constraints.insert(
       solution->unmet_constraints.begin(),
       {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.bounds[Criterion::kSlip], "m/s"});
-}
-
-MeshStatistics Describe(const GaitSpec& spec, const CollocationNlp& nlp, const NlpResult& result) {
-  MeshStatistics statistics;
-  statistics.intervals = nlp.mesh().Intervals();
-  statistics.unknowns = nlp.variables();
-  statistics.constraints = nlp.constraints();
-  statistics.jacobian_nonzeros = nlp.jacobian_pattern().size();
-  statistics.hessian_nonzeros = nlp.hessian_pattern().size();
-  statistics.iterations = result.iterations;
-  statistics.wall_time = result.wall_time_s;
-  statistics.evaluation_time = result.evaluation_time_s;
-  statistics.kkt_error = result.kkt_error;
-  statistics.smoothing = LeastSmoothing(spec).value_or(0);
-  return statistics;
-}
-
-// The solution of one mesh, judged; the judgement goes into its statistics too.
-void Adopt(const GaitSpec& spec, const OptimalControlProblem& problem, CollocationNlp& nlp, const NlpResult& result,
-           GaitSolution* solution, MeshStatistics* statistics) {
-  const double* x = result.x.data();
-  solution->objective = result.objective / nlp.objective_scale();
-  solution->kkt_error = result.kkt_error;
-  solution->constraint_violation = result.constraint_violation;
-  solution->trajectory = nlp.Extract(x);
-  solution->multipliers = {result.constraint_multipliers / nlp.objective_scale(),
-                           (result.lower_bound_multipliers - result.upper_bound_multipliers) / nlp.objective_scale()};
-  solution->added = nlp.added();
-  solution->costs = ReportCosts(problem, nlp, x);
-  solution->unmet_constraints = FindUnmet(nlp, x, 10 * spec.kkt_tolerance);
-  solution->speed = nlp.displacement(x) / nlp.duration(x);
-  solution->step_length = nlp.displacement(x) / (spec.cycle == Cycle::kFull ? 2 : 1);
-  Judge(spec, solution);
-  statistics->objective = solution->objective;
-  statistics->max_gap = solution->accuracy->max_gap;
-  statistics->max_slip = solution->accuracy->max_slip;
 }
 
 // Whether surfaces slip between nodes at more than this share of the speed of the motion.
@@ -219,9 +148,11 @@ void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBud
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess,
                        NlpOptions options, Predecessor previous, Mesh mesh, AddedConstraints added,
                        SolveBudget* budget) {
-  constexpr int kMostAdditions = 4;  // rounds that add constraints on the mesh as it is
+  constexpr int kMostAdditions = 4;   // rounds that add constraints on the mesh as it is
+  constexpr int kMostEdgeRounds = 3;  // the same for edges of friction pyramids, where nothing else is left to do
   GaitSolution solution;
-  int refinements = 0, additions = 0;
+  std::optional<GaitSolution> within;  // what a round of edges started from
+  int refinements = 0, additions = 0, edge_rounds = 0;
   bool is_rough = false;
   std::string remark;
   while (true) {
@@ -244,11 +175,24 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     }
     solution.meshes.push_back(statistics);
     if (keep_previous) {
-      remark = " The next finer mesh did not converge (" + result.message + ")";
+      remark = (within ? " With more edges of the friction pyramids it did not converge ("
+                       : " The next finer mesh did not converge (") +
+               result.message + ")";
       break;
     }
-    if (!Converged(result.termination) || IsDone(solution)) break;
+    if (!Converged(result.termination)) break;
     const bool is_artefact = IsArtefact(spec, solution);
+    const bool has_new_edges = !is_artefact && !spec.is_only_a_start &&
+                               AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
+                                                solution.objective, kFlatSideShare, &added);
+    if (IsDone(solution)) {
+      if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
+      within = solution;
+      guess = GuessFromTrajectory(*solution.trajectory);
+      options = SettingsFor(StartOf::kFinerMesh, spec);
+      previous = std::move(current);
+      continue;
+    }
     if (!is_artefact && !spec.is_only_a_start && additions < kMostAdditions &&
         AddOverlapping(spec, *solution.accuracy, &added)) {
       // Bodies that overlapped move a long way: on the same mesh first, and as from the solution of a neighbour.
@@ -277,6 +221,13 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     options = OptionsFor(spec, guess);
     previous = std::move(current);
   }
+  if (within && solution.verdict.kind == Verdict::Kind::kExceeded) {
+    // More edges do not take back an answer within the bounds.
+    within->meshes = std::move(solution.meshes);
+    solution = std::move(*within);
+    remark = " With more edges of the friction pyramids not every bound was met.";
+    is_rough = false;
+  }
   if (is_rough) Finish(spec, problem, budget, &solution);
   solution.message += remark;
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
@@ -295,6 +246,13 @@ AddedConstraints ConstraintsAfter(const WarmStart& start) {
   return added;
 }
 
+// Without bounds the constraints between the points are left out; edges only shape the cone.
+AddedConstraints EdgesOf(const AddedConstraints& all) {
+  AddedConstraints edges;
+  for (const BoundedBetween& phase : all.between) edges.between.emplace_back().friction = phase.friction;
+  return edges;
+}
+
 // From the spec's warm start.
 GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options,
                              int max_iterations, SolveBudget* budget) {
@@ -307,7 +265,7 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
   options.max_iterations = max_iterations;
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh),
-                IsBounded(spec) ? ConstraintsAfter(*spec.warm_start) : AddedConstraints{}, budget);
+                IsBounded(spec) ? ConstraintsAfter(*spec.warm_start) : EdgesOf(spec.warm_start->added), budget);
   solution.warm_started = true;
   solution.used_multipliers = used_multipliers;
   return solution;

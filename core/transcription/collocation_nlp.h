@@ -12,6 +12,7 @@
 #include "core/trajectory/sampling.h"
 #include "core/transcription/coupling_term.h"
 #include "core/transcription/entry_rows.h"
+#include "core/transcription/flat_side.h"
 #include "core/transcription/interval_block.h"
 #include "core/transcription/jump_rows.h"
 #include "core/transcription/layout.h"
@@ -76,6 +77,8 @@ class CollocationNlp : public NlpProblem {
   double duration(const double* x) const;
 
   RowInfo Describe(const double* x, int row) const;
+  // The sides of friction pyramids that cost something at a solution with these multipliers (Ipopt's signs).
+  std::vector<FlatSide> FlatSides(const double* x, const VectorX& row_multipliers) const;
 
  private:
   double StepRatio(int interval) const { return layout_.length(interval); }

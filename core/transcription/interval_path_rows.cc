@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/math/bernstein.h"
-#include "core/ocp/constraints/friction.h"
 
 namespace rollgait {
 namespace {
@@ -17,8 +16,14 @@ bool Contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-std::string KeyOf(const std::string& kind, int a, int coefficient, bool positive = true) {
-  return kind + " " + std::to_string(a) + " " + std::to_string(coefficient) + (positive ? "" : " -");
+std::string KeyOf(const std::string& kind, int a, int coefficient) {
+  return kind + " " + std::to_string(a) + " " + std::to_string(coefficient);
+}
+
+// A side keeps its name when other sides are split.
+std::string KeyOf(const ForceRow& friction, int coefficient) {
+  return KeyOf("friction", friction.contact, coefficient) + " " + std::to_string(friction.side.from) + " " +
+         std::to_string(friction.side.to);
 }
 
 // Rows: Bernstein coefficients of v (degree s) or q (degree s + 1) with h = 1 in terms of the scheme's sources.
@@ -54,7 +59,7 @@ bool IntervalPathRows::Row::depends_on_step() const {
 IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const AddedConstraints& added, int phase,
                                    const EliminatedScheme& scheme, const Locals& locals, const VectorX& scale)
     : from_points_(BernsteinFromValues(scheme.tableau().c)), scale_(scale) {
-  AddForces(problem, phase, locals);
+  AddForces(problem, phase, added.Edges(phase), locals);
   if (phase >= static_cast<int>(added.between.size())) return;
   const BoundedBetween& between = added.between[phase];
   const std::vector<int>& actuated = problem.model.actuated();
@@ -66,23 +71,28 @@ IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const A
   for (int joint : between.range) AddStates(problem, joint, false, scheme, locals);
 }
 
-void IntervalPathRows::AddForces(const OptimalControlProblem& problem, int phase, const Locals& locals) {
+std::vector<IntervalPathRows::Term> IntervalPathRows::ForceTerms(int k, const std::vector<int>& forces, double unit,
+                                                                 const ForceSum& sum) const {
+  std::vector<Term> terms;
+  for (const auto& [offset, coefficient] : sum) {
+    for (int i = 0; i < from_points_.cols(); ++i) {
+      if (from_points_(k, i) == 0) continue;
+      terms.push_back({forces[i] + offset, coefficient * from_points_(k, i) / unit, 0});
+    }
+  }
+  return terms;
+}
+
+void IntervalPathRows::AddForces(const OptimalControlProblem& problem, int phase,
+                                 const std::vector<FrictionEdge>& edges, const Locals& locals) {
   const int s = static_cast<int>(from_points_.rows()), efforts = static_cast<int>(problem.model.actuated().size());
   const std::vector<ActiveContact> active = problem.ActiveContacts(phase);
+  const std::vector<ForceRow> friction = FrictionRows(problem.contacts, active, problem.friction_coefficient, edges);
   const bool zero_at_start = problem.ForcesVanishAtStart(phase), zero_at_end = problem.ForcesVanishAtEnd(phase);
   const std::vector<int> taken = problem.TakenUp(phase), given = problem.GivenUp(phase);
   const double size = problem.force_size();
-  // Coefficient k of the combination of forces.
-  const auto terms = [&](int k, const std::vector<std::pair<int, double>>& forces) {
-    std::vector<Term> sum;
-    for (const auto& [offset, coefficient] : forces) {
-      for (int i = 0; i < s; ++i) {
-        if (from_points_(k, i) == 0) continue;
-        sum.push_back({locals.controls[i] + efforts + offset, coefficient * from_points_(k, i) / size, 0});
-      }
-    }
-    return sum;
-  };
+  std::vector<int> forces = locals.controls;
+  for (int& first : forces) first += efforts;
   for (int k = 0; k < s; ++k) {
     const bool is_point = from_points_.row(k).cwiseAbs().sum() == 1;
     for (const ActiveContact& contact : active) {
@@ -94,23 +104,56 @@ void IntervalPathRows::AddForces(const OptimalControlProblem& problem, int phase
               size,
               problem.min_normal_force / size,
               kInfinity,
-              terms(k, {{normal, 1}})};
+              ForceTerms(k, forces, size, {{normal, 1}})};
       if (k == 0 && zero_at_start && Contains(taken, contact.contact)) row.at_start = AtZero::kEquals;
       rows_.push_back(std::move(row));
     }
-    // Of the two rows of a direction one becomes the equation. At a point the shares of a link's force along x are
-    // equations already.
+    // The independent rows become equations. At a point the shares of a link's force along x are equations already.
     const auto at_zero = [is_point](const ForceRow& row) {
-      return row.positive && !(row.shared && is_point) ? AtZero::kEquals : AtZero::kFree;
+      return row.independent && !(row.shared && is_point) ? AtZero::kEquals : AtZero::kFree;
     };
-    int number = 0;
-    for (const ForceRow& friction : FrictionRows(problem.contacts, active, problem.friction_coefficient)) {
-      Row row{KeyOf("friction", number++, k), friction.name, "N", size, 0, kInfinity, terms(k, friction.terms)};
-      if (k == 0 && zero_at_start && Contains(taken, friction.contact)) row.at_start = at_zero(friction);
-      if (k == s - 1 && zero_at_end && Contains(given, friction.contact)) row.at_end = at_zero(friction);
+    for (const ForceRow& side : friction) {
+      Row row{KeyOf(side, k), side.name, "N", size, 0, kInfinity, ForceTerms(k, forces, size, side.terms)};
+      if (k == 0 && zero_at_start && Contains(taken, side.contact)) row.at_start = at_zero(side);
+      if (k == s - 1 && zero_at_end && Contains(given, side.contact)) row.at_end = at_zero(side);
       rows_.push_back(std::move(row));
     }
+    AddPyramids(k, forces, active, friction);
   }
+}
+
+// Of the rows of friction, which are the last ones.
+void IntervalPathRows::AddPyramids(int k, const std::vector<int>& forces, const std::vector<ActiveContact>& active,
+                                   const std::vector<ForceRow>& friction) {
+  const int first = static_cast<int>(rows_.size() - friction.size());
+  for (const ActiveContact& contact : active) {
+    if (contact.directions.size() < 3) continue;
+    Pyramid pyramid{contact.contact, {}, {}};
+    for (int d = 0; d < 3; ++d) pyramid.forces[d] = ForceTerms(k, forces, 1, {{contact.offset + d, 1}});
+    for (size_t r = 0; r < friction.size(); ++r) {
+      if (friction[r].contact != contact.contact) continue;
+      const double middle = friction[r].side.middle();
+      pyramid.sides.emplace_back(first + static_cast<int>(r), Eigen::Vector2d(std::cos(middle), std::sin(middle)));
+    }
+    pyramids_.push_back(std::move(pyramid));
+  }
+}
+
+std::vector<IntervalPathRows::HeldForce> IntervalPathRows::HeldForces(const double* y, const double* lambda) const {
+  std::vector<HeldForce> held;
+  for (const Pyramid& pyramid : pyramids_) {
+    HeldForce force{pyramid.contact, Vector3::Zero(), Eigen::Vector2d::Zero()};
+    for (int d = 0; d < 3; ++d) {
+      for (const Term& term : pyramid.forces[d])
+        force.force(d) += term.coefficient * scale_(term.local) * y[term.local];
+    }
+    // The multiplier of a lower bound is negative.
+    for (const auto& [row, normal] : pyramid.sides) {
+      force.pull += std::max(0.0, -lambda[row]) / rows_[row].size * normal;
+    }
+    held.push_back(force);
+  }
+  return held;
 }
 
 void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/math/collocation.h"
+#include "core/ocp/constraints/friction.h"
 #include "core/ocp/problem.h"
 
 namespace rollgait {
@@ -16,8 +17,9 @@ struct IntervalPlace {
 
 // Rows that bound the polynomials of one interval of a phase at every instant, by their Bernstein coefficients: a
 // polynomial lies in the convex hull of its coefficients. Bounded are the normal forces and the friction of all active
-// contacts, and of the joints that AddedConstraints names range, velocity and effort. Coefficients that are unknowns
-// themselves have bounds in place of rows, but for friction.
+// contacts (pyramids with the edges that AddedConstraints names besides the usual ones), and of the joints that it
+// names range, velocity and effort. Coefficients that are unknowns themselves have bounds in place of rows, but for
+// friction.
 //   A row is  lower <= Σ coefficient · h^power · y_local · scale_local <= upper,  with the interval's length h in s.
 // At the ends of a phase the forces of contacts that are taken up or given up at rest vanish where the problem says so
 // (OptimalControlProblem::ForcesVanish). Source: docs/contact_changes.md.
@@ -48,6 +50,16 @@ class IntervalPathRows {
   // Pairs of local variables with a second derivative, h among them.
   Entries HessianPairs(int step) const;
   void Values(const double* y, double h, double* g) const;
+  // The force of one contact in space at one Bernstein coefficient, N, world, and what the objective of the NLP would
+  // fall by, to first order, for each N along x and y beyond the sides of its pyramid: Σ |λ| n, n the normals of the
+  // sides.
+  struct HeldForce {
+    int contact;
+    Vector3 force;
+    Eigen::Vector2d pull;
+  };
+  // `lambda`: the multipliers of these rows, in Ipopt's signs.
+  std::vector<HeldForce> HeldForces(const double* y, const double* lambda) const;
   // Returns the end of what it wrote.
   double* Jacobian(const double* y, double h, double* values) const;
   // Adds the Hessian of λᵀ g by unscaled unknowns (scale · y) and h, the last local variable, to the lower triangle of
@@ -69,7 +81,20 @@ class IntervalPathRows {
     AtZero at_start = AtZero::kSame, at_end = AtZero::kSame;
     bool depends_on_step() const;
   };
-  void AddForces(const OptimalControlProblem& problem, int phase, const Locals& locals);
+  // Friction of one contact in space at one coefficient: the three forces by the unknowns, N, and rows with normals.
+  struct Pyramid {
+    int contact;
+    std::vector<Term> forces[3];
+    std::vector<std::pair<int, Eigen::Vector2d>> sides;
+  };
+  // (offset as in ActiveContact, coefficient)
+  using ForceSum = std::vector<std::pair<int, double>>;
+  // Bernstein coefficient k of the sum, in units of `unit`; `forces`: first local variable of each point's forces.
+  std::vector<Term> ForceTerms(int k, const std::vector<int>& forces, double unit, const ForceSum& sum) const;
+  void AddForces(const OptimalControlProblem& problem, int phase, const std::vector<FrictionEdge>& edges,
+                 const Locals& locals);
+  void AddPyramids(int k, const std::vector<int>& forces, const std::vector<ActiveContact>& active,
+                   const std::vector<ForceRow>& friction);
   void AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals);
   void AddStates(const OptimalControlProblem& problem, int joint, bool velocity, const EliminatedScheme& scheme,
                  const Locals& locals);
@@ -77,6 +102,7 @@ class IntervalPathRows {
   MatrixX from_points_;  // Bernstein coefficients of the polynomial through the values at the points
   const VectorX& scale_;
   std::vector<Row> rows_;
+  std::vector<Pyramid> pyramids_;
 };
 
 }  // namespace rollgait

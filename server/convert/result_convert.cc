@@ -178,6 +178,11 @@ void EncodeAdded(const AddedConstraints& added, v1::Multipliers* multipliers) {
     encoded.mutable_range()->Add(phase.range.begin(), phase.range.end());
     encoded.mutable_velocity()->Add(phase.velocity.begin(), phase.velocity.end());
     encoded.mutable_effort()->Add(phase.effort.begin(), phase.effort.end());
+    for (const FrictionEdge& edge : phase.friction) {
+      v1::Multipliers::FrictionEdge& added_edge = *encoded.add_friction();
+      added_edge.set_contact(edge.contact);
+      added_edge.set_direction(edge.direction);
+    }
   }
   multipliers->mutable_separated()->Add(added.separated.begin(), added.separated.end());
 }

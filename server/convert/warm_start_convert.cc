@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -103,6 +104,21 @@ std::optional<std::vector<int>> DecodeIndices(const google::protobuf::RepeatedFi
   return decoded;
 }
 
+// Ascending edges of contacts below `count`; empty if they are none.
+std::optional<std::vector<FrictionEdge>> DecodeEdges(
+    const google::protobuf::RepeatedPtrField<v1::Multipliers::FrictionEdge>& edges, size_t count) {
+  std::vector<FrictionEdge> decoded;
+  for (const v1::Multipliers::FrictionEdge& edge : edges) {
+    if (edge.contact() < 0 || edge.contact() >= static_cast<int>(count) || edge.direction() < 0 ||
+        edge.direction() >= FrictionEdge::kDirections) {
+      return std::nullopt;
+    }
+    decoded.push_back({edge.contact(), edge.direction()});
+  }
+  if (!std::is_sorted(decoded.begin(), decoded.end(), std::less_equal<FrictionEdge>())) return std::nullopt;
+  return decoded;
+}
+
 // The constraints of the program that the multipliers are of; empty if they are none of this scene.
 std::optional<AddedConstraints> DecodeAdded(const v1::Multipliers& multipliers, const Scene& scene, size_t phases) {
   const size_t joints = static_cast<size_t>(scene.model.size());
@@ -111,8 +127,9 @@ std::optional<AddedConstraints> DecodeAdded(const v1::Multipliers& multipliers, 
   for (const v1::Multipliers::BoundedBetween& phase : multipliers.between()) {
     const auto range = DecodeIndices(phase.range(), joints), velocity = DecodeIndices(phase.velocity(), joints),
                effort = DecodeIndices(phase.effort(), joints);
-    if (!range || !velocity || !effort) return std::nullopt;
-    added.between.push_back({*range, *velocity, *effort});
+    const auto friction = DecodeEdges(phase.friction(), scene.contacts.size());
+    if (!range || !velocity || !effort || !friction) return std::nullopt;
+    added.between.push_back({*range, *velocity, *effort, *friction});
   }
   const auto separated = DecodeIndices(multipliers.separated(), scene.pairs.size());
   if (!separated) return std::nullopt;

@@ -1,24 +1,44 @@
 #ifndef ROLLGAIT_CORE_OCP_CONSTRAINTS_FRICTION_H_
 #define ROLLGAIT_CORE_OCP_CONSTRAINTS_FRICTION_H_
 
+#include "core/ocp/added_constraints.h"
 #include "core/ocp/point_function.h"
 
 namespace rollgait {
+
+// A side of a friction pyramid, between two neighbouring edges: directions in steps of 5° from x towards y, `from` in
+// 0 … 71, `to` up to 72. In the plane there are no sides between edges: from = to is the one direction in which the
+// tangential force is bounded, 0 (+x) or 36 (−x).
+struct FrictionSide {
+  int from = 0, to = 0;
+  double middle() const;      // rad
+  double half_width() const;  // rad
+};
 
 // A row  Σ coefficient · force >= 0  over the forces (or impulses) of one phase.
 struct ForceRow {
   std::string name;
   std::vector<std::pair<int, double>> terms;  // (offset as in ActiveContact, coefficient)
   int contact = 0;
-  bool positive = true;  // of the two rows of a tangent direction, the one with + f_t
-  bool shared = false;   // along x, where another contact of the link bears a share (ForceSharesConstraint)
+  FrictionSide side;
+  // Where the normal force of the contact is 0, its rows that are `independent` say as equations that the tangential
+  // forces are 0, and its other rows say nothing. `shared`: of the independent rows the one along x, of a contact whose
+  // link has another that bears a share of that force (ForceSharesConstraint).
+  bool independent = false, shared = false;
 };
 
-// Friction pyramids of the active contacts of a phase: for each tangent direction t of a contact  μ f_n + f_t >= 0  and
-// μ f_n − f_t >= 0, in this order. In the plane the pyramid is the cone; in space it is the inner pyramid, with μ/√2,
-// so that the cone holds as well. `contacts` are all of the problem; `active` those of the phase.
+// The edges of the pyramid of a contact in space, ascending: every 45°, and those of `added` that are of the contact.
+std::vector<int> FrictionDirections(int contact, const std::vector<FrictionEdge>& added);
+
+// Friction of the active contacts of a phase. In space the cone |f_t| <= μ f_n is replaced by the pyramid with the
+// edges of FrictionDirections. They lie on the cone, f_t = μ f_n (cos a, sin a), so that the pyramid is within it; the
+// row of the side between the neighbouring edges a < b is
+//   μ f_n cos((b − a)/2) − f_x cos((a + b)/2) − f_y sin((a + b)/2) >= 0.
+// Between edges 45° apart a side is at most 7.6 % of μ f_n within the cone. In the plane the rows are the cone:
+// μ f_n + f_x >= 0 and μ f_n − f_x >= 0, in this order. `contacts` are all of the problem; `active` those of the phase.
 std::vector<ForceRow> FrictionRows(const std::vector<ContactSurface>& contacts,
-                                   const std::vector<ActiveContact>& active, double coefficient);
+                                   const std::vector<ActiveContact>& active, double coefficient,
+                                   const std::vector<FrictionEdge>& added = {});
 
 // These rows at one instant, N or N s.
 class FrictionConstraint : public PointConstraint {

@@ -10,7 +10,6 @@
 #include "core/gait/build_problem.h"
 #include "core/ocp/constraints/contact_point.h"
 #include "core/ocp/constraints/force_shares.h"
-#include "core/ocp/constraints/friction.h"
 
 namespace rollgait {
 namespace {
@@ -206,32 +205,6 @@ TEST_P(PointConstraintsTest, ClearanceLeavesTheGroundAndMeetsItWithoutVelocityOr
       EXPECT_LT(lower, 64.1 * 0.02 * near * near * near);
     }
   }
-}
-
-TEST_P(PointConstraintsTest, FrictionIsTheConeInThePlaneAndWithinItInSpace) {
-  std::vector<ContactSurface> contacts(2);
-  contacts[0].name = "heel";
-  contacts[1].name = "forefoot";
-  PointLayout layout;
-  layout.forces = 3;
-  VectorX z(4);
-  z << 30, 0, 100, 0;
-  double g[4];
-  FrictionConstraint space(FrictionRows(contacts, {{0, 0, {0, 1, 2}}}, 0.5), layout, 1);
-  ASSERT_EQ(space.rows(), 4);
-  space.Value({z.data()}, g);
-  EXPECT_NEAR(g[0], 50 / std::sqrt(2.0) + 30, 1e-12);
-  EXPECT_NEAR(g[1], 50 / std::sqrt(2.0) - 30, 1e-12);
-  EXPECT_NEAR(g[2], 50 / std::sqrt(2.0), 1e-12);
-  for (ContactSurface& contact : contacts) contact.directions = {0, 2};
-  layout.forces = 4;
-  z << 30, 100, 5, 40;
-  FrictionConstraint plane(FrictionRows(contacts, {{0, 0, {0, 2}}, {1, 2, {0, 2}}}, 0.5), layout, 1);
-  ASSERT_EQ(plane.rows(), 4);
-  plane.Value({z.data()}, g);
-  EXPECT_NEAR(g[0], 80, 1e-12);
-  EXPECT_NEAR(g[1], 20, 1e-12);
-  EXPECT_NEAR(g[3], 15, 1e-12);
 }
 
 // 30 N along x on normal forces of 60 and 20 N: 22.5 and 7.5 N; a surface without normal force bears nothing.

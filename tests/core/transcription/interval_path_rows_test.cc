@@ -1,105 +1,19 @@
 // The rows between the points are Bernstein coefficients of the curves that the trajectory states, and have the bounds
-// of the problem.
-#include "core/transcription/interval_path_rows.h"
-
+// of the problem. Those of friction have a test of their own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <random>
 #include <string>
+#include <vector>
 
-#include "core/gait/build_problem.h"
-#include "core/gait/initial_guess.h"
-#include "core/trajectory/sampling.h"
-#include "core/transcription/collocation_nlp.h"
+#include "tests/core/transcription/path_rows_fixture.h"
 
 namespace rollgait {
 namespace {
 
-struct Case {
-  const char* model;
-  Scheme scheme;
-};
-
-class IntervalPathRowsTest : public ::testing::TestWithParam<Case> {
- protected:
-  static constexpr int kIntervals = 2;  // a phase
-
-  void Build(Preset preset) {
-    GaitRequest request;
-    request.body.model = GetParam().model;
-    request.body.feet = FootShape::kTwoEllipsoids;
-    request.preset = preset;
-    request.motion.speed = 1.3;
-    request.discretization.scheme = GetParam().scheme;
-    request.ground_contact.friction_coefficient = 0.7;
-    request.ground_contact.min_normal_force_bw = least_force_;
-    request.limits.joint_velocity["knee_r"] = 7;
-    request.limits.joint_position["knee_r"] = {0.01, 1.1};
-    request.limits.joint_effort["knee_r"] = {-90, 80};
-    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
-    problem_ = BuildProblem(*spec_);
-    knee_ = problem_->model.Find("knee_r");
-    added_.between.assign(problem_->phases.size(), {{knee_}, {knee_}, {knee_}});
-    nlp_ = std::make_unique<CollocationNlp>(
-        *problem_, GetParam().scheme, Mesh::Uniform(std::vector<int>(problem_->phases.size(), kIntervals)), added_);
-    x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
-    std::mt19937 random(9);
-    std::uniform_real_distribution<double> noise(-0.2, 0.2);
-    for (int i = 0; i < nlp_->layout().duration(0); ++i) x_(i) += noise(random);
-    g_.resize(nlp_->constraints());
-    ASSERT_TRUE(nlp_->Constraints(x_.data(), g_.data()));
-    trajectory_ = nlp_->Extract(x_.data());
-  }
-
-  // Rows of an interval with this name, in physical units: values, lower and upper bounds.
-  struct Rows {
-    std::vector<double> values, lower, upper;
-  };
-  Rows Named(const std::string& name, int phase, int interval) const {
-    Rows rows;
-    const TrajectoryPhase& data = trajectory_.phases[phase];
-    const double begin = data.node_times[interval], end = data.node_times[interval + 1];
-    for (int r = 0; r < nlp_->constraints(); ++r) {
-      const RowInfo info = nlp_->Describe(x_.data(), r);
-      if (info.name != name || info.phase != phase || info.time < begin + 1e-12 || info.time > end + 1e-12) continue;
-      rows.values.push_back(g_(r) * info.size);
-      rows.lower.push_back(nlp_->constraint_lower()(r) * info.size);
-      rows.upper.push_back(nlp_->constraint_upper()(r) * info.size);
-    }
-    return rows;
-  }
-
-  // The coefficients `inner`, completed by the ends of the curve where rows are missing there, give the curve.
-  void ExpectCurve(std::vector<double> inner, bool with_start, bool with_end,
-                   const std::function<double(double)>& curve) {
-    if (with_start) inner.insert(inner.begin(), curve(0));
-    if (with_end) inner.push_back(curve(1));
-    double size = 1;
-    for (double value : inner) size = std::max(size, std::abs(value));
-    for (double theta = 0; theta <= 1; theta += 0.25) {
-      std::vector<double> b = inner;
-      for (size_t left = b.size() - 1; left > 0; --left) {
-        for (size_t i = 0; i < left; ++i) b[i] = (1 - theta) * b[i] + theta * b[i + 1];
-      }
-      EXPECT_NEAR(b[0], curve(theta), 1e-11 * size) << theta;
-    }
-  }
-
-  bool Lobatto() const { return GetParam().scheme == Scheme::kHermiteSimpson; }
-
-  double least_force_ = 0;
-  int knee_ = 0;
-  std::unique_ptr<GaitSpec> spec_;
-  std::unique_ptr<OptimalControlProblem> problem_;
-  AddedConstraints added_;
-  std::unique_ptr<CollocationNlp> nlp_;
-  VectorX x_, g_;
-  Trajectory trajectory_;
-};
+class IntervalPathRowsTest : public PathRowsFixture {};
 
 TEST_P(IntervalPathRowsTest, AreTheBernsteinCoefficientsOfTheStatedCurves) {
   Build(Preset::kHuman);
@@ -229,8 +143,10 @@ TEST_P(IntervalPathRowsTest, ForcesVanishWhereContactsChangeAtRest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, IntervalPathRowsTest,
-                         ::testing::Values(Case{"planar", Scheme::kRadau2}, Case{"planar", Scheme::kRadau3},
-                                           Case{"planar", Scheme::kHermiteSimpson}, Case{"human29", Scheme::kRadau2}));
+                         ::testing::Values(PathRowsCase{"planar", Scheme::kRadau2},
+                                           PathRowsCase{"planar", Scheme::kRadau3},
+                                           PathRowsCase{"planar", Scheme::kHermiteSimpson},
+                                           PathRowsCase{"human29", Scheme::kRadau2}));
 
 }  // namespace
 }  // namespace rollgait

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "server/convert/result_convert.h"
@@ -61,6 +62,11 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
   multipliers.add_between()->add_range(2);
   multipliers.mutable_between(0)->add_velocity(3);
   multipliers.mutable_between(0)->add_velocity(5);
+  for (const auto& [contact, direction] : {std::pair(0, 71), std::pair(1, 0)}) {
+    v1::Multipliers::FrictionEdge& edge = *multipliers.mutable_between(0)->add_friction();
+    edge.set_contact(contact);
+    edge.set_direction(direction);
+  }
   const Result<WarmStart> decoded = DecodeWarmStart(EncodeTrajectory(trajectory, spec.scene), multipliers, spec);
   ASSERT_TRUE(decoded.ok()) << decoded.violations()[0].message;
   const Trajectory& back = decoded.value().trajectory;
@@ -90,13 +96,22 @@ TEST(DecodeWarmStart, IsTheInverseOfEncoding) {
   EXPECT_EQ(decoded.value().multipliers->rows(3), 1.5);
   EXPECT_EQ(decoded.value().multipliers->bounds(0), -3);
   ASSERT_EQ(decoded.value().added.between.size(), 1u);
-  EXPECT_EQ(decoded.value().added.between[0], (BoundedBetween{{2}, {3, 5}, {}}));
-  // Of joints or pairs that this body lacks, or in disorder: multipliers of another problem, which are left out.
+  EXPECT_EQ(decoded.value().added.between[0], (BoundedBetween{{2}, {3, 5}, {}, {{0, 71}, {1, 0}}}));
+  // Of joints, pairs, contacts or directions that do not exist, or in disorder: multipliers of another problem, which
+  // are left out.
   for (const auto& spoil : std::vector<std::function<void(v1::Multipliers&)>>{
            [&](v1::Multipliers& m) { m.mutable_between(0)->add_effort(spec.scene.model.size()); },
            [](v1::Multipliers& m) { m.mutable_between(0)->add_velocity(4); },
            [](v1::Multipliers& m) { m.mutable_between(0)->set_range(0, -1); },
            [](v1::Multipliers& m) { m.add_separated(1 << 20); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->mutable_friction(1)->set_direction(72); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->mutable_friction(1)->set_direction(-1); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->mutable_friction(0)->set_contact(-1); },
+           [](v1::Multipliers& m) { m.mutable_between(0)->mutable_friction(1)->set_contact(0); },
+           [](v1::Multipliers& m) { *m.mutable_between(0)->add_friction() = m.between(0).friction(1); },
+           [&](v1::Multipliers& m) {
+             m.mutable_between(0)->mutable_friction(1)->set_contact(static_cast<int>(spec.scene.contacts.size()));
+           },
            [](v1::Multipliers& m) {
              for (int i = 0; i < 50; ++i) m.add_between();
            }}) {
@@ -116,7 +131,7 @@ TEST(DecodeWarmStart, AddedConstraintsComeBackFromAResult) {
   GaitSolution solution;
   solution.trajectory = SmallTrajectory(spec);
   solution.multipliers = SolutionMultipliers{VectorX::Ones(3), VectorX::Ones(2)};
-  solution.added.between = {{{1}, {}, {4, 6}}, {}};
+  solution.added.between = {{{1}, {}, {4, 6}, {{0, 5}, {0, 30}}}, {{}, {}, {}, {{1, 11}}}};
   const v1::SolveResult result = EncodeResult(solution, spec);
   const Result<WarmStart> decoded = DecodeWarmStart(result.trajectory(), result.multipliers(), spec);
   ASSERT_TRUE(decoded.ok());
