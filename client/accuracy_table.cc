@@ -1,5 +1,6 @@
 #include "client/accuracy_table.h"
 
+#include "client/error_table.h"
 #include "client/failure.h"
 #include "client/text.h"
 
@@ -149,6 +150,8 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
        "Largest violation of any constraint of the discretised problem (scaled)."},
   };
   lines.insert(lines.end(), rest.begin(), rest.end());
+  const std::vector<AccuracyLine> errors = ErrorLines(solve);
+  lines.insert(lines.end(), errors.begin(), errors.end());
   if (ground.touch_down() == v1::TOUCH_DOWN_PLASTIC) {
     const std::vector<AccuracyLine> impacts = ImpactLines(report);
     lines.insert(lines.end(), impacts.begin(), impacts.end());
@@ -156,19 +159,41 @@ std::vector<AccuracyLine> AccuracyLines(const v1::Solve& solve) {
   return lines;
 }
 
-std::string AccuracyVerdict(const v1::Solve& solve) {
+namespace {
+
+std::string ExceededText(const AccuracyLine& line) {
+  const std::string unit = line.unit.empty() ? "" : " " + line.unit;
+  return "EXCEEDED: " + line.name + ", " + FormatNumber(line.value, 3) + unit + " where " +
+         FormatNumber(*line.bound, 3) + unit + " is allowed" + (line.where.empty() ? "" : " (" + line.where + ")");
+}
+
+// By the bounds alone.
+std::string BoundsVerdict(const v1::Solve& solve) {
   const v1::AccuracyReport& report = solve.result().accuracy();
   if (report.verdict() == v1::VERDICT_WITHIN) return "within the requested bounds";
   const v1::CriterionResult* worst = Worst(report);
   if (report.verdict() == v1::VERDICT_EXCEEDED && worst != nullptr) {
-    const AccuracyLine line = CriterionLine(*worst, solve.result().model());
-    const std::string unit = line.unit.empty() ? "" : " " + line.unit;
-    return "EXCEEDED: " + line.name + ", " + FormatNumber(line.value, 3) + unit + " where " +
-           FormatNumber(*line.bound, 3) + unit + " is allowed" + (line.where.empty() ? "" : " (" + line.where + ")");
+    return ExceededText(CriterionLine(*worst, solve.result().model()));
   }
   if (report.verdict() == v1::VERDICT_EXCEEDED) return "EXCEEDED";
   if (report.verdict() == v1::VERDICT_UNSPECIFIED) return "not judged (a result of a version before 0.4.0)";
   return HasSolution(solve) ? "not judged (draft)" : "not judged (the solver did not converge)";
+}
+
+// What the estimated errors add to the verdict.
+std::string ErrorVerdict(const v1::Solve& solve) {
+  if (!solve.spec().accuracy().has_max_error()) return "";
+  if (!MissesMaxError(solve)) return ", within the requested errors";
+  for (const AccuracyLine& line : ErrorLines(solve)) {
+    if (line.exceeded) return "; errors " + ExceededText(line);
+  }
+  return "; errors NOT ESTIMATED";
+}
+
+}  // namespace
+
+std::string AccuracyVerdict(const v1::Solve& solve) {
+  return BoundsVerdict(solve) + (HasSolution(solve) ? ErrorVerdict(solve) : "");
 }
 
 }  // namespace rollgait::client

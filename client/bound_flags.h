@@ -16,6 +16,10 @@ std::vector<std::string> BoundNames();
 // that is not in BoundNames(), with the list, and for what is not a number. The server checks the ranges.
 void ApplyBounds(const std::vector<std::string>& bounds, v1::Accuracy& accuracy);
 
+// Sets the fields of max_error by "NAME=NUMBER": angle in degrees, torque in N m, contact-force in N, objective as a
+// share. Throws Failure(kUsage) for another name, with the list, and for what is not a number.
+void ApplyMaxErrors(const std::vector<std::string>& errors, v1::Accuracy& accuracy);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_BOUND_FLAGS_H_

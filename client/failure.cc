@@ -132,6 +132,11 @@ ExitCode ExitCodeOf(const grpc::Status& status) {
   }
 }
 
+bool MissesMaxError(const v1::Solve& solve) {
+  if (!solve.spec().accuracy().has_max_error()) return false;
+  return !solve.result().errors().within_max_error();
+}
+
 ExitCode ExitCodeOf(const v1::Solve& solve) {
   switch (solve.state()) {
     case v1::SOLVE_STATE_SUCCEEDED:
@@ -146,7 +151,9 @@ ExitCode ExitCodeOf(const v1::Solve& solve) {
   switch (solve.result().termination()) {
     case v1::TERMINATION_OPTIMAL:
     case v1::TERMINATION_ACCEPTABLE:
-      return solve.result().accuracy().verdict() == v1::VERDICT_EXCEEDED ? ExitCode::kMissesBound : ExitCode::kSuccess;
+      return solve.result().accuracy().verdict() == v1::VERDICT_EXCEEDED || MissesMaxError(solve)
+                 ? ExitCode::kMissesBound
+                 : ExitCode::kSuccess;
     case v1::TERMINATION_CANCELLED:
       return ExitCode::kCancelled;
     default:

@@ -22,7 +22,8 @@ enum class ExitCode {
   kRunFailed = 5,    // The run ended without an answer: crash, CPU limit, memory limit.
   kCancelled = 6,
   kNotFound = 7,
-  kMissesBound = 8,  // The solve is optimal or acceptable, but its trajectory misses an accuracy bound of the request.
+  kMissesBound =
+      8,  // The solve is optimal or acceptable, but its trajectory misses an accuracy bound or an error of the request.
 };
 
 // Ends a command. Thrown anywhere in the client, turned into a message and an exit code in one place (RunClient).
@@ -40,6 +41,9 @@ ExitCode ExitCodeOf(const grpc::Status& status);
 
 // The exit code of a finished solve. kInternal for one that is not finished. A solve that was not judged is a success.
 ExitCode ExitCodeOf(const v1::Solve& solve);
+// Whether the request has a max_error that the finished solve's estimates are not within, or that it has no estimate
+// for.
+bool MissesMaxError(const v1::Solve& solve);
 // True if the solve ended optimal or acceptable, whatever its accuracy.
 bool HasSolution(const v1::Solve& solve);
 

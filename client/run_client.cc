@@ -18,7 +18,7 @@ constexpr char kExitCodes[] = R"(Exit codes:
   5  the run failed: crash, CPU limit or memory limit
   6  cancelled
   7  no such solve or model
-  8  the solve is optimal or acceptable, but the trajectory misses an accuracy bound
+  8  the solve is optimal or acceptable, but the trajectory misses an accuracy bound or a --max-error
 
 Environment:
   ROLLGAIT_SERVER  HOST:PORT of the server, as --server

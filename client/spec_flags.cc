@@ -172,6 +172,8 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
         {{"draft", Accuracy::LEVEL_DRAFT}, {"standard", Accuracy::LEVEL_STANDARD}, {"fine", Accuracy::LEVEL_FINE}}));
   }
   if (!flags.bounds.empty()) ApplyBounds(flags.bounds, *spec.mutable_accuracy());
+  if (flags.estimate_errors) spec.mutable_accuracy()->set_estimate_errors(true);
+  if (!flags.max_errors.empty()) ApplyMaxErrors(flags.max_errors, *spec.mutable_accuracy());
   if (flags.tolerance) spec.mutable_accuracy()->set_kkt_tolerance(*flags.tolerance);
   if (flags.max_refinements) spec.mutable_accuracy()->set_max_refinements(*flags.max_refinements);
   if (flags.max_iterations) spec.mutable_solver_limits()->set_max_iterations(*flags.max_iterations);
@@ -243,6 +245,12 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--bound", flags.bounds, "Numerics",
       "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for example "
       "max_pull_bw=1e-4; may be repeated")
+      ->take_all();
+  command.add_flag("--errors", flags.estimate_errors, "Estimate the errors of objective, angles, torques and forces")
+      ->group("Numerics");
+  add("--max-error", flags.max_errors, "Numerics",
+      "NAME=NUMBER: refine until this estimated error is reached: angle in degrees, torque in N m, contact-force in N, "
+      "objective as a share; may be repeated")
       ->take_all();
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 20]");

@@ -44,7 +44,27 @@ struct CheckedAccuracy {
   double kkt_tolerance;
   CriterionValues bounds;
   int max_refinements;
+  std::optional<MaxError> max_error;
 };
+
+std::optional<MaxError> CheckMaxError(const std::optional<MaxError>& given, RequestCheck& check) {
+  if (!given) return std::nullopt;
+  const std::string path = "accuracy.max_error";
+  MaxError checked;
+  const auto take = [&](const std::optional<double>& error, const std::string& field, double most, const char* unit) {
+    std::optional<double> taken;
+    if (error) taken = check.Number(path + "." + field, error, 0, {1e-9, most, unit});
+    return taken;
+  };
+  checked.objective = take(given->objective, "objective", 1, "");
+  checked.angle = take(given->angle, "angle_rad", 1, "rad");
+  checked.torque = take(given->torque, "torque_n_m", kMaxEffort, "N m");
+  checked.contact_force = take(given->contact_force, "contact_force_n", kMaxEffort, "N");
+  if (!given->objective && !given->angle && !given->torque && !given->contact_force) {
+    check.Add(path, "allows no error; give objective, angle_rad, torque_n_m or contact_force_n, or leave it out");
+  }
+  return checked;
+}
 
 CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_overlap, RequestCheck& check) {
   using Level = GaitRequest::AccuracyLevel;
@@ -64,7 +84,8 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_
     bounds[Criterion::kOverlap] = kInfinity;
   }
   return {check.Number("accuracy.kkt_tolerance", accuracy.kkt_tolerance, 1e-6, {1e-12, 1e-2}), bounds,
-          check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 12, 0, 20)};
+          check.Integer("accuracy.max_refinements", accuracy.max_refinements, is_draft ? 0 : 12, 0, 20),
+          CheckMaxError(accuracy.max_error, check)};
 }
 
 // The phases and the motion of a walk.
@@ -105,6 +126,13 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   CheckedManoeuvre manoeuvre;
   CheckedMotion motion{};
   if (once) {
+    for (const auto& [field, is_asked] : {std::pair("estimate_errors", request.accuracy.estimate_errors),
+                                          std::pair("max_error", request.accuracy.max_error.has_value())}) {
+      if (is_asked) {
+        check.Add(std::string("accuracy.") + field,
+                  "errors of a manoeuvre are not estimated, only those of gaits; leave it out");
+      }
+    }
     manoeuvre = CheckManoeuvre(request, known, check);
   } else {
     motion = CheckGait(request, known, gravity, similarity, &manoeuvre.phases, check);
@@ -160,6 +188,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .allow_body_overlap = request.limits.allow_body_overlap,
                   .bounds = accuracy.bounds,
                   .max_refinements = accuracy.max_refinements,
+                  .estimate_errors = request.accuracy.estimate_errors || accuracy.max_error.has_value(),
+                  .max_error = accuracy.max_error,
                   .max_iterations = max_iterations,
                   .max_wall_time = max_wall_time,
                   .starts = request.warm_start ? 1 : starts,

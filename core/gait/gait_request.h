@@ -17,6 +17,14 @@ namespace rollgait {
 // What a request leaves open, by name; see rollgait.v1.Preset.
 enum class Preset { kTorque, kTransport, kHuman };
 
+// The largest estimated errors that a request allows, each the largest over time; see rollgait.v1.MaxError.
+struct MaxError {
+  std::optional<double> objective = {};      // as a share
+  std::optional<double> angle = {};          // rad
+  std::optional<double> torque = {};         // N m
+  std::optional<double> contact_force = {};  // N
+};
+
 // A gait request as it comes in: any numbers. Field for field rollgait.v1.SolveSpec, which documents meaning, unit,
 // default and range. An empty optional asks for the default.
 struct GaitRequest {
@@ -105,6 +113,8 @@ struct GaitRequest {
     std::optional<double> kkt_tolerance;
     std::map<Criterion, double> bounds;  // in place of the level's
     std::optional<int> max_refinements;
+    bool estimate_errors = false;
+    std::optional<MaxError> max_error;
   } accuracy;
   struct SolverLimits {
     std::optional<int> max_iterations;

@@ -9,6 +9,7 @@
 #include "core/nlp/result.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/gait_events.h"
+#include "core/validation/motion_difference.h"
 #include "core/validation/normative.h"
 #include "core/validation/report.h"
 
@@ -36,7 +37,26 @@ struct MeshStatistics {
   std::vector<int> intervals;
   int unknowns = 0, constraints = 0, jacobian_nonzeros = 0, hessian_nonzeros = 0, iterations = 0;
   double wall_time = 0, evaluation_time = 0, objective = 0, kkt_error = 0, max_gap = 0, max_slip = 0;
-  double smoothing = 0;  // W, of the powers in the costs; 0: none
+  double smoothing = 0;     // W, of the powers in the costs; 0: none
+  bool for_errors = false;  // solved to estimate the errors of a solution on a coarser mesh
+};
+
+// The solution of the same problem on a finer mesh, beside which the errors of a solution are estimated.
+struct FinerSolution {
+  Trajectory trajectory;
+  double objective = 0, speed = 0, step_length = 0;
+  std::vector<int> intervals;
+};
+
+// Estimates of |value − the value that ever finer meshes approach|; see rollgait.v1.ErrorEstimate.
+struct ErrorEstimate {
+  double objective = 0;                     // as a share of the objective
+  double duration = 0;                      // s, of the trajectory
+  std::vector<double> phase_durations;      // s
+  double speed = 0, step_length = 0;        // m/s, m
+  MotionDifference motion;                  // at equal fractions of the phases
+  std::vector<int> finer_intervals;         // of the mesh that the solution was compared with
+  std::optional<bool> is_within_max_error;  // absent: the request allows any
 };
 
 // What a solve gives back, whatever its termination.
@@ -50,6 +70,8 @@ struct GaitSolution {
   std::optional<AccuracyReport> accuracy;        // present with the trajectory
   std::optional<GaitEvents> events;              // present with a trajectory of a human that walks
   std::optional<NormativeComparison> normative;  // present with events
+  std::optional<FinerSolution> finer;            // where the request asks for errors and it was found
+  std::optional<ErrorEstimate> errors;           // present with `finer`
   Verdict verdict;                               // of a converged solution; not judged otherwise
   double objective = 0;
   double kkt_error = 0;

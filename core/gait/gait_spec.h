@@ -48,6 +48,8 @@ struct GaitSpec {
   bool allow_body_overlap;  // bodies may pass through each other; the bound of the overlap is then infinite
   CriterionValues bounds;   // all infinite: the trajectory is not judged
   int max_refinements;
+  bool estimate_errors = false;       // true with a max_error
+  std::optional<MaxError> max_error;  // at least one is set
   // Its solution only starts another program: what it violates is left to that one (LeaveTheRest).
   bool is_only_a_start = false;
   int max_iterations;

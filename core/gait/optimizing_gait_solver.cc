@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "core/gait/build_problem.h"
+#include "core/gait/error_estimate.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
+#include "core/gait/request_check.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
 #include "core/gait/time_unit.h"
@@ -89,10 +91,17 @@ GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   return cold;
 }
 
+GaitSolution SearchWithErrors(const GaitSpec& spec, SolveBudget* budget) {
+  GaitSolution solution = Search(spec, budget);
+  return spec.estimate_errors && Converged(solution.termination) ? SolveForErrors(spec, std::move(solution), budget)
+                                                                 : solution;
+}
+
 // In the time unit of the walk's gravity; at 9.81 m/s² that is the second.
 GaitSolution SearchInOwnTime(const GaitSpec& spec, SolveBudget* budget) {
   const double unit = spec.similarity.time();
-  return unit == 1 ? Search(spec, budget) : InSeconds(unit, spec, Search(InTimeUnit(unit, spec), budget));
+  return unit == 1 ? SearchWithErrors(spec, budget)
+                   : InSeconds(unit, spec, SearchWithErrors(InTimeUnit(unit, spec), budget));
 }
 
 }  // namespace
@@ -109,6 +118,16 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
   GaitSolution solution = SearchInOwnTime(spec, &budget);
+  if (solution.finer) {
+    solution.errors = EstimateErrors(spec.scene, solution, *solution.finer);
+    if (spec.max_error) {
+      const double worst = WorstShareOf(*spec.max_error, *solution.errors);
+      solution.errors->is_within_max_error = worst <= 1;
+      if (worst > 1)
+        solution.message +=
+            " The error that was asked for is not reached; the largest is " + FormatNumber(worst) + " times it.";
+    }
+  }
   solution.message += solution.note;
   if (solution.trajectory) solution.events = MeasureGaitEvents(spec.scene, *solution.trajectory, spec.gravity);
   if (solution.events) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, *solution.events);

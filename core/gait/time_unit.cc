@@ -104,6 +104,10 @@ GaitSpec InTimeUnit(double unit, const GaitSpec& spec) {
   }
   for (GaitSpec::CostTerm& cost : scaled.costs) ScaleCost(unit, spec.normalization, &cost);
   scaled.bounds = ScaledBounds(unit, spec.bounds);
+  if (scaled.max_error) {
+    if (scaled.max_error->torque) *scaled.max_error->torque *= unit * unit;
+    if (scaled.max_error->contact_force) *scaled.max_error->contact_force *= unit * unit;
+  }
   if (scaled.warm_start) scaled.warm_start->trajectory = InTimeUnit(unit, spec.warm_start->trajectory);
   return scaled;
 }
@@ -124,6 +128,10 @@ GaitSolution InSeconds(double unit, const GaitSpec& spec, GaitSolution solution)
     mesh.smoothing /= std::pow(unit, 3);
   }
   solution.speed /= unit;
+  if (solution.finer) {
+    solution.finer->speed /= unit;
+    solution.finer->trajectory = InTimeUnit(1 / unit, std::move(solution.finer->trajectory));
+  }
   if (solution.trajectory) {
     solution.trajectory = InTimeUnit(1 / unit, std::move(*solution.trajectory));
     Judge(spec, &solution);

@@ -73,6 +73,13 @@ RollingEllipsoidRequest DecodeRollingBody(const v1::RollingBody& body) {
 }
 
 // The field of a criterion is found by its name in the table; tests hold that each is there and is an optional double.
+std::optional<MaxError> DecodeMaxError(const v1::Accuracy& accuracy) {
+  if (!accuracy.has_max_error()) return std::nullopt;
+  const v1::MaxError& error = accuracy.max_error();
+  return MaxError{ROLLGAIT_OPTIONAL(error, objective), ROLLGAIT_OPTIONAL(error, angle_rad),
+                  ROLLGAIT_OPTIONAL(error, torque_n_m), ROLLGAIT_OPTIONAL(error, contact_force_n)};
+}
+
 std::map<Criterion, double> DecodeBounds(const v1::Accuracy& accuracy) {
   std::map<Criterion, double> bounds;
   for (const CriterionTraits& traits : Criteria()) {
@@ -258,8 +265,9 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
                             ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};
   const v1::Accuracy& accuracy = spec.accuracy();
-  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance), DecodeBounds(accuracy),
-                      ROLLGAIT_OPTIONAL(accuracy, max_refinements)};
+  request.accuracy = {DecodeLevel(accuracy.level()), ROLLGAIT_OPTIONAL(accuracy, kkt_tolerance),
+                      DecodeBounds(accuracy),        ROLLGAIT_OPTIONAL(accuracy, max_refinements),
+                      accuracy.estimate_errors(),    DecodeMaxError(accuracy)};
   request.solver_limits = {ROLLGAIT_OPTIONAL(spec.solver_limits(), max_iterations),
                            ROLLGAIT_OPTIONAL(spec.solver_limits(), max_wall_time_s)};
   request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);

@@ -170,6 +170,32 @@ void EncodeMesh(const MeshStatistics& mesh, v1::MeshStatistics* encoded) {
   encoded->set_max_gap_m(mesh.max_gap);
   encoded->set_max_slip_m_s(mesh.max_slip);
   encoded->set_smoothing_w(mesh.smoothing);
+  encoded->set_for_errors(mesh.for_errors);
+}
+
+v1::ErrorEstimate EncodeErrors(const ErrorEstimate& errors) {
+  v1::ErrorEstimate encoded;
+  encoded.set_objective(errors.objective);
+  encoded.set_duration_s(errors.duration);
+  encoded.mutable_phase_durations_s()->Add(errors.phase_durations.begin(), errors.phase_durations.end());
+  encoded.set_speed_m_s(errors.speed);
+  encoded.set_step_length_m(errors.step_length);
+  for (const MotionQuantityTraits& traits : MotionQuantities()) {
+    const QuantityDifference& difference = errors.motion[static_cast<int>(traits.quantity)];
+    if (difference.where.empty()) continue;  // the model has none of these, or they agree
+    v1::QuantityError& quantity = *encoded.add_quantities();
+    quantity.set_quantity(traits.name);
+    quantity.set_unit(traits.unit);
+    quantity.set_largest(difference.largest);
+    quantity.set_rms(difference.rms);
+    quantity.set_peak(difference.peak);
+    quantity.set_where(difference.where);
+    quantity.set_phase(difference.phase);
+    quantity.set_time_s(difference.time);
+  }
+  encoded.mutable_finer_intervals()->Add(errors.finer_intervals.begin(), errors.finer_intervals.end());
+  if (errors.is_within_max_error) encoded.set_within_max_error(*errors.is_within_max_error);
+  return encoded;
 }
 
 void EncodeAdded(const AddedConstraints& added, v1::Multipliers* multipliers) {
@@ -237,6 +263,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   if (solution.accuracy) {
     *result.mutable_accuracy() = EncodeAccuracy(*solution.accuracy, solution, scene.model, spec.bounds);
   }
+  if (solution.errors) *result.mutable_errors() = EncodeErrors(*solution.errors);
   if (solution.events) *result.mutable_gait_events() = EncodeGaitEvents(*solution.events, scene);
   if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);
   result.set_objective(solution.objective);

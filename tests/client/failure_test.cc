@@ -42,6 +42,23 @@ TEST(ExitCodeTest, OfFinishedSolves) {
   EXPECT_EQ(ExitCodeOf(solve), ExitCode::kCancelled);
 }
 
+TEST(ExitCodeTest, AnErrorThatIsNotReachedIsAMissedBound) {
+  v1::Solve solve;
+  solve.set_state(v1::SOLVE_STATE_SUCCEEDED);
+  solve.mutable_result()->set_termination(v1::TERMINATION_OPTIMAL);
+  solve.mutable_result()->mutable_accuracy()->set_verdict(v1::VERDICT_WITHIN);
+  solve.mutable_result()->mutable_errors()->set_objective(0.5);
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kSuccess) << "none was asked for";
+  solve.mutable_spec()->mutable_accuracy()->mutable_max_error()->set_objective(0.1);
+  solve.mutable_result()->mutable_errors()->set_within_max_error(false);
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kMissesBound);
+  EXPECT_TRUE(HasSolution(solve));
+  solve.mutable_result()->mutable_errors()->set_within_max_error(true);
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kSuccess);
+  solve.mutable_result()->clear_errors();
+  EXPECT_EQ(ExitCodeOf(solve), ExitCode::kMissesBound) << "no estimate";
+}
+
 TEST(ExitCodeTest, OfCalls) {
   const auto code = [](grpc::StatusCode status) { return ExitCodeOf(grpc::Status(status, "")); };
   EXPECT_EQ(code(grpc::StatusCode::OK), ExitCode::kSuccess);

@@ -10,6 +10,7 @@
 
 #include "client/bound_flags.h"
 #include "client/failure.h"
+#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -171,6 +172,22 @@ TEST(SpecFlagsTest, BoundsReachTheirFields) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
     for (const std::string& name : names) EXPECT_NE(std::string(failure.what()).find(name), std::string::npos) << name;
   }
+}
+
+TEST(SpecFlagsTest, ErrorsReachTheirFieldsInTheirUnits) {
+  EXPECT_FALSE(Parse("--slope 1").accuracy().estimate_errors());
+  EXPECT_TRUE(Parse("--errors").accuracy().estimate_errors());
+  const v1::MaxError error =
+      Parse("--max-error angle=0.5 --max-error torque=2 --max-error contact-force=9 --max-error objective=0.01")
+          .accuracy()
+          .max_error();
+  EXPECT_NEAR(error.angle_rad(), 0.5 * kPi / 180, 1e-15);
+  EXPECT_EQ(error.torque_n_m(), 2);
+  EXPECT_EQ(error.contact_force_n(), 9);
+  EXPECT_EQ(error.objective(), 0.01);
+  EXPECT_FALSE(Parse("--max-error angle=1").accuracy().max_error().has_torque_n_m());
+  EXPECT_THROW(Parse("--max-error speed=1"), Failure);
+  EXPECT_THROW(Parse("--max-error angle"), Failure);
 }
 
 TEST(SpecFlagsTest, AWeightAfterAnEqualsSignIsToldWhereToStand) {

@@ -59,6 +59,39 @@ TEST(SummaryTest, TellsTheVerdictAndEveryCriterion) {
   EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("within")));
 }
 
+TEST(SummaryTest, TellsEstimatedErrors) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("estimated error")));
+  v1::ErrorEstimate& errors = *solve.mutable_result()->mutable_errors();
+  errors.set_objective(0.0123);
+  v1::QuantityError& angle = *errors.add_quantities();
+  angle.set_quantity("joint angle");
+  angle.set_unit("rad");
+  angle.set_largest(0.01);
+  angle.set_rms(0.002);
+  angle.set_where("knee_l");
+  angle.set_time_s(0.25);
+  v1::QuantityError& unknown = *errors.add_quantities();
+  unknown.set_quantity("warmth");
+  unknown.set_unit("K");
+  unknown.set_largest(7);
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("estimated error of the objective +1.23  %"));
+  EXPECT_THAT(Summarize(solve, false),
+              testing::ContainsRegex("estimated error of the joint angle +0.573  ° +knee_l at 0.25 s; RMS 0.115 °"));
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("estimated error of the warmth +7  K"));
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("\nAccuracy: within the requested bounds\n"));
+  solve.mutable_spec()->mutable_accuracy()->mutable_max_error()->set_angle_rad(0.005);
+  errors.set_within_max_error(false);
+  EXPECT_THAT(Summarize(solve, false),
+              HasSubstr("\nAccuracy: within the requested bounds; errors EXCEEDED: estimated error of the joint angle, "
+                        "0.573 ° where 0.286 ° is allowed"));
+  solve.mutable_spec()->mutable_accuracy()->mutable_max_error()->set_angle_rad(0.02);
+  errors.set_within_max_error(true);
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("within the requested bounds, within the requested errors\n"));
+  solve.mutable_result()->clear_errors();
+  EXPECT_THAT(Summarize(solve, false), HasSubstr("within the requested bounds; errors NOT ESTIMATED\n"));
+}
+
 TEST(SummaryTest, WhatWasNotJudgedIsNeverWithin) {
   v1::Solve solve = SampleSolve("solves/a", 0);
   solve.mutable_result()->mutable_accuracy()->set_verdict(v1::VERDICT_NOT_JUDGED);

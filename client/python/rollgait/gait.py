@@ -120,6 +120,12 @@ class Gait:
                                        c.where, c.time_s, c.exceeded)
                 for c in self.solve.result.accuracy.criteria}
 
+    @property
+    def errors(self) -> Dict[str, "solve_pb2.QuantityError"]:
+        """Estimated errors by quantity ("joint angle" in rad, "joint torque" in N m …); empty unless they were asked for. The
+        errors of objective and durations are in `solve.result.errors`."""
+        return {e.quantity: e for e in self.solve.result.errors.quantities}
+
     def _column(self, joint: str, names: List[str]) -> int:
         if joint not in names:
             raise KeyError(f"no joint {joint!r}; there are {', '.join(names)}")

@@ -29,6 +29,7 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
               step_duration_s: Optional[float] = None, stature_m: Optional[float] = None,
               body_mass_kg: Optional[float] = None, sex: Optional[str] = None, gravity_m_s2: Optional[float] = None,
               accuracy: Optional[str] = None, bounds: Optional[Mapping[str, float]] = None,
+              estimate_errors: bool = False, max_error: Optional[Mapping[str, float]] = None,
               scheme: Optional[str] = None, intervals: Optional[int] = None, cycle: Optional[str] = None,
               friction: Optional[float] = None, starts: Optional[int] = None, warm_start: Optional[str] = None,
               max_iterations: Optional[int] = None, time_limit_s: Optional[float] = None,
@@ -40,6 +41,8 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
     slope_deg   positive uphill; speed_m_s along the slope
     accuracy    "draft", "standard" or "fine"; `bounds` replaces bounds of the level by the names of rollgait.v1.Accuracy,
                 for example {"max_slip_m_s": 5e-4}
+    estimate_errors  `Gait.errors` tells how far angles, torques and the objective are from those on ever finer meshes
+    max_error   refine until the estimates are within these, by the names of rollgait.v1.MaxError: {"angle_rad": 0.01}
     intervals   of the first mesh in a single-support phase
     warm_start  "solves/ID" or "nearest"
     spec        any further field of rollgait.v1.SolveSpec, as in its JSON: {"groundContact": {"swingClearanceM": 0.03}}
@@ -63,11 +66,17 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
     if cycle is not None:
         message.cycle = _choose("cycle", cycle, _CYCLES)
     for name, bound in (bounds or {}).items():
-        fields = [f.name for f in pb.Accuracy.DESCRIPTOR.fields if f.name.startswith("max_") and f.name != "max_refinements"]
+        fields = [f.name for f in pb.Accuracy.DESCRIPTOR.fields if f.name.startswith("max_") and f.cpp_type == f.CPPTYPE_DOUBLE]
         if name not in fields:
             close = difflib.get_close_matches(name, fields, 1)
             raise ValueError(f"bounds: there is no {name!r}." + (f" Did you mean {close[0]!r}?" if close else ""))
         setattr(message.accuracy, name, bound)
+    message.accuracy.estimate_errors = estimate_errors
+    for name, most in (max_error or {}).items():
+        known = [f.name for f in pb.MaxError.DESCRIPTOR.fields]
+        if name not in known:
+            raise ValueError(f"max_error: there is no {name!r}; must be one of {', '.join(known)}.")
+        setattr(message.accuracy.max_error, name, most)
     for owner, name, value in (
             (message.motion, "speed_m_s", speed_m_s), (message.motion, "step_length_m", step_length_m),
             (message.motion, "step_duration_s", step_duration_s), (message.model, "stature_m", stature_m),

@@ -79,6 +79,16 @@ const BadCase kBadCases[] = {
        r.motion.duty_factor = GaitRequest::Range{0.62, 0.6};
      },
      "motion.duty_factor", "0.62"},
+    {"NoErrorAtAll", [](GaitRequest& r) { r.accuracy.max_error = MaxError{}; }, "accuracy.max_error",
+     "allows no error"},
+    {"ErrorZero", [](GaitRequest& r) { r.accuracy.max_error = MaxError{.angle = 0}; }, "accuracy.max_error.angle_rad",
+     "[1e-09, 1] rad"},
+    {"ErrorNan", [](GaitRequest& r) { r.accuracy.max_error = MaxError{.torque = kNan}; },
+     "accuracy.max_error.torque_n_m", "not a finite number"},
+    {"ErrorOfAllOfTheObjective", [](GaitRequest& r) { r.accuracy.max_error = MaxError{.objective = 2}; },
+     "accuracy.max_error.objective", "2 is outside"},
+    {"ErrorOfNoForce", [](GaitRequest& r) { r.accuracy.max_error = MaxError{.contact_force = -1}; },
+     "accuracy.max_error.contact_force_n", "-1 is outside"},
     {"NoStart", [](GaitRequest& r) { r.starts = 0; }, "starts", "[1, 32]"},
     {"PresetAndCosts",
      [](GaitRequest& r) {

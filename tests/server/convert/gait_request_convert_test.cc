@@ -140,6 +140,28 @@ TEST(DecodeRequest, EveryBoundArrives) {
   }
 }
 
+TEST(DecodeRequest, EveryErrorArrives) {
+  v1::SolveSpec spec;
+  spec.mutable_model()->set_name("planar");
+  EXPECT_FALSE(DecodeRequest(spec).value().accuracy.estimate_errors);
+  EXPECT_FALSE(DecodeRequest(spec).value().accuracy.max_error);
+  spec.mutable_accuracy()->set_estimate_errors(true);
+  EXPECT_TRUE(DecodeSpec(spec).value().estimate_errors);
+  spec.mutable_accuracy()->set_estimate_errors(false);
+  v1::MaxError& error = *spec.mutable_accuracy()->mutable_max_error();
+  error.set_objective(0.01);
+  error.set_angle_rad(0.02);
+  error.set_torque_n_m(3);
+  error.set_contact_force_n(4);
+  const GaitSpec checked = DecodeSpec(spec).value();
+  EXPECT_TRUE(checked.estimate_errors) << "implied";
+  ASSERT_TRUE(checked.max_error);
+  EXPECT_EQ(checked.max_error->objective, 0.01);
+  EXPECT_EQ(checked.max_error->angle, 0.02);
+  EXPECT_EQ(checked.max_error->torque, 3);
+  EXPECT_EQ(checked.max_error->contact_force, 4);
+}
+
 TEST(DecodeRequest, EveryCostTermArrives) {
   const GaitRequest request = DecodeRequest(Parse(R"(
       costs { squared_torque { joint_weights { key: 'a' value: 2 } } weight: 3 }

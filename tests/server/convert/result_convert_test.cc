@@ -221,6 +221,39 @@ TEST(EncodeResult, EveryCriterionArrives) {
   }
 }
 
+TEST(EncodeResult, EstimatedErrorsArrive) {
+  GaitSolution solution;
+  EXPECT_FALSE(EncodeResult(solution, Planar()).has_errors());
+  ErrorEstimate& errors = solution.errors.emplace();
+  errors.objective = 0.1;
+  errors.duration = 0.2;
+  errors.phase_durations = {0.3, 0.4};
+  errors.speed = 0.5;
+  errors.step_length = 0.6;
+  errors.finer_intervals = {12, 24};
+  QuantityDifference& torque = errors.motion[static_cast<int>(MotionQuantity::kTorque)];
+  torque = {.largest = 7, .rms = 8, .peak = 9, .where = "knee_l", .phase = 1, .time = 0.25};
+  const v1::ErrorEstimate encoded = EncodeResult(solution, Planar()).errors();
+  EXPECT_EQ(encoded.objective(), 0.1);
+  EXPECT_EQ(encoded.duration_s(), 0.2);
+  EXPECT_EQ(encoded.phase_durations_s(1), 0.4);
+  EXPECT_EQ(encoded.speed_m_s(), 0.5);
+  EXPECT_EQ(encoded.step_length_m(), 0.6);
+  EXPECT_EQ(encoded.finer_intervals(1), 24);
+  EXPECT_FALSE(encoded.has_within_max_error());
+  ASSERT_EQ(encoded.quantities_size(), 1);
+  EXPECT_EQ(encoded.quantities(0).quantity(), "joint torque");
+  EXPECT_EQ(encoded.quantities(0).unit(), "N m");
+  EXPECT_EQ(encoded.quantities(0).largest(), 7);
+  EXPECT_EQ(encoded.quantities(0).rms(), 8);
+  EXPECT_EQ(encoded.quantities(0).peak(), 9);
+  EXPECT_EQ(encoded.quantities(0).where(), "knee_l");
+  EXPECT_EQ(encoded.quantities(0).phase(), 1);
+  EXPECT_EQ(encoded.quantities(0).time_s(), 0.25);
+  errors.is_within_max_error = false;
+  EXPECT_TRUE(EncodeResult(solution, Planar()).errors().has_within_max_error());
+}
+
 TEST(EncodeResult, MeshStatisticsArrive) {
   const v1::SolveResult result = EncodeResult(Solution(), Planar());
   ASSERT_EQ(result.meshes_size(), 1);
