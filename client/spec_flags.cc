@@ -230,7 +230,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
   add("--cost", flags.costs, "Cost",
       "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; "
-      "may be repeated")
+      "with a preset: added to it, or another weight for its term; may be repeated")
       ->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
@@ -298,11 +298,8 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
     spec.set_cycle(Lookup<v1::Cycle>("--cycle", *flags.cycle, {{"half", v1::CYCLE_HALF}, {"full", v1::CYCLE_FULL}}));
   }
   ApplyGround(flags, spec);
-  // Either takes the place of what the file says; both at once are the server's to refuse.
-  if (!flags.costs.empty() || flags.preset) {
-    spec.clear_costs();
-    spec.clear_preset();
-  }
+  // A preset is another cost than the file's; --cost alone keeps the preset of the file and changes what it costs.
+  if (!flags.costs.empty() || flags.preset) spec.clear_costs();
   for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
   if (flags.preset) {
     spec.set_preset(Lookup<v1::Preset>(
