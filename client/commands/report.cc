@@ -5,7 +5,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/finished_solve.h"
 #include "client/failure.h"
-#include "client/json.h"
+#include "client/output.h"
 
 namespace rollgait::client {
 namespace {
@@ -44,8 +44,8 @@ ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, co
     if (options.without_people) solve.mutable_result()->clear_normative();
     solves.emplace_back(std::move(solve), std::move(iterations));
   }
-  WriteFile(options.output, ReportHtml(solves, options.title));
-  if (!global.quiet) terminal.err << "written: " << options.output << std::endl;
+  WriteDocument(ReportHtml(solves, options.title), options.output, terminal.out);
+  if (!global.quiet && !IsStandardOutput(options.output)) terminal.err << "written: " << options.output << std::endl;
   return ExitCode::kSuccess;
 }
 
