@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
@@ -115,7 +114,32 @@ Sentences WhereItIsOnLimits(const v1::Solve& solve, const std::vector<LimitUse>&
   return sentences;
 }
 
-Sentences HowTheIterationsWent(const v1::SolveResult& result) {
+// What of the log tells of difficulties.
+void AddFromLog(const std::vector<v1::Iteration>& log, Sentences* sentences) {
+  constexpr double kShort = 0.1;
+  int shortened = 0, restorations = 0, regularised = 0;
+  for (const v1::Iteration& iteration : log) {
+    // The first line of a mesh has no step.
+    shortened += iteration.primal_step() > 0 && iteration.primal_step() < kShort ? 1 : 0;
+    restorations += iteration.restoration() ? 1 : 0;
+    regularised += iteration.regularization() > 0 ? 1 : 0;
+  }
+  const std::string of = " of the " + std::to_string(log.size()) + " iterations in the log ";
+  if (shortened > 0) {
+    sentences->push_back("In " + std::to_string(shortened) + of + "less than a tenth of the step could be taken.");
+  }
+  if (regularised > 0) {
+    sentences->push_back("In " + std::to_string(regularised) + of +
+                         "the problem had to be made convex (regularisation).");
+  }
+  if (restorations > 0) {
+    sentences->push_back(
+        "In " + std::to_string(restorations) + of +
+        "the solver sought feasibility alone (restoration): constraints contradict each other nearly.");
+  }
+}
+
+Sentences HowTheIterationsWent(const v1::SolveResult& result, const std::vector<v1::Iteration>& log) {
   if (result.meshes().empty()) return {};
   int iterations = 0;
   for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
@@ -131,6 +155,7 @@ Sentences HowTheIterationsWent(const v1::SolveResult& result) {
                         FormatNumber(mesh.objective(), 6) + ", KKT error " + FormatNumber(mesh.kkt_error(), 2) +
                         ", slip " + FormatNumber(1e3 * mesh.max_slip_m_s(), 3) + " mm/s.");
   }
+  AddFromLog(log, &sentences);
   return sentences;
 }
 
@@ -216,12 +241,12 @@ Sentences WhatToChange(const v1::Solve& solve, const std::vector<LimitUse>& uses
 
 }  // namespace
 
-std::string Explain(const v1::Solve& solve) {
+std::string Explain(const v1::Solve& solve, const std::vector<v1::Iteration>& iterations) {
   const std::vector<LimitUse> uses = FindLimitUse(solve);
   return solve.name() + "\n" + Heading("How it ended", HowItEnded(solve)) +
          Heading("What is not met", WhatIsNotMet(solve)) +
          Heading("Where it is on its limits", WhereItIsOnLimits(solve, uses)) +
-         Heading("How the iterations went", HowTheIterationsWent(solve.result())) +
+         Heading("How the iterations went", HowTheIterationsWent(solve.result(), iterations)) +
          Heading("What to change", WhatToChange(solve, uses));
 }
 

@@ -1,7 +1,9 @@
 #include <memory>
+#include <vector>
 
 #include "client/commands/commands.h"
 #include "client/commands/finished_solve.h"
+#include "client/commands/solve_iterations.h"
 #include "client/explanation.h"
 
 namespace rollgait::client {
@@ -12,7 +14,10 @@ ExitCode RunExplain(const ExplainOptions& options, const GlobalOptions& global, 
                   "explain --json: sentences have no JSON; `rollgait get SOLVE --json` has the solve");
   }
   std::unique_ptr<Connection> connection;
-  terminal.out << Explain(FinishedSolve(options.solve, global, connection)) << std::flush;
+  const v1::Solve solve = FinishedSolve(options.solve, global, connection);
+  std::vector<v1::Iteration> iterations;
+  if (!IsSolveFile(options.solve)) iterations = ReadIterations(*connection, solve, terminal);
+  terminal.out << Explain(solve, iterations) << std::flush;
   return ExitCode::kSuccess;
 }
 

@@ -96,7 +96,7 @@ TEST(ExplanationTest, AnOptimumSaysSoAndHowItWasReached) {
   v1::Solve solve = SampleSolve("solves/s", 0);
   solve.mutable_result()->mutable_multipliers()->add_bounds(1);
   solve.mutable_result()->mutable_multipliers()->add_bounds(1e-6f);
-  const std::string text = Explain(solve);
+  const std::string text = Explain(solve, {});
   EXPECT_THAT(text, HasSubstr("solves/s\n\nHow it ended\n  The solver found a local optimum"));
   EXPECT_THAT(text, HasSubstr("Of 2 unknowns of the last program 1 press on a bound"));
   EXPECT_THAT(text, HasSubstr("How the iterations went\n"));
@@ -111,7 +111,7 @@ TEST(ExplanationTest, AnInfeasibleSolveNamesConstraintsAndRemedies) {
   unmet.set_name("friction, mean over the motion");
   unmet.set_violation(0.1263);
   unmet.set_unit("1");
-  const std::string text = Explain(solve);
+  const std::string text = Explain(solve, {});
   EXPECT_THAT(text, HasSubstr("found no motion that meets every constraint"));
   EXPECT_THAT(text, HasSubstr("\"friction, mean over the motion\" is missed by 0.126 in phase 0"));
   EXPECT_THAT(text, HasSubstr("Raise --friction"));
@@ -120,7 +120,7 @@ TEST(ExplanationTest, AnInfeasibleSolveNamesConstraintsAndRemedies) {
 TEST(ExplanationTest, AnExceededBoundSaysWhatToAskFor) {
   v1::Solve solve = SampleSolve("solves/s", 0);
   Exceed(solve, "max_slip_m_s", 20);
-  const std::string text = Explain(solve);
+  const std::string text = Explain(solve, {});
   EXPECT_THAT(text, HasSubstr("What is not met"));
   EXPECT_THAT(text, HasSubstr("--max-refinements"));
   EXPECT_THAT(text, HasSubstr("--bound max_slip_m_s="));
@@ -129,9 +129,25 @@ TEST(ExplanationTest, AnExceededBoundSaysWhatToAskFor) {
 TEST(ExplanationTest, LimitsOfTheSolverSayWhichFlagRaisesThem) {
   v1::Solve solve = SampleSolve("solves/s", 0);
   solve.mutable_result()->set_termination(v1::TERMINATION_ITERATION_LIMIT);
-  EXPECT_THAT(Explain(solve), HasSubstr("Raise --max-iterations"));
+  EXPECT_THAT(Explain(solve, {}), HasSubstr("Raise --max-iterations"));
   solve.mutable_result()->set_termination(v1::TERMINATION_TIME_LIMIT);
-  EXPECT_THAT(Explain(solve), HasSubstr("Raise --time-limit"));
+  EXPECT_THAT(Explain(solve, {}), HasSubstr("Raise --time-limit"));
+}
+
+TEST(ExplanationTest, TheLogTellsOfDifficulties) {
+  const v1::Solve solve = SampleSolve("solves/s", 0);
+  std::vector<v1::Iteration> log(4);
+  for (v1::Iteration& iteration : log) iteration.set_primal_step(1);
+  EXPECT_THAT(Explain(solve, log), Not(HasSubstr("iterations in the log")));
+  log[0].set_primal_step(0);  // the first line of a mesh
+  log[1].set_primal_step(0.05);
+  log[1].set_regularization(1e-4);
+  log[2].set_regularization(1e-4);
+  log[3].set_restoration(true);
+  const std::string text = Explain(solve, log);
+  EXPECT_THAT(text, HasSubstr("In 1 of the 4 iterations in the log less than a tenth of the step could be taken."));
+  EXPECT_THAT(text, HasSubstr("In 2 of the 4 iterations in the log the problem had to be made convex"));
+  EXPECT_THAT(text, HasSubstr("In 1 of the 4 iterations in the log the solver sought feasibility alone"));
 }
 
 TEST(ExplanationTest, ARunWithoutAnAnswerSaysWhy) {
@@ -140,7 +156,7 @@ TEST(ExplanationTest, ARunWithoutAnAnswerSaysWhy) {
   solve.set_state(v1::SOLVE_STATE_FAILED);
   solve.mutable_error()->set_kind(v1::SolveError::KIND_MEMORY_LIMIT);
   solve.mutable_error()->set_message("it took more than 2 GiB");
-  const std::string text = Explain(solve);
+  const std::string text = Explain(solve, {});
   EXPECT_THAT(text, HasSubstr("It failed without an answer (memory limit): it took more than 2 GiB"));
   EXPECT_THAT(text, HasSubstr("fewer --intervals"));
   EXPECT_THAT(text, Not(HasSubstr("limits\n")));

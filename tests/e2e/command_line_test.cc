@@ -10,6 +10,7 @@
 
 #include "tests/e2e/daemon.h"
 #include "tests/server/store/temporary_directory.h"
+#include "tests/support/certificates.h"
 
 namespace rollgait::server {
 namespace {
@@ -72,6 +73,38 @@ TEST_F(CommandLineTest, TheDoctorFindsAFreshServerWell) {
   EXPECT_THAT(doctor.out, HasSubstr("ok    clock: the server's clock is "));
   EXPECT_THAT(doctor.out, HasSubstr("ok    queue: 0 of "));
   EXPECT_THAT(doctor.out, HasSubstr("disk: store: sqlite, "));
+}
+
+TEST(CommandLineTlsTest, TheDoctorReadsTheServersCertificate) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() + "/" + name; };
+  const Identity authority = MakeAuthority("authority"), server = MakeCertificate(authority, "gait.example");
+  WriteFileAtOnce(path("ca.pem"), authority.cert);
+  WriteFileAtOnce(path("server.pem"), server.cert);
+  WriteFileAtOnce(path("server.key"), server.key);
+  const Daemon daemon({.data_dir = path("data"),
+                       .solver = "",
+                       .flags = {"--tls-cert", path("server.pem"), "--tls-key", path("server.key")}});
+  ASSERT_NE(daemon.address(), "");
+  const auto doctor = [&](const std::string& authority_file) {
+    const std::string command = "ROLLGAIT_CONFIG= " ROLLGAIT_PROGRAM " --server " + daemon.address() + " --tls-ca " +
+                                authority_file + " doctor > " + path("out") + " 2> /dev/null";
+    const int status = std::system(command.c_str());
+    std::ostringstream out;
+    out << std::ifstream(path("out")).rdbuf();
+    return std::to_string(WEXITSTATUS(status)) + " " + out.str();
+  };
+  const std::string well = doctor(path("ca.pem"));
+  // It is for a day from now only.
+  EXPECT_THAT(well, testing::StartsWith("0 "));
+  EXPECT_THAT(well, HasSubstr("ok    --tls-ca " + path("ca.pem") + ": authority"));
+  EXPECT_THAT(well, HasSubstr("warn  server certificate: gait.example ("));
+  EXPECT_THAT(well, HasSubstr("It expires soon: renew it."));
+  WriteFileAtOnce(path("other.pem"), MakeAuthority("another").cert);
+  const std::string ill = doctor(path("other.pem"));
+  EXPECT_THAT(ill, testing::StartsWith("3 "));
+  EXPECT_THAT(ill, HasSubstr("FAIL  server: "));
+  EXPECT_THAT(ill, HasSubstr("give the right --tls-ca FILE"));
 }
 
 }  // namespace
