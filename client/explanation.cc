@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "client/accuracy_table.h"
 #include "client/failure.h"
@@ -72,10 +73,18 @@ Sentences HowItEnded(const v1::Solve& solve) {
 
 Sentences WhatIsNotMet(const v1::Solve& solve) {
   Sentences sentences;
+  // The server has the worst first: of each constraint the first one is the worst.
+  std::map<std::string, int> others;
+  for (const v1::UnmetConstraint& unmet : solve.result().unmet_constraints()) ++others[unmet.name()];
   for (const v1::UnmetConstraint& unmet : solve.result().unmet_constraints()) {
+    const auto left = others.extract(unmet.name());
+    if (left.empty()) continue;
     sentences.push_back("The constraint \"" + unmet.name() + "\" is missed by " + FormatNumber(unmet.violation(), 3) +
                         (unmet.unit().empty() || unmet.unit() == "1" ? "" : " " + unmet.unit()) + " in phase " +
-                        std::to_string(unmet.phase()) + " at " + FormatNumber(unmet.time_s(), 3) + " s.");
+                        std::to_string(unmet.phase()) + " at " + FormatNumber(unmet.time_s(), 3) + " s" +
+                        (left.mapped() > 1 ? ", and by less at " + std::to_string(left.mapped() - 1) +
+                                                 (left.mapped() == 2 ? " other instant." : " other instants.")
+                                           : "."));
   }
   for (const AccuracyLine& line : AccuracyLines(solve)) {
     if (!solve.result().has_accuracy() || !line.exceeded || !line.bound) continue;
@@ -94,8 +103,9 @@ std::string ActiveBounds(const v1::Multipliers& multipliers) {
   if (largest <= 0) return "";
   const auto active = std::count_if(multipliers.bounds().begin(), multipliers.bounds().end(),
                                     [&](float multiplier) { return std::abs(double{multiplier}) > 1e-3 * largest; });
-  return "Of " + std::to_string(multipliers.bounds_size()) + " unknowns of the last program " + std::to_string(active) +
-         " press on a bound (multiplier above a thousandth of the largest): the cost would fall if those were wider.";
+  return "Active bounds: " + std::to_string(active) + " of " + std::to_string(multipliers.bounds_size()) +
+         " unknowns of the last program are held by theirs (multiplier above a thousandth of the largest); the cost "
+         "would fall if those were wider.";
 }
 
 Sentences WhereItIsOnLimits(const v1::Solve& solve, const std::vector<LimitUse>& uses) {
@@ -106,7 +116,8 @@ Sentences WhereItIsOnLimits(const v1::Solve& solve, const std::vector<LimitUse>&
                         (ground ? " of its stance" : " of the motion") + ", first at " + FormatNumber(use.from_s, 3) +
                         " s.");
   }
-  const std::string active = ActiveBounds(solve.result().multipliers());
+  // Before convergence multipliers say nothing.
+  const std::string active = HasSolution(solve) ? ActiveBounds(solve.result().multipliers()) : "";
   if (!active.empty()) sentences.insert(sentences.begin(), active);
   if (uses.empty() && solve.result().has_trajectory()) {
     sentences.push_back("No joint is on a limit of position, speed or effort, and no contact on its friction.");

@@ -206,7 +206,9 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const 
   info.set_max_request_bytes(kMaxRequestBytes);
   info.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   info.set_store(options_.store_name);
-  *info.mutable_server_time() = google::protobuf::util::TimeUtil::GetCurrentTime();
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  *info.mutable_server_time() = google::protobuf::util::TimeUtil::NanosecondsToTimestamp(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
   info.set_max_queued(options_.max_queued);
   // The machine is the administrator's, too.
   const std::optional<int64_t> free =

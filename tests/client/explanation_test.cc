@@ -98,7 +98,7 @@ TEST(ExplanationTest, AnOptimumSaysSoAndHowItWasReached) {
   solve.mutable_result()->mutable_multipliers()->add_bounds(1e-6f);
   const std::string text = Explain(solve, {});
   EXPECT_THAT(text, HasSubstr("solves/s\n\nHow it ended\n  The solver found a local optimum"));
-  EXPECT_THAT(text, HasSubstr("Of 2 unknowns of the last program 1 press on a bound"));
+  EXPECT_THAT(text, HasSubstr("Active bounds: 1 of 2 unknowns of the last program"));
   EXPECT_THAT(text, HasSubstr("How the iterations went\n"));
   EXPECT_THAT(text, HasSubstr("Mesh 1, "));
   EXPECT_THAT(text, Not(HasSubstr("What is not met")));
@@ -111,7 +111,19 @@ TEST(ExplanationTest, AnInfeasibleSolveNamesConstraintsAndRemedies) {
   unmet.set_name("friction, mean over the motion");
   unmet.set_violation(0.1263);
   unmet.set_unit("1");
+  for (const double violation : {0.1, 0.05}) {
+    v1::UnmetConstraint& rolling = *solve.mutable_result()->add_unmet_constraints();
+    rolling.set_name("rolling left_foot x");
+    rolling.set_violation(violation);
+    rolling.set_unit("m/s");
+  }
+  solve.mutable_result()->mutable_multipliers()->add_bounds(1);
   const std::string text = Explain(solve, {});
+  EXPECT_THAT(
+      text,
+      HasSubstr("\"rolling left_foot x\" is missed by 0.1 m/s in phase 0 at 0 s, and by less at 1 other instant."));
+  EXPECT_THAT(text, Not(HasSubstr("0.05")));
+  EXPECT_THAT(text, Not(HasSubstr("Active bounds")));
   EXPECT_THAT(text, HasSubstr("found no motion that meets every constraint"));
   EXPECT_THAT(text, HasSubstr("\"friction, mean over the motion\" is missed by 0.126 in phase 0"));
   EXPECT_THAT(text, HasSubstr("Raise --friction"));

@@ -1,8 +1,9 @@
 #include "server/service/solve_service.h"
 
+#include <google/protobuf/util/time_util.h>
 #include <gtest/gtest.h>
 
-#include <ctime>
+#include <chrono>
 #include <limits>
 
 #include "server/service/solve_message.h"
@@ -99,8 +100,15 @@ TEST(SolveServiceTest, ServerInfoTellsClockQueueAndTheDiskToTheAdministrator) {
   Caller administrator, reader;
   administrator.scopes = kScopeAdmin | kScopeRead;
   reader.scopes = kScopeRead;
+  using google::protobuf::util::TimeUtil;
+  const auto now_ns = [] {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+  };
+  const int64_t before_ns = now_ns();
   const v1::ServerInfo info = bench.service().GetServerInfo(administrator, {}).value();
-  EXPECT_NEAR(static_cast<double>(info.server_time().seconds()), static_cast<double>(std::time(nullptr)), 10);
+  EXPECT_GE(TimeUtil::TimestampToNanoseconds(info.server_time()), before_ns);
+  EXPECT_LE(TimeUtil::TimestampToNanoseconds(info.server_time()), now_ns());
   EXPECT_EQ(info.max_queued(), 17);
   EXPECT_TRUE(info.has_store_free_bytes());
   EXPECT_GT(info.store_free_bytes(), 0);
