@@ -70,8 +70,8 @@ void WriteExport(const std::vector<ExportedFile>& files, const std::string& path
 }
 
 void WriteSolve(const v1::Solve& solve, const std::string& path, std::ostream& out) {
-  const Format& format = IsStandardOutput(path) ? FindFormat("json") : FormatOfPath(path, "--output");
-  WriteExport(ExportSolve(solve, format), path, out);
+  const std::string file = IsStandardOutput(path) ? "solve.json" : path;
+  WriteExport(ExportSolve(solve, FormatOfPath(file, "--output")), path, out);
 }
 
 void WriteDocument(const std::string& text, const std::string& path, std::ostream& out) {

@@ -1,3 +1,5 @@
+#include <google/protobuf/util/message_differencer.h>
+
 #include "client/commands/commands.h"
 #include "client/commands/create_solve.h"
 #include "client/json.h"
@@ -15,9 +17,10 @@ v1::SolveSpec SpelledOut(const v1::SolveSpec& spec, const GlobalOptions& global,
   request.set_spell_out(true);
   try {
     v1::SolveSpec spelled = CreateSolve(connection, request).spec();
-    if (!global.quiet && spelled.preset() == spec.preset() && spelled.costs_size() == spec.costs_size()) {
-      terminal.err << "rollgait: the server at " << global.server
-                   << " left the preset as it is; is it of 0.4.0 or before?" << std::endl;
+    if (!global.quiet && google::protobuf::util::MessageDifferencer::Equals(spelled, spec)) {
+      terminal.err << "rollgait: the server left the request as it is: it was spelled out already, or the server is of "
+                      "0.4.0 or before and cannot"
+                   << std::endl;
     } else if (!global.quiet && spelled.preset() != v1::PRESET_UNSPECIFIED) {
       terminal.err << "rollgait: the preset stays beside its costs, since it also scales limits and passive torques to "
                       "this gravity"

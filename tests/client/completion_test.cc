@@ -26,14 +26,14 @@ ProgramDescription Program() {
   return DescribeProgram(app);
 }
 
-const CommandDescription& CommandOf(const ProgramDescription& program, const std::string& name) {
+CommandDescription CommandOf(const ProgramDescription& program, const std::string& name) {
   for (const CommandDescription& command : program.commands) {
     if (command.name == name) return command;
   }
   throw std::logic_error("no command " + name);
 }
 
-const FlagDescription& FlagOf(const CommandDescription& command, const std::string& name) {
+FlagDescription FlagOf(const CommandDescription& command, const std::string& name) {
   for (const FlagDescription& flag : command.flags) {
     if (flag.name == name) return flag;
   }
@@ -43,7 +43,7 @@ const FlagDescription& FlagOf(const CommandDescription& command, const std::stri
 TEST(CommandTreeTest, KnowsWhatFlagsTake) {
   using Value = FlagDescription::Value;
   const ProgramDescription program = Program();
-  const CommandDescription& solve = CommandOf(program, "solve");
+  const CommandDescription solve = CommandOf(program, "solve");
   EXPECT_EQ(FlagOf(solve, "--detach").value, Value::kNone);
   EXPECT_EQ(FlagOf(solve, "--output").value, Value::kFile);
   EXPECT_EQ(FlagOf(solve, "--output").short_name, "-o");
@@ -54,7 +54,7 @@ TEST(CommandTreeTest, KnowsWhatFlagsTake) {
   EXPECT_THAT(FlagOf(solve, "--bound").words, testing::Contains("max_pull_bw"));
   EXPECT_THAT(FlagOf(CommandOf(program, "export"), "--format").words, testing::Contains("opensim"));
   EXPECT_EQ(FlagOf(program.program, "--quiet").value, Value::kNone);
-  const CommandDescription& cancel = CommandOf(program, "cancel");
+  const CommandDescription cancel = CommandOf(program, "cancel");
   ASSERT_EQ(cancel.arguments.size(), 1u);
   EXPECT_TRUE(cancel.arguments[0].required);
   EXPECT_TRUE(cancel.arguments[0].many);

@@ -125,7 +125,7 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
   solve->clear_result();
   if (request->validate_only()) {
     solve->clear_name();
-    if (request->spell_out() && solve->spec().preset() != v1::PRESET_UNSPECIFIED) {
+    if (spells_out_ && request->spell_out() && solve->spec().preset() != v1::PRESET_UNSPECIFIED) {
       solve->mutable_spec()->clear_preset();
       solve->mutable_spec()->add_costs()->mutable_muscle_effort();
     }

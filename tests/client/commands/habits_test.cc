@@ -99,6 +99,11 @@ TEST_F(HabitsTest, SpecSpellsThePresetOutWhereAServerAnswers) {
   const Ended kept = Run({"spec", "--model", "planar", "--preset", "human", "--keep-preset"});
   EXPECT_EQ(FromJson<v1::SolveSpec>(kept.out).preset(), v1::PRESET_HUMAN);
   EXPECT_EQ(service_.created().size(), 1u);
+  service_.SetSpellsOut(false);
+  const Ended old = Run({"spec", "--model", "planar", "--preset", "human"});
+  EXPECT_EQ(old.code, 0);
+  EXPECT_THAT(old.err, HasSubstr("the server left the request as it is"));
+  EXPECT_EQ(FromJson<v1::SolveSpec>(old.out).preset(), v1::PRESET_HUMAN);
   const Ended alone = RunToEnd({"--server", "127.0.0.1:1", "spec", "--model", "planar", "--preset", "human"});
   EXPECT_EQ(alone.code, 0);
   EXPECT_EQ(FromJson<v1::SolveSpec>(alone.out).preset(), v1::PRESET_HUMAN);
