@@ -11,7 +11,7 @@
 
 namespace rollgait::client {
 
-// The process's exit code; a contract with scripts, printed by `rollgait --help`.
+// The process's exit code; a contract with scripts, printed by `rollgait help exit-codes`.
 enum class ExitCode {
   kSuccess =
       0,  // Done; a solve that was waited for is optimal or acceptable, and within its accuracy bounds if it has any.

@@ -8,17 +8,23 @@
 #include <vector>
 
 #include "client/failure.h"
+#include "client/suggestion.h"
 
 namespace rollgait::client {
 
-// The value that the word stands for. Throws Failure(kUsage), which lists the known words, for another word.
+// The value that the word stands for. Throws Failure(kUsage), which lists the known words and names the one that may
+// have been meant, for another word.
 template <typename Value>
 Value Lookup(const std::string& flag, const std::string& word, const std::map<std::string, Value>& words) {
   const auto found = words.find(word);
   if (found != words.end()) return found->second;
   std::string known;
-  for (const auto& [name, value] : words) known += (known.empty() ? "" : ", ") + name;
-  throw Failure(ExitCode::kUsage, flag + " " + word + ": must be one of " + known);
+  std::vector<std::string> candidates;
+  for (const auto& [name, value] : words) {
+    known += (known.empty() ? "" : ", ") + name;
+    candidates.push_back(name);
+  }
+  throw Failure(ExitCode::kUsage, flag + " " + word + ": must be one of " + known + DidYouMean(word, candidates));
 }
 
 // Of "NAME=NUMBER". Throws Failure(kUsage) for another text.

@@ -30,8 +30,10 @@ std::string ToJsonLine(const google::protobuf::Message& message) { return Print(
 
 std::string ToJsonText(const google::protobuf::Message& message) { return Print(message, true); }
 
-void ReadJsonFile(const std::string& path, google::protobuf::Message& message) {
-  std::ifstream file(path, std::ios::binary);
+void ReadJsonFile(const std::string& given, google::protobuf::Message& message) {
+  const bool is_input = given == "-";
+  const std::string path = is_input ? "standard input" : given;
+  std::ifstream file(is_input ? "/dev/stdin" : given, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));

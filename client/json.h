@@ -14,7 +14,7 @@ namespace rollgait::client {
 std::string ToJsonLine(const google::protobuf::Message& message);
 std::string ToJsonText(const google::protobuf::Message& message);
 
-// Reads a proto3 JSON file into `message`.
+// Reads a proto3 JSON file into `message`; "-" is standard input.
 // Throws Failure(kUsage) if the file cannot be read, is not JSON, or has a field that the message does not know.
 void ReadJsonFile(const std::string& path, google::protobuf::Message& message);
 

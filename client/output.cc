@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
+#include <ostream>
 
 #include "client/failure.h"
 #include "client/json.h"
@@ -23,7 +23,19 @@ void RequireWritable(const std::string& directory, const std::string& given) {
 
 }  // namespace
 
+bool IsStandardOutput(const std::string& path) { return path == "-"; }
+
+std::ostream& TextStream(const std::string& output, const Terminal& terminal) {
+  return IsStandardOutput(output) ? terminal.err : terminal.out;
+}
+
+void RequireOneDocument(const std::string& output, bool json) {
+  if (!json || !IsStandardOutput(output)) return;
+  throw Failure(ExitCode::kUsage, "--output - with --json: both write to standard output; leave one of the two out");
+}
+
 void RequireOutputPath(const std::string& path) {
+  if (IsStandardOutput(path)) return;
   FormatOfPath(path, "--output");
   RequireWritable(std::filesystem::path(path).parent_path().string(), path);
 }
@@ -46,9 +58,10 @@ void RequireOutput(const std::string& path, const Format& format) {
 }
 
 void WriteExport(const std::vector<ExportedFile>& files, const std::string& path, std::ostream& out) {
-  if (path.empty() || path == "-") {
+  if (path.empty() || IsStandardOutput(path)) {
     for (const ExportedFile& file : files) out << file.content;
     out << std::flush;
+    if (!out) throw Failure(ExitCode::kInternal, "standard output cannot be written");
     return;
   }
   for (const ExportedFile& file : files) {
@@ -56,8 +69,13 @@ void WriteExport(const std::vector<ExportedFile>& files, const std::string& path
   }
 }
 
-void WriteSolve(const v1::Solve& solve, const std::string& path) {
-  WriteExport(ExportSolve(solve, FormatOfPath(path, "--output")), path, std::cout);
+void WriteSolve(const v1::Solve& solve, const std::string& path, std::ostream& out) {
+  const std::string file = IsStandardOutput(path) ? "solve.json" : path;
+  WriteExport(ExportSolve(solve, FormatOfPath(file, "--output")), path, out);
+}
+
+void WriteDocument(const std::string& text, const std::string& path, std::ostream& out) {
+  WriteExport({{"", text}}, path, out);
 }
 
 }  // namespace rollgait::client

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <map>
 
 #include "client/bound_flags.h"
 #include "client/failure.h"
 #include "client/flag_values.h"
 #include "client/json.h"
+#include "client/spec_words.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -26,51 +26,12 @@ double ParseWeight(const std::string& cost, const std::string& text) {
 }
 
 v1::CostTerm ParseCost(const std::string& cost) {
-  enum class Term { kTorque, kTorqueRate, kForceRate, kWork, kTime, kEffort, kMuscleWork, kPassiveLoad, kAcceleration };
   // As other flags have it.
   if (cost.find('=') != std::string::npos) {
     throw Failure(ExitCode::kUsage, "--cost " + cost + ": the weight stands after a colon, for example work:0.5");
   }
   const size_t colon = cost.find(':');
-  v1::CostTerm term;
-  switch (Lookup<Term>("--cost", cost.substr(0, colon),
-                       {{"torque", Term::kTorque},
-                        {"torque-rate", Term::kTorqueRate},
-                        {"force-rate", Term::kForceRate},
-                        {"work", Term::kWork},
-                        {"muscle-work", Term::kMuscleWork},
-                        {"time", Term::kTime},
-                        {"effort", Term::kEffort},
-                        {"passive-load", Term::kPassiveLoad},
-                        {"acceleration", Term::kAcceleration}})) {
-    case Term::kTorque:
-      term.mutable_squared_torque();
-      break;
-    case Term::kTorqueRate:
-      term.mutable_squared_torque_rate();
-      break;
-    case Term::kForceRate:
-      term.mutable_squared_force_rate();
-      break;
-    case Term::kWork:
-      term.mutable_mechanical_work();
-      break;
-    case Term::kTime:
-      term.mutable_time();
-      break;
-    case Term::kEffort:
-      term.mutable_muscle_effort();
-      break;
-    case Term::kMuscleWork:
-      term.mutable_muscle_work();
-      break;
-    case Term::kPassiveLoad:
-      term.mutable_passive_load();
-      break;
-    case Term::kAcceleration:
-      term.mutable_squared_acceleration();
-      break;
-  }
+  v1::CostTerm term = Lookup("--cost", cost.substr(0, colon), CostWords());
   if (colon != std::string::npos) term.set_weight(ParseWeight(cost, cost.substr(colon + 1)));
   return term;
 }
@@ -87,8 +48,7 @@ void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.friction) spec.mutable_ground_contact()->set_friction_coefficient(*flags.friction);
   if (flags.clearance_m) spec.mutable_ground_contact()->set_swing_clearance_m(*flags.clearance_m);
   if (flags.touch_down) {
-    spec.mutable_ground_contact()->set_touch_down(Lookup<v1::TouchDown>(
-        "--touch-down", *flags.touch_down, {{"smooth", v1::TOUCH_DOWN_SMOOTH}, {"plastic", v1::TOUCH_DOWN_PLASTIC}}));
+    spec.mutable_ground_contact()->set_touch_down(Lookup("--touch-down", *flags.touch_down, TouchDownWords()));
   }
   if (flags.allow_overlap) spec.mutable_limits()->set_allow_body_overlap(true);
   if (flags.touch_down_point) {
@@ -155,21 +115,13 @@ void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
 }
 
 void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
-  using Discretization = v1::Discretization;
-  using Accuracy = v1::Accuracy;
   if (flags.scheme) {
-    spec.mutable_discretization()->set_scheme(
-        Lookup<Discretization::Scheme>("--scheme", *flags.scheme,
-                                       {{"radau2", Discretization::SCHEME_RADAU2},
-                                        {"radau3", Discretization::SCHEME_RADAU3},
-                                        {"hermite-simpson", Discretization::SCHEME_HERMITE_SIMPSON}}));
+    spec.mutable_discretization()->set_scheme(Lookup("--scheme", *flags.scheme, SchemeWords()));
   }
   if (flags.intervals) spec.mutable_discretization()->set_single_support_intervals(*flags.intervals);
   if (flags.double_intervals) spec.mutable_discretization()->set_double_support_intervals(*flags.double_intervals);
   if (flags.accuracy) {
-    spec.mutable_accuracy()->set_level(Lookup<Accuracy::Level>(
-        "--accuracy", *flags.accuracy,
-        {{"draft", Accuracy::LEVEL_DRAFT}, {"standard", Accuracy::LEVEL_STANDARD}, {"fine", Accuracy::LEVEL_FINE}}));
+    spec.mutable_accuracy()->set_level(Lookup("--accuracy", *flags.accuracy, AccuracyWords()));
   }
   if (!flags.bounds.empty()) ApplyBounds(flags.bounds, *spec.mutable_accuracy());
   if (flags.estimate_errors) spec.mutable_accuracy()->set_estimate_errors(true);
@@ -203,7 +155,9 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
 }
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
-  command.add_option("--spec", flags.file, "Request as proto3 JSON of rollgait.v1.SolveSpec; flags override it");
+  command.add_option("--spec", flags.file,
+                     "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it; "
+                     "`rollgait spec` writes it");
   command.add_option("--model", flags.model, "Model name, see `rollgait models`")->group("Body");
   AddBodyFlags(command, flags);
   const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {
@@ -232,7 +186,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
   add("--cost", flags.costs, "Cost",
       "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; "
-      "may be repeated")
+      "with a preset: added to it, or another weight for its term; may be repeated")
       ->take_all();
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
@@ -261,8 +215,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
 void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
   if (flags.model) selection.set_name(*flags.model);
   if (flags.sex) {
-    selection.set_sex(Lookup<v1::ModelSelection::Sex>(
-        "--sex", *flags.sex, {{"female", v1::ModelSelection::SEX_FEMALE}, {"male", v1::ModelSelection::SEX_MALE}}));
+    selection.set_sex(Lookup("--sex", *flags.sex, SexWords()));
   }
   if (flags.stature_m) selection.set_stature_m(*flags.stature_m);
   if (flags.mass_kg && selection.name() == "ball") selection.mutable_rolling_body()->set_mass_kg(*flags.mass_kg);
@@ -276,14 +229,10 @@ void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
     (*selection.mutable_segment_lengths_m())[segment] = length;
   }
   if (flags.feet) {
-    selection.set_feet(Lookup<v1::ModelSelection::Feet>(
-        "--feet", *flags.feet,
-        {{"one", v1::ModelSelection::FEET_ONE_ELLIPSOID}, {"two", v1::ModelSelection::FEET_TWO_ELLIPSOIDS}}));
+    selection.set_feet(Lookup("--feet", *flags.feet, FeetWords()));
   }
   if (flags.ranges) {
-    selection.set_ranges(Lookup<v1::ModelSelection::Ranges>(
-        "--ranges", *flags.ranges,
-        {{"anatomical", v1::ModelSelection::RANGES_ANATOMICAL}, {"walking", v1::ModelSelection::RANGES_WALKING}}));
+    selection.set_ranges(Lookup("--ranges", *flags.ranges, RangesWords()));
   }
   if (flags.toes) selection.set_toes(true);
   if (flags.sagittal) selection.set_sagittal(true);
@@ -303,27 +252,19 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
   ApplyMotion(flags, spec);
   ApplyManoeuvre(flags, spec);
   if (flags.cycle) {
-    spec.set_cycle(Lookup<v1::Cycle>("--cycle", *flags.cycle, {{"half", v1::CYCLE_HALF}, {"full", v1::CYCLE_FULL}}));
+    spec.set_cycle(Lookup("--cycle", *flags.cycle, CycleWords()));
   }
   ApplyGround(flags, spec);
-  // Either takes the place of what the file says; both at once are the server's to refuse.
-  if (!flags.costs.empty() || flags.preset) {
-    spec.clear_costs();
-    spec.clear_preset();
-  }
+  // A preset is another cost than the file's; --cost alone keeps the preset of the file and changes what it costs.
+  if (!flags.costs.empty() || flags.preset) spec.clear_costs();
   for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
   if (flags.preset) {
-    spec.set_preset(Lookup<v1::Preset>(
-        "--preset", *flags.preset,
-        {{"torque", v1::PRESET_TORQUE}, {"transport", v1::PRESET_TRANSPORT}, {"human", v1::PRESET_HUMAN}}));
+    spec.set_preset(Lookup("--preset", *flags.preset, PresetWords()));
   }
   if (flags.starts) spec.set_starts(*flags.starts);
   if (flags.warm_start) spec.set_warm_start(*flags.warm_start);
   if (flags.normalization) {
-    spec.set_cost_normalization(Lookup<v1::CostNormalization>("--normalize", *flags.normalization,
-                                                              {{"distance", v1::COST_NORMALIZATION_PER_DISTANCE},
-                                                               {"time", v1::COST_NORMALIZATION_PER_TIME},
-                                                               {"none", v1::COST_NORMALIZATION_NONE}}));
+    spec.set_cost_normalization(Lookup("--normalize", *flags.normalization, NormalizationWords()));
   }
   ApplyNumerics(flags, spec);
   return spec;

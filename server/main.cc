@@ -265,6 +265,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   options.solver_fingerprint = fingerprint.value();
   options.solver_slots = solver_slots;
   options.store_name = location.value().is_postgres() ? "postgresql" : "sqlite";
+  options.store_disk = RoomOf(location.value());
   options.max_queued = flags.max_queued;
   options.reuse_results = !flags.no_result_reuse;
   SolveService service(measured_store, MakeCoreKnowledge(), options, [&](const std::string& id) {

@@ -10,6 +10,7 @@
 #include "client/commands/scene_input.h"
 #include "client/connection.h"
 #include "client/failure.h"
+#include "client/list_filter.h"
 #include "client/spec_flags.h"
 #include "client/terminal.h"
 
@@ -41,8 +42,14 @@ struct GetOptions {
 };
 ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
+struct ExplainOptions {
+  std::string solve;  // a name on the server, or a .json file
+};
+// How a finished solve ended, in sentences.
+ExitCode RunExplain(const ExplainOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
 struct ListOptions {
-  std::string state;
+  ListFilter filter;
   int limit = 50;
 };
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal);
@@ -67,6 +74,15 @@ struct ExportOptions {
 };
 // Writes a finished solve in one of the formats.
 ExitCode RunExport(const ExportOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
+struct SpecOptions {
+  SpecFlags spec;
+  std::string output;  // a file; empty or "-": terminal.out
+  bool keep_preset = false;
+};
+// The request as proto3 JSON. The server is asked only where there is a preset to spell out; without a server that
+// answers, the preset stays, and terminal.err says so.
+ExitCode RunSpec(const SpecOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct ReportOptions {
   std::vector<std::string> solves;  // names on the server, or .json files
@@ -106,6 +122,8 @@ ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global
 // Success: the server says that it serves; kUnreachable: it does not, or says otherwise.
 ExitCode RunHealth(const GlobalOptions& global, const Terminal& terminal);
 ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal);
+// One line for each thing that can be wrong on the way to the server; kUnreachable if one fails.
+ExitCode RunDoctor(const GlobalOptions& global, const Terminal& terminal);
 
 }  // namespace rollgait::client
 

@@ -87,7 +87,7 @@ ExitCode FollowToEnd(Connection& connection, const std::string& name, const Foll
                      const std::string& output, CtrlC& ctrl_c, Progress& progress, const Terminal& terminal) {
   const v1::Solve solve = Follow(connection, name, options, ctrl_c, progress);
   if (!connection.options().json && !connection.options().quiet) {
-    terminal.out << Summarize(solve, terminal.out_color) << std::flush;
+    TextStream(output, terminal) << Summarize(solve, terminal.out_color) << std::flush;
   }
   const ExitCode code = ExitCodeOf(solve);
   if (connection.options().quiet && code != ExitCode::kSuccess) {
@@ -95,8 +95,8 @@ ExitCode FollowToEnd(Connection& connection, const std::string& name, const Foll
   }
   if (!output.empty()) {
     try {
-      WriteSolve(solve, output);
-      progress.Note("written: " + output);
+      WriteSolve(solve, output, terminal.out);
+      if (!IsStandardOutput(output)) progress.Note("written: " + output);
     } catch (const Failure& failure) {
       terminal.err << "rollgait: " << failure.what() << std::endl;
       // How the solve ended says more than that there was nothing to write.

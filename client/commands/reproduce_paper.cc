@@ -3,7 +3,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/create_solve.h"
 #include "client/commands/follow.h"
-#include "client/json.h"
+#include "client/output.h"
 #include "client/paper/paper_page.h"
 #include "client/text.h"
 
@@ -44,6 +44,7 @@ ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOpt
     throw Failure(ExitCode::kUsage,
                   "reproduce-paper: name the page with --output FILE, or ask for the data with --json");
   }
+  RequireOneDocument(options.output, global.json);
   const bool silent = global.json || global.quiet;
   Progress progress(terminal, silent ? Progress::Style::kSilent : ProgressStyle(global, terminal));
   CtrlC ctrl_c(CtrlC::Action::kCancelSolve, progress);
@@ -65,10 +66,10 @@ ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOpt
   if (global.json)
     terminal.out << data.dump() << std::endl;
   else if (!global.quiet)
-    terminal.out << Table(data) << std::flush;
+    TextStream(options.output, terminal) << Table(data) << std::flush;
   if (!options.output.empty()) {
-    WriteFile(options.output, PaperHtml(solves));
-    progress.Note("written: " + options.output);
+    WriteDocument(PaperHtml(solves), options.output, terminal.out);
+    if (!IsStandardOutput(options.output)) progress.Note("written: " + options.output);
   }
   return code;
 }

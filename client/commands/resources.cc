@@ -1,10 +1,12 @@
 // get, list, cancel, delete, server-info: one call and its answer.
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <optional>
 
 #include "client/commands/commands.h"
 #include "client/json.h"
+#include "client/list_filter.h"
 #include "client/output.h"
 #include "client/summary.h"
 #include "client/text.h"
@@ -13,15 +15,6 @@ namespace rollgait::client {
 namespace {
 
 constexpr int kLargestPage = 1000;
-
-v1::SolveState ParseState(const std::string& word) {
-  if (word.empty()) return v1::SOLVE_STATE_UNSPECIFIED;
-  for (const v1::SolveState state : {v1::SOLVE_STATE_QUEUED, v1::SOLVE_STATE_RUNNING, v1::SOLVE_STATE_SUCCEEDED,
-                                     v1::SOLVE_STATE_FAILED, v1::SOLVE_STATE_CANCELLED}) {
-    if (StateName(state) == word) return state;
-  }
-  throw Failure(ExitCode::kUsage, "--state " + word + ": must be one of queued, running, succeeded, failed, cancelled");
-}
 
 std::vector<std::string> ListRow(const v1::Solve& solve) {
   const auto seconds = [](const google::protobuf::Timestamp& time) {
@@ -62,38 +55,46 @@ ExitCode ForEachName(const std::vector<std::string>& names, const Terminal& term
 
 ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   if (!options.output.empty()) RequireOutputPath(options.output);
+  RequireOneDocument(options.output, global.json);
   Connection connection(global);
   const v1::Solve solve = connection.GetSolve(options.name);
   if (global.json) {
     terminal.out << ToJsonText(solve);
   } else if (!global.quiet) {
-    terminal.out << Summarize(solve, terminal.out_color);
+    TextStream(options.output, terminal) << Summarize(solve, terminal.out_color) << std::flush;
   }
   terminal.out << std::flush;
-  if (!options.output.empty()) WriteSolve(solve, options.output);
+  if (!options.output.empty()) WriteSolve(solve, options.output, terminal.out);
   return ExitCode::kSuccess;
 }
 
+// Pages until `limit` solves match or there are no more: of the filters the server knows the state alone.
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  const SolveMatcher matcher(options.filter, std::chrono::system_clock::now());
   Connection connection(global);
   v1::ListSolvesRequest request;
-  request.set_state(ParseState(options.state));
+  request.set_state(matcher.state());
   std::vector<std::vector<std::string>> rows;
-  int left = options.limit;
-  bool more = true;
-  while (more && left > 0) {
-    request.set_page_size(std::min(left, kLargestPage));
+  bool more = true, limited = false;
+  while (more && !limited) {
+    request.set_page_size(matcher.IsOfStateAlone()
+                              ? std::min(options.limit - static_cast<int>(rows.size()), kLargestPage)
+                              : kLargestPage);
     grpc::ClientContext context;
     connection.SetDeadline(context);
     v1::ListSolvesResponse response;
     RequireOk(connection.stub().ListSolves(&context, request, &response), "list the solves", connection.server());
+    request.set_page_token(response.next_page_token());
+    more = !response.next_page_token().empty();
     for (const v1::Solve& solve : response.solves()) {
+      if (matcher.IsTooOld(solve)) more = false;
+      if (!matcher.Matches(solve)) continue;
+      limited = static_cast<int>(rows.size()) == options.limit;
+      if (limited) break;
       if (global.json) terminal.out << ToJsonLine(solve) << "\n";
       rows.push_back(ListRow(solve));
     }
-    left -= response.solves_size();
-    request.set_page_token(response.next_page_token());
-    more = !response.next_page_token().empty();
+    limited = limited || (more && static_cast<int>(rows.size()) == options.limit);
   }
   if (!global.json && !rows.empty()) {
     rows.insert(rows.begin(), {"NAME", "STATE", "ENDED", "ACCURACY", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
@@ -101,8 +102,8 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
   }
   terminal.out << std::flush;
   if (!global.quiet && !global.json && rows.empty()) terminal.err << "no solves" << std::endl;
-  if (!global.quiet && !global.json && more) {
-    terminal.err << "there are more; --limit " << options.limit << " was reached" << std::endl;
+  if (!global.quiet && !global.json && limited) {
+    terminal.err << "there may be more; --limit " << options.limit << " was reached" << std::endl;
   }
   return ExitCode::kSuccess;
 }

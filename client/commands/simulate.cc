@@ -11,6 +11,7 @@
 #include "client/failure.h"
 #include "client/interrupt.h"
 #include "client/json.h"
+#include "client/output.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -165,8 +166,10 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   if (options.max_wall_time_s) request.set_max_wall_time_s(*options.max_wall_time_s);
   request.set_validate_only(options.validate_only);
 
+  RequireOneDocument(options.output, global.json);
   std::optional<SimulationDocument> document;
-  if (!options.output.empty() && !options.validate_only) document.emplace(options.output, request.scene());
+  if (!options.output.empty() && !options.validate_only)
+    document.emplace(options.output, request.scene(), terminal.out);
   grpc::ClientContext context;
   const Interrupt interrupt([&](int) { context.TryCancel(); });
   Connection connection(global);
@@ -179,13 +182,14 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
     if (!global.quiet) terminal.out << "the scene is valid" << std::endl;
     return ExitCode::kSuccess;
   }
+  const bool document_alone = IsStandardOutput(options.output);  // in place of the samples
   std::optional<SampleWriter> writer;
   v1::SimulationMessage message;
   v1::SimulationReport report;
   const bool live = terminal.err_live && !global.quiet;
   while (stream->Read(&message)) {
-    if (!writer) writer.emplace(request.scene(), global.json, terminal.out);
-    writer->Write(message);
+    if (!writer && !document_alone) writer.emplace(request.scene(), global.json, terminal.out);
+    if (writer) writer->Write(message);
     if (document) document->Add(message);
     if (live && message.has_samples()) {
       const double time = message.samples().samples(message.samples().samples_size() - 1).time_s();

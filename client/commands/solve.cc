@@ -7,6 +7,7 @@
 namespace rollgait::client {
 ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   if (!options.output.empty()) RequireOutputPath(options.output);
+  RequireOneDocument(options.output, global.json);
   if (options.detach && !options.output.empty()) {
     throw Failure(ExitCode::kUsage, "--output with --detach: there is nothing to write yet; later use `rollgait get`");
   }

@@ -7,6 +7,7 @@ namespace rollgait::client {
 
 ExitCode RunWatch(const WatchOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   if (!options.output.empty()) RequireOutputPath(options.output);
+  RequireOneDocument(options.output, global.json);
   const std::string name = SolveName(options.name);
   Progress progress(terminal, ProgressStyle(global, terminal));
   CtrlC ctrl_c(CtrlC::Action::kStopWatching, progress);

@@ -14,6 +14,7 @@
 #include "client/formats/stride_csv.h"
 #include "client/formats/urdf.h"
 #include "client/json.h"
+#include "client/suggestion.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -74,7 +75,10 @@ const Format& FindFormat(const std::string& name) {
   for (const Format& format : Formats()) {
     if (format.name == name) return format;
   }
-  throw Failure(ExitCode::kUsage, "--format " + name + ": must be one of " + SolveFormatNames());
+  std::vector<std::string> names;
+  for (const Format& format : Formats()) names.push_back(format.name);
+  throw Failure(ExitCode::kUsage,
+                "--format " + name + ": must be one of " + SolveFormatNames() + DidYouMean(name, names));
 }
 
 const Format& FindModelFormat(const std::string& name) {

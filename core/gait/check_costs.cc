@@ -1,6 +1,6 @@
 #include <set>
 
-#include "core/gait/presets.h"
+#include "core/gait/combined_costs.h"
 #include "core/gait/request_check.h"
 
 namespace rollgait {
@@ -117,24 +117,18 @@ struct TermCheck {
 
 std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Scene* scene, const Similarity& similarity,
                                            RequestCheck& check) {
-  std::vector<GaitRequest::CostTerm> terms = request.costs;
-  if (request.preset) {
-    if (!terms.empty()) check.Add("preset", "contradicts costs; give one of the two");
-    if (scene == nullptr) return {};
-    terms = PresetCosts(*request.preset, *scene, similarity);
-  }
-  if (terms.empty()) terms.push_back({GaitRequest::SquaredTorque{}, std::nullopt});
+  std::vector<CombinedCost> terms = CombineCosts(request, scene, similarity);
   if (terms.size() > static_cast<size_t>(kMaxCostTerms)) {
-    check.Add("costs",
-              std::to_string(terms.size()) + " terms; at most " + std::to_string(kMaxCostTerms) + " are accepted");
+    check.Add("costs", std::to_string(terms.size()) + " terms" +
+                           (request.preset ? ", those of the preset included" : "") + "; at most " +
+                           std::to_string(kMaxCostTerms) + " are accepted");
     return {};
   }
   std::vector<GaitSpec::CostTerm> checked;
-  for (size_t i = 0; i < terms.size(); ++i) {
-    const std::string path = Indexed("costs", i);
-    const double weight = check.Number(path + ".weight", terms[i].weight, 1, kWeightLimits);
-    std::visit(TermCheck{path, scene, similarity, check}, terms[i].term);
-    checked.push_back({std::move(terms[i].term), weight});
+  for (auto& [cost, field] : terms) {
+    const double weight = check.Number(field + ".weight", cost.weight, 1, kWeightLimits);
+    std::visit(TermCheck{field, scene, similarity, check}, cost.term);
+    checked.push_back({std::move(cost.term), weight});
   }
   return checked;
 }

@@ -8,7 +8,7 @@
 namespace rollgait {
 
 // What the presets are is said in rollgait.v1.Preset and measured in docs/walking.md. A preset fills only what a
-// request leaves open; its costs take the place of costs, which a request with a preset must not give.
+// request leaves open; how its costs and those of the request become one cost is said in combined_costs.h.
 
 // Feet, duty factor and clearance.
 void FillFromPreset(GaitRequest* request);

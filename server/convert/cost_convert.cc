@@ -20,7 +20,62 @@ GaitRequest::MuscleWork DecodeMuscleWork(const v1::CostTerm::MuscleWork& work) {
           ROLLGAIT_OPTIONAL(work, smoothing_w), DecodeNumbers(work.joint_weights())};
 }
 
+void EncodeNumbers(const std::map<std::string, double>& numbers, google::protobuf::Map<std::string, double>* encoded) {
+  for (const auto& [name, number] : numbers) (*encoded)[name] = number;
+}
+
+struct TermEncoder {
+  v1::CostTerm& cost;
+
+  void operator()(const GaitRequest::SquaredTorque& term) const {
+    EncodeNumbers(term.joint_weights, cost.mutable_squared_torque()->mutable_joint_weights());
+  }
+  void operator()(const GaitRequest::SquaredTorqueRate& term) const {
+    EncodeNumbers(term.joint_weights, cost.mutable_squared_torque_rate()->mutable_joint_weights());
+  }
+  void operator()(const GaitRequest::SquaredForceRate&) const { cost.mutable_squared_force_rate(); }
+  void operator()(const GaitRequest::MechanicalWork& term) const {
+    v1::CostTerm::MechanicalWork& work = *cost.mutable_mechanical_work();
+    if (term.smoothing) work.set_smoothing_w(*term.smoothing);
+  }
+  void operator()(const GaitRequest::Time&) const { cost.mutable_time(); }
+  void operator()(const GaitRequest::Tracking& term) const {
+    v1::CostTerm::Tracking& tracking = *cost.mutable_tracking();
+    for (const GaitRequest::Tracking::Channel& channel : term.channels) {
+      v1::CostTerm::Tracking::Channel& encoded = *tracking.add_channels();
+      encoded.set_joint(channel.joint);
+      encoded.mutable_positions()->Add(channel.positions.begin(), channel.positions.end());
+      if (channel.weight) encoded.set_weight(*channel.weight);
+    }
+  }
+  void operator()(const GaitRequest::MuscleEffort& term) const {
+    v1::CostTerm::MuscleEffort& effort = *cost.mutable_muscle_effort();
+    if (term.exponent) effort.set_exponent(*term.exponent);
+    EncodeNumbers(term.joint_weights, effort.mutable_joint_weights());
+  }
+  void operator()(const GaitRequest::MuscleWork& term) const {
+    v1::CostTerm::MuscleWork& work = *cost.mutable_muscle_work();
+    if (term.positive_efficiency) work.set_positive_efficiency(*term.positive_efficiency);
+    if (term.negative_efficiency) work.set_negative_efficiency(*term.negative_efficiency);
+    if (term.smoothing) work.set_smoothing_w(*term.smoothing);
+    EncodeNumbers(term.joint_weights, work.mutable_joint_weights());
+  }
+  void operator()(const GaitRequest::PassiveLoad& term) const {
+    EncodeNumbers(term.joint_weights, cost.mutable_passive_load()->mutable_joint_weights());
+  }
+  void operator()(const GaitRequest::SquaredAcceleration& term) const {
+    EncodeNumbers(term.joint_weights, cost.mutable_squared_acceleration()->mutable_joint_weights());
+  }
+};
+
 }  // namespace
+
+v1::CostTerm EncodeCost(const GaitRequest::CostTerm& cost) {
+  v1::CostTerm encoded;
+  std::visit(TermEncoder{encoded}, cost.term);
+  if (cost.weight) encoded.set_weight(*cost.weight);
+  return encoded;
+}
 
 GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& cost, Violations* violations) {
   GaitRequest::CostTerm decoded;

@@ -2,6 +2,7 @@
 
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/model_convert.h"
+#include "server/convert/spell_out.h"
 #include "server/convert/warm_start_convert.h"
 
 namespace rollgait::server {
@@ -39,6 +40,6 @@ Result<v1::Model> GetModel(const v1::ModelSelection& selection) {
 
 }  // namespace
 
-GaitKnowledge MakeCoreKnowledge() { return {CheckSpec, CheckWarmStart, ListModels, GetModel}; }
+GaitKnowledge MakeCoreKnowledge() { return {CheckSpec, CheckWarmStart, ListModels, GetModel, SpellOut}; }
 
 }  // namespace rollgait::server

@@ -17,6 +17,8 @@ struct GaitKnowledge {
   std::function<v1::ListModelsResponse()> list_models;
   // The scaled model; violations name fields relative to the selection.
   std::function<Result<v1::Model>(const v1::ModelSelection&)> get_model;
+  // The spec with its preset spelled out (CreateSolveRequest.spell_out); violations as check_spec.
+  std::function<Result<v1::SolveSpec>(const v1::SolveSpec&)> spell_out;
 };
 
 }  // namespace rollgait::server

@@ -1,5 +1,6 @@
 #include "server/service/solve_service.h"
 
+#include <google/protobuf/util/time_util.h>
 #include <spdlog/common.h>
 
 #include <utility>
@@ -84,12 +85,15 @@ Outcome<CreatedSolve> SolveService::Store(const NewSolve& solve) {
 Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckRequestId(request.request_id());
+  if (request.spell_out() && !request.validate_only()) {
+    violations.push_back({"spell_out", "needs validate_only; nothing that is stored is spelled out"});
+  }
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   Outcome<Checked> checked = CheckSpec(caller, request.spec(), request.has_spec());
   if (!checked.ok()) return checked.error();
   if (request.validate_only()) {
     v1::Solve solve;
-    *solve.mutable_spec() = request.spec();
+    *solve.mutable_spec() = request.spell_out() ? knowledge_.spell_out(request.spec()).value() : request.spec();
     return solve;
   }
   NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key,
@@ -202,6 +206,14 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const 
   info.set_max_request_bytes(kMaxRequestBytes);
   info.set_uptime_s(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
   info.set_store(options_.store_name);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  *info.mutable_server_time() = google::protobuf::util::TimeUtil::NanosecondsToTimestamp(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+  info.set_max_queued(options_.max_queued);
+  // The machine is the administrator's, too.
+  const std::optional<int64_t> free =
+      (caller.scopes & kScopeAdmin) != 0 ? options_.store_disk.FreeBytes() : std::nullopt;
+  if (free) info.set_store_free_bytes(*free);
   *info.mutable_caller() = Describe(caller);
   return info;
 }

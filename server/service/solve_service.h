@@ -13,6 +13,7 @@
 #include "server/service/gait_knowledge.h"
 #include "server/service/solve_message.h"
 #include "server/service/warm_start_search.h"
+#include "server/store/disk_room.h"
 #include "server/store/solve_store.h"
 
 namespace rollgait::server {
@@ -25,6 +26,7 @@ struct ServiceOptions {
   int max_queued = 1000;
   bool reuse_results = true;  // false: every request is solved, equal ones too
   std::string store_name = "sqlite";
+  DiskRoom store_disk;  // none: ServerInfo says nothing of it
 };
 
 // The use cases, one method an RPC; what the errors mean is in gait_service.proto. Requests are refused with every

@@ -20,6 +20,8 @@ class DiskRoom {
 
   // kResourceExhausted with what is free; nullopt: there is room, or the disk does not say.
   std::optional<Error> Refusal() const;
+  // What may still be written there without root, bytes; nullopt: no disk of ours, or it does not say.
+  std::optional<int64_t> FreeBytes() const;
 
  private:
   std::string directory_;

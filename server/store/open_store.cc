@@ -23,12 +23,13 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
     options.group_writes = true;
     options.connect = [path = location.sqlite_path, &clock] { return std::make_unique<SqliteConnection>(path, clock); };
   }
-  DiskRoom room;
-  if (!location.is_postgres()) {
-    const std::string folder = std::filesystem::path(location.sqlite_path).parent_path().string();
-    room = DiskRoom(folder.empty() ? "." : folder, location.reserve_bytes);
-  }
-  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, std::move(room));
+  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, RoomOf(location));
+}
+
+DiskRoom RoomOf(const StoreLocation& location) {
+  if (location.is_postgres()) return {};
+  const std::string folder = std::filesystem::path(location.sqlite_path).parent_path().string();
+  return {folder.empty() ? "." : folder, location.reserve_bytes};
 }
 
 Outcome<std::unique_ptr<SqlStore>> AwaitStore(const StoreLocation& location, const Clock& clock,

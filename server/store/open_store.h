@@ -17,6 +17,9 @@ namespace rollgait::server {
 // clock outlives it.
 Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, const Clock& clock);
 
+// The disk of a SQLite store; of PostgreSQL none.
+DiskRoom RoomOf(const StoreLocation& location);
+
 // As OpenStore, but a PostgreSQL that is unavailable is tried again every second for as long as `wait`: after a start
 // of machines the database, the network or its names may come later than their users. Every failure is a warning in the
 // log. `sleep` returns early, and false, when the program is told to stop.

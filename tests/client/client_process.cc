@@ -43,6 +43,11 @@ ClientProcess::ClientProcess(const std::vector<std::string>& arguments, const Op
   std::vector<std::string> words = {ROLLGAIT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> environment = {"TERM=xterm"};
+  bool configured = false;
+  for (const std::string& variable : options.environment) {
+    configured = configured || variable.rfind("ROLLGAIT_CONFIG=", 0) == 0 || variable.rfind("XDG_CONFIG_HOME=", 0) == 0;
+  }
+  if (!configured) environment.push_back("ROLLGAIT_CONFIG=");  // not that of whoever runs the test
   for (const char* const name : {"PATH", "HOME", "LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS"}) {
     if (const char* const value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
   }

@@ -13,7 +13,7 @@ class ClientProcess {
  public:
   struct Options {
     bool terminal = false;                 // Standard error is a terminal of 60 columns.
-    std::vector<std::string> environment;  // "NAME=value", on top of PATH, HOME and TERM=xterm
+    std::vector<std::string> environment;  // "NAME=value", on top of PATH, HOME, TERM=xterm and no configuration file
   };
 
   // Starts the program with the arguments.

@@ -6,6 +6,7 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <ctime>
 
 #include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
@@ -124,6 +125,10 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
   solve->clear_result();
   if (request->validate_only()) {
     solve->clear_name();
+    if (spells_out_ && request->spell_out() && solve->spec().preset() != v1::PRESET_UNSPECIFIED) {
+      solve->mutable_spec()->clear_preset();
+      solve->mutable_spec()->add_costs()->mutable_muscle_effort();
+    }
     return grpc::Status::OK;
   }
   records_[record.solve.name()] = record;
@@ -230,6 +235,9 @@ grpc::Status FakeGaitService::GetServerInfo(grpc::ServerContext*, const v1::GetS
   info->set_version("1.2.3");
   info->set_solver_slots(2);
   info->set_store("sqlite");
+  info->mutable_server_time()->set_seconds(std::time(nullptr));
+  info->set_max_queued(100);
+  info->set_store_free_bytes(int64_t{5} << 30);
   return grpc::Status::OK;
 }
 

@@ -27,6 +27,9 @@ class FakeGaitService : public v1::GaitService::Service {
   // Number of iterations of every solve made from now on; 5 if not called.
   void SetIterations(int iterations) { iterations_ = iterations; }
 
+  // False: as a server that does not know spell_out.
+  void SetSpellsOut(bool spells_out) { spells_out_ = spells_out; }
+
   std::vector<v1::CreateSolveRequest> created() const;
   std::vector<v1::WatchSolveRequest> watched() const;
   std::vector<std::string> cancelled() const;
@@ -53,6 +56,7 @@ class FakeGaitService : public v1::GaitService::Service {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   int iterations_ = 5;
+  bool spells_out_ = true;
   std::map<std::string, Record> records_;
   std::multiset<int64_t> breaks_;
   int broken_ = 0;

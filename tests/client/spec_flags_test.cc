@@ -230,13 +230,25 @@ TEST_F(SpecFileTest, RefusesWhatIsNotARequest) {
   EXPECT_THROW(Parse("--spec no_such_file.json"), Failure);
 }
 
-TEST(SpecFlagsTest, PresetAndCostsTakeEachOthersPlace) {
+TEST(SpecFlagsTest, CostsJoinAPreset) {
   EXPECT_EQ(Parse("--preset human").preset(), v1::PRESET_HUMAN);
   EXPECT_EQ(Parse("--preset torque").preset(), v1::PRESET_TORQUE);
   EXPECT_EQ(Parse("--preset transport").preset(), v1::PRESET_TRANSPORT);
-  const v1::SolveSpec both = Parse("--preset human --cost torque");  // the server refuses it and says why
+  const v1::SolveSpec both = Parse("--preset human --cost force-rate:1e-9");
   EXPECT_EQ(both.preset(), v1::PRESET_HUMAN);
-  EXPECT_EQ(both.costs_size(), 1);
+  ASSERT_EQ(both.costs_size(), 1);
+  EXPECT_TRUE(both.costs(0).has_squared_force_rate());
+}
+
+TEST_F(SpecFileTest, APresetReplacesTheCostOfTheFileAndACostItsCosts) {
+  const std::string file = Write(R"({"preset": "PRESET_HUMAN", "costs": [{"time": {}}]})");
+  const v1::SolveSpec cost = Parse("--spec " + file + " --cost effort:2");
+  EXPECT_EQ(cost.preset(), v1::PRESET_HUMAN);
+  ASSERT_EQ(cost.costs_size(), 1);
+  EXPECT_TRUE(cost.costs(0).has_muscle_effort());
+  const v1::SolveSpec preset = Parse("--spec " + file + " --preset transport");
+  EXPECT_EQ(preset.preset(), v1::PRESET_TRANSPORT);
+  EXPECT_EQ(preset.costs_size(), 0);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST_F(ResourceCommandTest, ListTurnsPages) {
   EXPECT_THAT(Run({"list", "--state", "running"}).out, Not(HasSubstr("solves/planar")));
   const Ended one = Run({"list", "--limit", "1"});
   EXPECT_THAT(one.out, Not(HasSubstr("solves/planar")));
-  EXPECT_THAT(one.err, HasSubstr("there are more"));
+  EXPECT_THAT(one.err, HasSubstr("there may be more"));
   EXPECT_EQ(Run({"list", "--state", "walking"}).code, 2);
 }
 
@@ -85,9 +85,14 @@ TEST_F(ResourceCommandTest, Models) {
 
 TEST_F(ResourceCommandTest, ServerInfoHelpAndVersion) {
   EXPECT_THAT(Run({"server-info"}).out, HasSubstr("1.2.3"));
-  EXPECT_THAT(Run({"--help"}).out, HasSubstr("4  the solve ended without a solution"));
+  EXPECT_THAT(Run({"--help"}).out, HasSubstr("exit-codes"));
+  EXPECT_THAT(Run({"help", "exit-codes"}).out, HasSubstr("4  the solve ended without a solution"));
+  EXPECT_THAT(Run({"help", "formats"}).out, HasSubstr("opensim"));
+  EXPECT_EQ(RunToEnd({}).code, 0);
+  EXPECT_THAT(RunToEnd({}).out, HasSubstr("reproduce-paper"));
   EXPECT_THAT(Run({"help", "solve"}).out, HasSubstr("--slope"));
   EXPECT_EQ(Run({"help", "dance"}).code, 2);
+  EXPECT_THAT(Run({"help", "exit-code"}).err, HasSubstr("did you mean exit-codes?"));
   EXPECT_THAT(Run({"--version"}).out, testing::StartsWith("rollgait "));
 }
 

@@ -90,12 +90,19 @@ const BadCase kBadCases[] = {
     {"ErrorOfNoForce", [](GaitRequest& r) { r.accuracy.max_error = MaxError{.contact_force = -1}; },
      "accuracy.max_error.contact_force_n", "-1 is outside"},
     {"NoStart", [](GaitRequest& r) { r.starts = 0; }, "starts", "[1, 32]"},
-    {"PresetAndCosts",
+    {"BadWeightBesideAPreset",
      [](GaitRequest& r) {
-       r.preset = Preset::kTorque;
+       r.preset = Preset::kHuman;
        r.costs.push_back({GaitRequest::Time{}, {}});
+       r.costs.push_back({GaitRequest::PassiveLoad{}, -1.0});
      },
-     "preset", "contradicts costs"},
+     "costs[1].weight", "-1"},
+    {"TooManyCostsWithThoseOfThePreset",
+     [](GaitRequest& r) {
+       r.preset = Preset::kHuman;
+       r.costs.assign(27, {GaitRequest::Time{}, {}});
+     },
+     "costs", "33 terms, those of the preset included"},
     {"EffortBelowTheSquare",
      [](GaitRequest& r) {
        r.costs.push_back({GaitRequest::MuscleEffort{1.5, {}}, {}});

@@ -43,6 +43,11 @@ inline GaitKnowledge SmallKnowledge() {
     *model.mutable_selection() = selection;
     return model;
   };
+  knowledge.spell_out = [](v1::SolveSpec spec) -> Result<v1::SolveSpec> {
+    if (spec.preset() == v1::PRESET_TORQUE) spec.add_costs()->mutable_squared_torque();
+    spec.clear_preset();
+    return spec;
+  };
   return knowledge;
 }
 

@@ -1,7 +1,9 @@
 #include "server/service/solve_service.h"
 
+#include <google/protobuf/util/time_util.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
 
 #include "server/service/solve_message.h"
@@ -72,6 +74,45 @@ TEST(SolveServiceTest, ADryRunChecksAndStoresNothing) {
   request.mutable_spec()->set_slope_rad(3);
   EXPECT_EQ(bench.service().CreateSolve({}, request).error().code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(bench.service().ListSolves({}, {}).value().solves_size(), 0);
+}
+
+TEST(SolveServiceTest, ADryRunSpellsThePresetOut) {
+  ServiceBench bench;
+  v1::CreateSolveRequest request = CreateRequest(PlanarSpec());
+  request.mutable_spec()->set_preset(v1::PRESET_TORQUE);
+  request.set_validate_only(true);
+  EXPECT_EQ(bench.service().CreateSolve({}, request).value().spec().preset(), v1::PRESET_TORQUE);
+  request.set_spell_out(true);
+  const v1::SolveSpec spelled = bench.service().CreateSolve({}, request).value().spec();
+  EXPECT_EQ(spelled.preset(), v1::PRESET_UNSPECIFIED);
+  ASSERT_EQ(spelled.costs_size(), 1);
+  EXPECT_TRUE(spelled.costs(0).has_squared_torque());
+  request.set_validate_only(false);
+  EXPECT_EQ(bench.service().CreateSolve({}, request).error().violations[0].field, "spell_out");
+  EXPECT_EQ(bench.service().ListSolves({}, {}).value().solves_size(), 0);
+}
+
+TEST(SolveServiceTest, ServerInfoTellsClockQueueAndTheDiskToTheAdministrator) {
+  ServiceOptions options;
+  options.max_queued = 17;
+  options.store_disk = DiskRoom("/tmp", 0);
+  ServiceBench bench(std::chrono::hours(1), options);
+  Caller administrator, reader;
+  administrator.scopes = kScopeAdmin | kScopeRead;
+  reader.scopes = kScopeRead;
+  using google::protobuf::util::TimeUtil;
+  const auto now_ns = [] {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+  };
+  const int64_t before_ns = now_ns();
+  const v1::ServerInfo info = bench.service().GetServerInfo(administrator, {}).value();
+  EXPECT_GE(TimeUtil::TimestampToNanoseconds(info.server_time()), before_ns);
+  EXPECT_LE(TimeUtil::TimestampToNanoseconds(info.server_time()), now_ns());
+  EXPECT_EQ(info.max_queued(), 17);
+  EXPECT_TRUE(info.has_store_free_bytes());
+  EXPECT_GT(info.store_free_bytes(), 0);
+  EXPECT_FALSE(bench.service().GetServerInfo(reader, {}).value().has_store_free_bytes());
 }
 
 TEST(SolveServiceTest, TheSameRequestIdIsTheSameSolve) {

@@ -1,0 +1,40 @@
+// The commands and flags of `rollgait`, as CLI11 reads them.
+#ifndef ROLLGAIT_CLIENT_COMMAND_LINE_H_
+#define ROLLGAIT_CLIENT_COMMAND_LINE_H_
+
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+
+namespace CLI {
+class App;
+}
+
+namespace rollgait::client {
+
+// Everything that the command line can set.
+struct Arguments {
+  GlobalOptions global;
+  SolveOptions solve;
+  WatchOptions watch;
+  GetOptions get;
+  ExplainOptions explain;
+  ListOptions list;
+  ReportOptions report;
+  ReproducePaperOptions paper;
+  ModelsOptions models;
+  ExportOptions exported;
+  SpecOptions spec;
+  SimulateOptions simulate;
+  PoincareOptions poincare;
+  std::vector<std::string> cancel, remove;
+  std::string help_topic, shell;
+};
+
+// Adds all commands and flags; parsing fills `arguments`, which outlives `app`.
+void AddCommandLine(CLI::App& app, Arguments& arguments);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_COMMAND_LINE_H_

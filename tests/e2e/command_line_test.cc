@@ -1,0 +1,111 @@
+// The client's own commands against the real server and solver: a request as a file gives the same gait as its flags,
+// and what is said about it is true of it.
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "tests/e2e/daemon.h"
+#include "tests/server/store/temporary_directory.h"
+#include "tests/support/certificates.h"
+
+namespace rollgait::server {
+namespace {
+
+using testing::HasSubstr;
+
+class CommandLineTest : public testing::Test {
+ protected:
+  CommandLineTest() : daemon_({.data_dir = directory_.path() + "/data", .solver = "", .flags = {}}) {}
+
+  struct Ended {
+    int code;
+    std::string out;
+  };
+  Ended Run(const std::string& arguments) const {
+    const std::string file = directory_.path() + "/out";
+    const int status = std::system(("ROLLGAIT_CONFIG= " ROLLGAIT_PROGRAM " --server " + daemon_.address() + " " +
+                                    arguments + " > " + file + " 2> /dev/null")
+                                       .c_str());
+    std::ostringstream out;
+    out << std::ifstream(file).rdbuf();
+    return {WEXITSTATUS(status), out.str()};
+  }
+  v1::Solve Solve(const std::string& arguments) const {
+    const Ended ended = Run("solve -q -o - " + arguments);
+    v1::Solve solve;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(ended.out, &solve).ok()) << ended.code << ended.out;
+    return solve;
+  }
+
+  const TemporaryDirectory directory_;
+  const Daemon daemon_;
+};
+
+TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string request = "--model planar --preset human --cost force-rate:1e-8 --intervals 8 --accuracy draft";
+  const std::string file = directory_.path() + "/request.json";
+  ASSERT_EQ(Run("spec " + request + " -o " + file).code, 0);
+  const v1::Solve flags = Solve(request), spelled = Solve("--spec " + file);
+  EXPECT_EQ(spelled.spec().preset(), v1::PRESET_UNSPECIFIED);
+  ASSERT_GT(spelled.spec().costs_size(), 1);
+  EXPECT_FALSE(spelled.from_cache());
+  ASSERT_EQ(flags.result().termination(), v1::TERMINATION_OPTIMAL) << flags.result().message();
+  EXPECT_EQ(spelled.result().objective(), flags.result().objective());  // the same program, solved alike
+  EXPECT_EQ(spelled.result().costs_size(), flags.result().costs_size());
+
+  EXPECT_THAT(Run("list --termination optimal --since 1h").out, HasSubstr(flags.name()));
+  EXPECT_EQ(Run("list --model human29").out, "");
+  const Ended explained = Run("explain " + flags.name());
+  EXPECT_THAT(explained.out, HasSubstr("The solver found a local optimum"));
+  EXPECT_THAT(explained.out, HasSubstr("iterations on "));
+}
+
+TEST_F(CommandLineTest, TheDoctorFindsAFreshServerWell) {
+  ASSERT_NE(daemon_.address(), "");
+  const Ended doctor = Run("doctor");
+  EXPECT_EQ(doctor.code, 0) << doctor.out;
+  EXPECT_THAT(doctor.out, HasSubstr("ok    versions: client "));
+  EXPECT_THAT(doctor.out, HasSubstr("ok    clock: the server's clock is "));
+  EXPECT_THAT(doctor.out, HasSubstr("ok    queue: 0 of "));
+  EXPECT_THAT(doctor.out, HasSubstr("disk: store: sqlite, "));
+}
+
+TEST(CommandLineTlsTest, TheDoctorReadsTheServersCertificate) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() + "/" + name; };
+  const Identity authority = MakeAuthority("authority"), server = MakeCertificate(authority, "gait.example");
+  WriteFileAtOnce(path("ca.pem"), authority.cert);
+  WriteFileAtOnce(path("server.pem"), server.cert);
+  WriteFileAtOnce(path("server.key"), server.key);
+  const Daemon daemon({.data_dir = path("data"),
+                       .solver = "",
+                       .flags = {"--tls-cert", path("server.pem"), "--tls-key", path("server.key")}});
+  ASSERT_NE(daemon.address(), "");
+  const auto doctor = [&](const std::string& authority_file) {
+    const std::string command = "ROLLGAIT_CONFIG= " ROLLGAIT_PROGRAM " --server " + daemon.address() + " --tls-ca " +
+                                authority_file + " doctor > " + path("out") + " 2> /dev/null";
+    const int status = std::system(command.c_str());
+    std::ostringstream out;
+    out << std::ifstream(path("out")).rdbuf();
+    return std::to_string(WEXITSTATUS(status)) + " " + out.str();
+  };
+  const std::string well = doctor(path("ca.pem"));
+  // It is for a day from now only.
+  EXPECT_THAT(well, testing::StartsWith("0 "));
+  EXPECT_THAT(well, HasSubstr("ok    --tls-ca " + path("ca.pem") + ": authority"));
+  EXPECT_THAT(well, HasSubstr("warn  server certificate: gait.example ("));
+  EXPECT_THAT(well, HasSubstr("It expires soon: renew it."));
+  WriteFileAtOnce(path("other.pem"), MakeAuthority("another").cert);
+  const std::string ill = doctor(path("other.pem"));
+  EXPECT_THAT(ill, testing::StartsWith("3 "));
+  EXPECT_THAT(ill, HasSubstr("FAIL  server: "));
+  EXPECT_THAT(ill, HasSubstr("give the right --tls-ca FILE"));
+}
+
+}  // namespace
+}  // namespace rollgait::server
