@@ -183,6 +183,19 @@ void AddTenantCommands(CLI::App& app, Arguments& arguments, Action& chosen) {
   AddCommand(*tenant, "list", "Tenants that have tokens or limits", arguments, chosen, ListTenants);
 }
 
+void AddAnswerFlags(CLI::App& app, AnswerLimits& limits) {
+  const auto add = [&](const char* name, int64_t& bytes, const char* whose) {
+    app.add_option_function<int64_t>(
+           name, [&bytes](int64_t mib) { bytes = mib << 20; },
+           std::string("MiB of answers that were not read yet, ") + whose + "; more calls are refused")
+        ->check(CLI::Range(1, 1 << 20))
+        ->default_str(std::to_string(bytes >> 20));
+  };
+  add("--connection-answers-mb", limits.connection, "of one connection");
+  add("--tenant-answers-mb", limits.tenant, "of one tenant");
+  add("--answers-mb", limits.all, "of all clients");
+}
+
 }  // namespace
 
 void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
@@ -210,6 +223,7 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
   app.add_option("--tenant-creates-per-s", flags.limits.creates_per_s,
                  "Solves and simulations a tenant may ask for; 0: no limit")
       ->check(CLI::Range(0.0, 1e6));
+  AddAnswerFlags(app, flags.answers);
   app.add_option("--max-connections", flags.connections.total,
                  "Connections at once; default: what the limit of open files leaves")
       ->check(CLI::Range(1, 1'000'000));

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "server/access/answer_budget.h"
 #include "server/access/caller.h"
 #include "server/rpc/call_identity.h"
 #include "server/rpc/connection_acceptor.h"
@@ -19,6 +20,7 @@ struct AccessFlags {
   TlsFiles tls;
   CertificateTenant certificate_tenant = CertificateTenant::kNone;
   bool require_token = false;
+  AnswerLimits answers;
   TenantLimits limits;                   // but for max_queued: TenantDefaults
   std::optional<int> tenant_max_queued;  // not given: half of the queue, where it is asked who calls
   ConnectionLimits connections;

@@ -57,7 +57,11 @@ void Admission::WhenWithdrawn(std::function<void(const Error&)> end) {
 }
 
 Gatekeeper::Gatekeeper(const Options& options, AccessStore* store, const Clock* clock)
-    : options_(options), store_(store), clock_(clock), backpressure_(options.most_creates_at_once) {
+    : options_(options),
+      store_(store),
+      clock_(clock),
+      backpressure_(options.most_creates_at_once),
+      answers_(std::make_shared<AnswerBudget>(options.answers)) {
   if (options_.require_identity && store_ != nullptr) watcher_ = std::thread([this] { Watch(); });
 }
 
@@ -100,7 +104,10 @@ Outcome<std::shared_ptr<Admission>> Gatekeeper::Admit(const MethodRule& rule, co
     if (std::optional<Error> fast = quotas_.TakeCreate(known.tenant, known.limits.creates_per_s))
       return *std::move(fast);
   }
+  Outcome<std::unique_ptr<AnswerHold>> answer = answers_->Open(presented.peer, known.tenant);
+  if (!answer.ok()) return answer.error();
   std::shared_ptr<Admission> admission(new Admission(*this, known));
+  admission->answer_ = std::move(answer).value();
   admission->place_ = std::move(place);
   if (rule.watches) {
     Outcome<std::shared_ptr<void>> watch = quotas_.TakeWatch(known.tenant, known.limits.max_watches);

@@ -174,9 +174,24 @@ void From3To4(SqlConnection& connection) {
   }
 }
 
+// Where `nearest` looks (solve_place.h): apart from solves, whose rows are as long as their specs. Solves of older
+// stores get theirs from the server, which knows what specs mean.
+constexpr char kPlaces[] = R"(
+CREATE TABLE places (
+  solve BIGINT PRIMARY KEY REFERENCES solves (number) ON DELETE CASCADE,
+  tenant TEXT NOT NULL,
+  question TEXT NOT NULL,
+  slope_rad DOUBLE PRECISION NOT NULL,
+  speed_m_s DOUBLE PRECISION NOT NULL,
+  optimal BIGINT NOT NULL);
+CREATE INDEX places_by_question ON places (question, tenant, optimal, slope_rad, speed_m_s);
+)";
+
+void From4To5(SqlConnection& connection) { connection.Execute(kPlaces); }
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/store/audit.h"
+#include "server/store/solve_place.h"
 
 namespace rollgait::server {
 
@@ -51,6 +52,7 @@ struct NewSolve {
   Actor actor = {};             // its tenant is the solve's
   int max_queued_tenant = 0;    // the same limit for the tenant alone; 0: none
   std::string solver_fingerprint = {}, traceparent = {};
+  SolvePlace place = {};
 };
 
 struct CreatedSolve {

@@ -93,12 +93,16 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
   });
 }
 
-Outcome<std::string> SqlStore::TenantOf(const std::string& id) {
+Outcome<SolveExtent> SqlStore::Extent(const std::string& id) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
-  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::string> {
-    Query query(connection, "SELECT tenant FROM solves WHERE id = ?", id);
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveExtent> {
+    // Neither engine reads a blob for its length.
+    Query query(connection,
+                "SELECT tenant, LENGTH(spec), COALESCE(LENGTH(error), 0), COALESCE((SELECT LENGTH(payload) FROM "
+                "results WHERE results.id = solves.result_id), 0) FROM solves WHERE id = ?",
+                id);
     if (!query.Step()) return NoSuchSolve(id);
-    return query.Bytes(0);
+    return SolveExtent{query.Bytes(0), query.Int(1) + query.Int(2) + query.Int(3)};
   });
 }
 

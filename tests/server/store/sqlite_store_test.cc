@@ -103,6 +103,7 @@ TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
     EXPECT_EQ(late.verdict, 0) << "older results have none";
     EXPECT_EQ(store.value()->ReadEvents("old", 0, 10).value().events.size(), 3u);
     EXPECT_EQ(store.value()->Counts().value().queued, 1);
+    EXPECT_EQ(store.value()->Unplaced(0, 10).value().size(), 4u) << "the server gives them places";
   }
   const auto store = OpenStore({path}, clock);
   // The old lease is still good, the old request_id is known, the old result answers, and parts go with their solve.
