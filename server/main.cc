@@ -21,6 +21,7 @@
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
 #include "server/base/logging.h"
+#include "server/base/memory_limit.h"
 #include "server/base/memory_return.h"
 #include "server/base/metrics.h"
 #include "server/base/notify.h"
@@ -55,6 +56,7 @@ struct Flags {
   ListenFlags listen;
   AccessFlags access;
   int solver_slots = -1;  // -1: not said
+  int64_t solver_memory_mb = 4096;
   int simulation_slots = 2;
   std::string agent, solver, simulator;
   std::string instruction_set = "auto";
@@ -88,6 +90,10 @@ void AddFlags(CLI::App& app, Flags& flags) {
          "--solver-slots", flags.solver_slots,
          "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--solver-memory-mb", flags.solver_memory_mb,
+                 "MiB of address space of a solver of this server's own agent")
+      ->check(CLI::Range(int64_t{64}, int64_t{1} << 20))
+      ->capture_default_str();
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
   auto* solver = app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
   app.add_option("--instruction-set", flags.instruction_set,
@@ -176,6 +182,8 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
                        directory,
                        "--slots",
                        std::to_string(slots),
+                       "--memory-limit-mb",
+                       std::to_string(flags.solver_memory_mb),
                        "--solver",
                        solver,
                        "--log-format",
@@ -187,6 +195,15 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
   }
   if (flags.unconfined_solver) options.arguments.push_back("--unconfined-solver");
   return options;
+}
+
+// Solvers and simulations that all take what they may are more than there is: then the kernel chooses whom to kill.
+void WarnOfMemory(const Flags& flags, int slots) {
+  const int64_t simulations = flags.simulation_slots * SimulationHostOptions().memory_limit_mb;
+  const int64_t most = slots * flags.solver_memory_mb + simulations, limit = MemoryLimit() >> 20;
+  if (most <= limit) return;
+  LogEvent(spdlog::level::warn, "memory.promised",
+           {{"promised_mb", most}, {"limit_mb", limit}, {"flags", "--solver-slots, --solver-memory-mb"}});
 }
 
 // The program that solves, and the name of its build.
@@ -256,7 +273,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   Gatekeeper::Options gate;
   gate.require_identity = flags.access.asks_who_calls();
   gate.answers = flags.access.answers;
-  gate.limits = flags.access.TenantDefaults(flags.max_queued);
+  gate.limits = flags.access.TenantDefaults(flags.max_queued, flags.simulation_slots);
   Gatekeeper gatekeeper(gate, &access, &clock);
   RpcOptions rpc_options;
   rpc_options.listen = flags.listen.address;
@@ -274,6 +291,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   if (!server.ok()) return Fail(server.error().message);
   if (const auto problem = ServeMetrics(flags, metrics)) return Fail(*problem);
   std::unique_ptr<Supervisor> agent;
+  WarnOfMemory(flags, solver_slots);
   if (solver_slots > 0) {
     auto started = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir.path, solver_slots));
     if (!started.ok()) return Fail(started.error().message);

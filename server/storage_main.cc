@@ -11,7 +11,7 @@ void AddStorageFlags(CLI::App& app, StorageFlags& flags) {
   };
   add("--keep-solves-days", flags.keep_solves_days, "Days after its end that a solve is deleted; 0: never");
   add("--keep-solves-mb", flags.keep_solves_mb,
-      "MiB of finished solves above which the oldest are deleted; 0: no limit");
+      "MiB of finished solves of one tenant above which its oldest are deleted; 0: no limit");
   add("--keep-events-days", flags.keep_events_days,
       "Days after the end of a solve that its event log is reduced to the terminal event; 0: never");
   add("--keep-audit-days", flags.keep_audit_days, "Days that audit rows are kept; 0: for ever");

@@ -114,6 +114,11 @@ Outcome<std::shared_ptr<Admission>> Gatekeeper::Admit(const MethodRule& rule, co
     if (!watch.ok()) return watch.error();
     admission->watch_ = std::move(watch).value();
   }
+  if (rule.simulates) {
+    Outcome<std::shared_ptr<void>> simulation = quotas_.TakeSimulation(known.tenant, known.limits.max_simulations);
+    if (!simulation.ok()) return simulation.error();
+    admission->simulation_ = std::move(simulation).value();
+  }
   return admission;
 }
 
@@ -177,6 +182,8 @@ Outcome<TenantLimits> Gatekeeper::LimitsOf(const std::string& tenant) {
   limits.max_queued = own.value().max_queued.value_or(limits.max_queued);
   limits.max_running = own.value().max_running.value_or(0);
   limits.max_watches = own.value().max_watches.value_or(limits.max_watches);
+  limits.max_simulations = own.value().max_simulations.value_or(limits.max_simulations);
+  limits.max_storage_bytes = own.value().max_storage_bytes.value_or(limits.max_storage_bytes);
   limits.creates_per_s = own.value().creates_per_s.value_or(limits.creates_per_s);
   const std::lock_guard<std::mutex> lock(limits_mutex_);
   known_limits_[tenant] = {limits, now};

@@ -53,7 +53,7 @@ class Admission {
   Gatekeeper& gatekeeper_;
   const Caller caller_;
   std::unique_ptr<AnswerHold> answer_;
-  std::shared_ptr<void> place_, watch_;
+  std::shared_ptr<void> place_, watch_, simulation_;
   bool registered_ = false;
 };
 

@@ -97,6 +97,7 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   solve.actor = caller.actor();
   solve.traceparent = caller.traceparent;
   solve.max_queued_tenant = caller.limits.max_queued;
+  solve.max_bytes_tenant = caller.limits.max_storage_bytes;
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
   solve.place = PlaceOf(request.spec());
   solve.solver_fingerprint = options_.solver_fingerprint;

@@ -20,6 +20,7 @@ class DiskRoom {
 
   // kResourceExhausted with what is free; nullopt: there is room, or the disk does not say.
   std::optional<Error> Refusal() const;
+  int64_t reserve_bytes() const { return reserve_bytes_; }
 
  private:
   std::string directory_;

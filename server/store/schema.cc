@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rollgait/v1/solve.pb.h"
+#include "server/base/digest.h"
 
 namespace rollgait::server {
 namespace {
@@ -187,7 +188,20 @@ CREATE TABLE places (
 CREATE INDEX places_by_question ON places (question, tenant, optimal, slope_rad, speed_m_s);
 )";
 
-void From4To5(SqlConnection& connection) { connection.Execute(kPlaces); }
+// What tenants may store and how much they simulate; -1: the server's default. The index sums what a tenant stores.
+constexpr char kTenantLimits[] = R"(
+ALTER TABLE tenants ADD COLUMN max_storage_bytes BIGINT NOT NULL DEFAULT -1;
+ALTER TABLE tenants ADD COLUMN max_simulations BIGINT NOT NULL DEFAULT -1;
+CREATE INDEX solves_by_tenant_end ON solves (tenant, end_time_us, bytes);
+)";
+
+// Random texts that never leave the store.
+constexpr char kSecrets[] = "CREATE TABLE secrets (name TEXT PRIMARY KEY, value TEXT NOT NULL);";
+
+void From4To5(SqlConnection& connection) {
+  for (const char* part : {kPlaces, kTenantLimits, kSecrets}) connection.Execute(part);
+  Query::Do(connection, "INSERT INTO secrets (name, value) VALUES ('page_tokens', ?)", RandomHex(32));
+}
 
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.

@@ -157,6 +157,8 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
                                                   ", which has another spec; use a new request_id"};
     }
     if (std::optional<Error> full = room_.Refusal()) return *full;
+    if (reserve_ != nullptr) reserve_->Restore(room_.reserve_bytes());
+    if (std::optional<Error> full = storage_use_.Refusal(connection, solve)) return *full;
     const bool held = questions.reusable.has_value() && questions.reusable->Step();
     if (!held) {
       const Outcome<bool> may = MayQueue(questions, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters());
