@@ -20,6 +20,8 @@ namespace rollgait::server {
 namespace {
 
 constexpr int64_t kDay = 86'400;
+constexpr int64_t kTenantStorageMiB = 10'240;  // 6000 results of 1.5 MB with their events
+constexpr int64_t kMostStorageMiB = int64_t{1} << 30;
 
 struct Arguments {
   std::string data_dir, store;
@@ -28,6 +30,7 @@ struct Arguments {
   std::string expires = "365d";
   std::string id, tenant;
   TenantOverrides limits;
+  std::optional<int64_t> max_storage_mb;
   bool defaults = false;
   int rows = 50;
 };
@@ -92,30 +95,36 @@ int RevokeToken(AccessStore& store, const Arguments& arguments) {
 
 int SetTenant(AccessStore& store, const Arguments& arguments) {
   TenantOverrides limits = arguments.limits;
+  if (arguments.max_storage_mb) limits.max_storage_bytes = *arguments.max_storage_mb << 20;
   if (arguments.defaults) {
     limits.max_queued = limits.max_queued.value_or(-1);
     limits.max_running = limits.max_running.value_or(-1);
     limits.max_watches = limits.max_watches.value_or(-1);
     limits.creates_per_s = limits.creates_per_s.value_or(-1);
+    limits.max_simulations = limits.max_simulations.value_or(-1);
+    limits.max_storage_bytes = limits.max_storage_bytes.value_or(-1);
   }
   const Outcome<Done> set = store.SetTenant(arguments.tenant, limits);
   return set.ok() ? 0 : Report(set.error());
 }
 
 std::string Text(const std::optional<int>& limit) { return limit ? std::to_string(*limit) : "default"; }
+std::string TextMiB(const std::optional<int64_t>& bytes) { return bytes ? std::to_string(*bytes >> 20) : "default"; }
 
 int ListTenants(AccessStore& store, const Arguments&) {
   const Outcome<std::vector<std::string>> names = store.ListTenants();
   if (!names.ok()) return Report(names.error());
-  std::printf("%-20s  %10s  %11s  %11s  %13s\n", "tenant", "max queued", "max running", "max watches", "creates per s");
+  std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s\n", "tenant", "max queued", "max running", "max watches",
+              "creates per s", "max simulations", "max storage MB");
   for (const std::string& name : names.value()) {
     const Outcome<TenantOverrides> limits = store.FindTenant(name);
     if (!limits.ok()) return Report(limits.error());
     const TenantOverrides& of = limits.value();
     char rate[32] = "default";
     if (of.creates_per_s) std::snprintf(rate, sizeof(rate), "%g", *of.creates_per_s);
-    std::printf("%-20s  %10s  %11s  %11s  %13s\n", name.c_str(), Text(of.max_queued).c_str(),
-                Text(of.max_running).c_str(), Text(of.max_watches).c_str(), rate);
+    std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s\n", name.c_str(), Text(of.max_queued).c_str(),
+                Text(of.max_running).c_str(), Text(of.max_watches).c_str(), rate, Text(of.max_simulations).c_str(),
+                TextMiB(of.max_storage_bytes).c_str());
   }
   return 0;
 }
@@ -179,8 +188,25 @@ void AddTenantCommands(CLI::App& app, Arguments& arguments, Action& chosen) {
       ->check(CLI::Range(1, 1'000'000));
   set->add_option("--creates-per-s", arguments.limits.creates_per_s, "Solves and simulations asked for, of one server")
       ->check(CLI::Range(0.001, 1e6));
+  set->add_option("--max-simulations", arguments.limits.max_simulations, "Simulations that run at once, of one server")
+      ->check(CLI::Range(1, 1024));
+  set->add_option("--max-storage-mb", arguments.max_storage_mb, "MiB that its solves may take in the store")
+      ->check(CLI::Range(int64_t{1}, kMostStorageMiB));
   set->add_flag("--defaults", arguments.defaults, "All other limits become the server's again");
   AddCommand(*tenant, "list", "Tenants that have tokens or limits", arguments, chosen, ListTenants);
+}
+
+void AddAnswerFlags(CLI::App& app, AnswerLimits& limits) {
+  const auto add = [&](const char* name, int64_t& bytes, const char* whose) {
+    app.add_option_function<int64_t>(
+           name, [&bytes](int64_t mib) { bytes = mib << 20; },
+           std::string("MiB of answers that were not read yet, ") + whose + "; more calls are refused")
+        ->check(CLI::Range(1, 1 << 20))
+        ->default_str(std::to_string(bytes >> 20));
+  };
+  add("--connection-answers-mb", limits.connection, "of one connection");
+  add("--tenant-answers-mb", limits.tenant, "of one tenant");
+  add("--answers-mb", limits.all, "of all clients");
 }
 
 }  // namespace
@@ -205,11 +231,20 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
                  "Solves of a tenant that may wait; 0: no limit of its own; default: half of --max-queued where it is "
                  "asked who calls")
       ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--tenant-max-simulations", flags.tenant_max_simulations,
+                 "Simulations of a tenant that may run at once; 0: no limit of its own; default: half of "
+                 "--simulation-slots where it is asked who calls")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--tenant-storage-mb", flags.tenant_storage_mb,
+                 "MiB that the solves of a tenant may take in the store; 0: no limit; default: 10240 where it is asked "
+                 "who calls")
+      ->check(CLI::Range(int64_t{0}, kMostStorageMiB));
   app.add_option("--tenant-max-watches", flags.limits.max_watches, "Streams of a tenant that may be open; 0: no limit")
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--tenant-creates-per-s", flags.limits.creates_per_s,
                  "Solves and simulations a tenant may ask for; 0: no limit")
       ->check(CLI::Range(0.0, 1e6));
+  AddAnswerFlags(app, flags.answers);
   app.add_option("--max-connections", flags.connections.total,
                  "Connections at once; default: what the limit of open files leaves")
       ->check(CLI::Range(1, 1'000'000));
@@ -217,9 +252,12 @@ void AddAccessFlags(CLI::App& app, AccessFlags& flags) {
       ->check(CLI::Range(1, 1'000'000));
 }
 
-TenantLimits AccessFlags::TenantDefaults(int max_queued) const {
+TenantLimits AccessFlags::TenantDefaults(int max_queued, int simulations) const {
+  const bool share = asks_who_calls();
   TenantLimits all = limits;
-  all.max_queued = tenant_max_queued.value_or(asks_who_calls() ? (max_queued + 1) / 2 : 0);
+  all.max_queued = tenant_max_queued.value_or(share ? (max_queued + 1) / 2 : 0);
+  all.max_simulations = tenant_max_simulations.value_or(share ? (simulations + 1) / 2 : 0);
+  all.max_storage_bytes = tenant_storage_mb.value_or(share ? kTenantStorageMiB : 0) << 20;
   return all;
 }
 

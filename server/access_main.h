@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "server/access/answer_budget.h"
 #include "server/access/caller.h"
 #include "server/rpc/call_identity.h"
 #include "server/rpc/connection_acceptor.h"
@@ -19,13 +20,17 @@ struct AccessFlags {
   TlsFiles tls;
   CertificateTenant certificate_tenant = CertificateTenant::kNone;
   bool require_token = false;
-  TenantLimits limits;                   // but for max_queued: TenantDefaults
-  std::optional<int> tenant_max_queued;  // not given: half of the queue, where it is asked who calls
+  AnswerLimits answers;
+  TenantLimits limits;  // but for those that follow: TenantDefaults
+  // Not given: half of the queue, half of the simulations, kTenantStorage, where it is asked who calls.
+  std::optional<int> tenant_max_queued, tenant_max_simulations;
+  std::optional<int64_t> tenant_storage_mb;
   ConnectionLimits connections;
 
   bool asks_who_calls() const { return require_token || certificate_tenant != CertificateTenant::kNone; }
-  // The limits of a tenant that has none of its own, on a server that queues at most `max_queued` solves.
-  TenantLimits TenantDefaults(int max_queued) const;
+  // The limits of a tenant that has none of its own, on a server that queues at most `max_queued` solves and runs at
+  // most `simulations` at once.
+  TenantLimits TenantDefaults(int max_queued, int simulations) const;
 };
 void AddAccessFlags(CLI::App& app, AccessFlags& flags);
 

@@ -21,6 +21,7 @@
 #include "server/base/digest.h"
 #include "server/base/file_lock.h"
 #include "server/base/logging.h"
+#include "server/base/memory_limit.h"
 #include "server/base/memory_return.h"
 #include "server/base/metrics.h"
 #include "server/base/notify.h"
@@ -34,7 +35,9 @@
 #include "server/service/core_knowledge.h"
 #include "server/service/service_metrics.h"
 #include "server/service/solve_service.h"
+#include "server/service/warm_start_search.h"
 #include "server/service/watch_hub.h"
+#include "server/storage_main.h"
 #include "server/store/measured_store.h"
 #include "server/store/open_store.h"
 #include "server/store/retention_task.h"
@@ -49,11 +52,11 @@ constexpr std::chrono::milliseconds kAgentGrace{10'000};
 struct Flags {
   std::string data_dir, store;
   int store_wait_s = kDefaultStoreWaitSeconds;
-  double keep_solves_days = 0, keep_events_days = 0, keep_audit_days = 0;
-  int64_t keep_solves_mb = 0, reserve_mb = 64;
+  StorageFlags storage;
   ListenFlags listen;
   AccessFlags access;
   int solver_slots = -1;  // -1: not said
+  int64_t solver_memory_mb = 4096;
   int simulation_slots = 2;
   std::string agent, solver, simulator;
   std::string instruction_set = "auto";
@@ -87,6 +90,10 @@ void AddFlags(CLI::App& app, Flags& flags) {
          "--solver-slots", flags.solver_slots,
          "Solves that run at once in an agent of this server's own, 0: no agent; default: one a core, 0 with --store")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--solver-memory-mb", flags.solver_memory_mb,
+                 "MiB of address space of a solver of this server's own agent")
+      ->check(CLI::Range(int64_t{64}, int64_t{1} << 20))
+      ->capture_default_str();
   app.add_option("--agent", flags.agent, "Path of rollgait-agent; default: beside this program");
   auto* solver = app.add_option("--solver", flags.solver, "Path of rollgait-solve; default: beside this program");
   app.add_option("--instruction-set", flags.instruction_set,
@@ -117,29 +124,6 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->check(CLI::IsMember(LogLevels()))
       ->capture_default_str();
   app.set_version_flag("--version", SolverBuild());
-}
-
-void AddRetentionFlags(CLI::App& app, Flags& flags) {
-  const auto add = [&](const char* name, auto& value, const char* text) {
-    app.add_option(name, value, text)->check(CLI::Range(0.0, 1e9))->capture_default_str();
-  };
-  add("--keep-solves-days", flags.keep_solves_days, "Days after its end that a solve is deleted; 0: never");
-  add("--keep-solves-mb", flags.keep_solves_mb,
-      "MiB of finished solves above which the oldest are deleted; 0: no limit");
-  add("--keep-events-days", flags.keep_events_days,
-      "Days after the end of a solve that its event log is reduced to the terminal event; 0: never");
-  add("--keep-audit-days", flags.keep_audit_days, "Days that audit rows are kept; 0: for ever");
-  add("--reserve-mb", flags.reserve_mb, "MiB of the SQLite file's disk kept for solves that were accepted");
-}
-
-RetentionLimits Retention(const Flags& flags) {
-  const auto days = [](double count) { return std::chrono::seconds(static_cast<int64_t>(86400 * count)); };
-  RetentionLimits limits;
-  limits.solves = days(flags.keep_solves_days);
-  limits.events = days(flags.keep_events_days);
-  limits.audit = days(flags.keep_audit_days);
-  limits.solve_bytes = flags.keep_solves_mb << 20;
-  return limits;
 }
 
 int Fail(const std::string& reason) {
@@ -198,6 +182,8 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
                        directory,
                        "--slots",
                        std::to_string(slots),
+                       "--memory-limit-mb",
+                       std::to_string(flags.solver_memory_mb),
                        "--solver",
                        solver,
                        "--log-format",
@@ -209,6 +195,15 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
   }
   if (flags.unconfined_solver) options.arguments.push_back("--unconfined-solver");
   return options;
+}
+
+// Solvers and simulations that all take what they may are more than there is: then the kernel chooses whom to kill.
+void WarnOfMemory(const Flags& flags, int slots) {
+  const int64_t simulations = flags.simulation_slots * SimulationHostOptions().memory_limit_mb;
+  const int64_t most = slots * flags.solver_memory_mb + simulations, limit = MemoryLimit() >> 20;
+  if (most <= limit) return;
+  LogEvent(spdlog::level::warn, "memory.promised",
+           {{"promised_mb", most}, {"limit_mb", limit}, {"flags", "--solver-slots, --solver-memory-mb"}});
 }
 
 // The program that solves, and the name of its build.
@@ -239,7 +234,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   const SystemClock clock;
   Outcome<StoreLocation> location = LocateStore(flags.store, data_dir.path);
   if (!location.ok()) return Fail(location.error().message);
-  location.value().reserve_bytes = flags.reserve_mb << 20;
+  location.value().reserve_bytes = flags.storage.reserve_mb << 20;
   if (location.value().is_postgres()) setenv(kStoreVariable, flags.store.c_str(), 1);
   const int solver_slots = SolverSlots(flags, location.value());
   bool stopped = false;
@@ -253,6 +248,9 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   if (!store.ok()) return Fail(store.error().message);
   Metrics metrics("rollgaitd", RollgaitVersion(), SolverBuild(solver.value().set));
   MeasuredStore measured_store(*store.value(), metrics);
+  const Outcome<int> placed = PlaceOldSolves(measured_store);
+  if (!placed.ok()) return Fail(placed.error().message);
+  if (placed.value() > 0) LogEvent(spdlog::level::info, "store.indexed", {{"solves", placed.value()}});
   const auto hints = OpenHints(location.value(), data_dir.path, HintRole::kServer);
   if (!hints.ok()) return Fail(hints.error().message);
 
@@ -275,7 +273,8 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   AccessStore access(store.value()->database(), clock);
   Gatekeeper::Options gate;
   gate.require_identity = flags.access.asks_who_calls();
-  gate.limits = flags.access.TenantDefaults(flags.max_queued);
+  gate.answers = flags.access.answers;
+  gate.limits = flags.access.TenantDefaults(flags.max_queued, flags.simulation_slots);
   Gatekeeper gatekeeper(gate, &access, &clock);
   RpcOptions rpc_options;
   rpc_options.listen = flags.listen.address;
@@ -293,6 +292,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   if (!server.ok()) return Fail(server.error().message);
   if (const auto problem = ServeMetrics(flags, metrics)) return Fail(*problem);
   std::unique_ptr<Supervisor> agent;
+  WarnOfMemory(flags, solver_slots);
   if (solver_slots > 0) {
     auto started = Supervisor::Start(AgentCommand(flags, solver.value().program, data_dir.path, solver_slots));
     if (!started.ok()) return Fail(started.error().message);
@@ -304,7 +304,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   std::fflush(stdout);
 
   const MemoryReturn memory_return;
-  const RetentionTask retention(measured_store, Retention(flags), std::chrono::minutes(1), clock);
+  const RetentionTask retention(measured_store, flags.storage.Retention(), std::chrono::minutes(1), clock);
 
   int received = 0;
   sigwait(&end_signals, &received);
@@ -321,7 +321,7 @@ int Main(int argc, char** argv) {
   CLI::App app("Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help.",
                "rollgaitd");
   AddFlags(app, flags);
-  AddRetentionFlags(app, flags);
+  AddStorageFlags(app, flags.storage);
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
   StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});

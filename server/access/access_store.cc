@@ -116,6 +116,14 @@ Outcome<Done> AccessStore::SetTenant(const std::string& tenant, const TenantOver
       Query(connection, "UPDATE tenants SET max_running = ? WHERE tenant = ?", *limits.max_running, tenant).Run();
     if (limits.max_watches)
       Query(connection, "UPDATE tenants SET max_watches = ? WHERE tenant = ?", *limits.max_watches, tenant).Run();
+    if (limits.max_simulations) {
+      Query(connection, "UPDATE tenants SET max_simulations = ? WHERE tenant = ?", *limits.max_simulations, tenant)
+          .Run();
+    }
+    if (limits.max_storage_bytes) {
+      Query(connection, "UPDATE tenants SET max_storage_bytes = ? WHERE tenant = ?", *limits.max_storage_bytes, tenant)
+          .Run();
+    }
     if (limits.creates_per_s) {
       Query(connection, "UPDATE tenants SET creates_per_s = ? WHERE tenant = ?", *limits.creates_per_s, tenant).Run();
     }
@@ -127,13 +135,17 @@ Outcome<Done> AccessStore::SetTenant(const std::string& tenant, const TenantOver
 Outcome<TenantOverrides> AccessStore::FindTenant(const std::string& tenant) {
   return database_.ReadOne([&](SqlConnection& connection) -> Outcome<TenantOverrides> {
     TenantOverrides found;
-    Query query(connection, "SELECT max_queued, max_running, max_watches, creates_per_s FROM tenants WHERE tenant = ?",
+    Query query(connection,
+                "SELECT max_queued, max_running, max_watches, creates_per_s, max_simulations, max_storage_bytes FROM "
+                "tenants WHERE tenant = ?",
                 tenant);
     if (!query.Step()) return found;
     found.max_queued = IfSet(static_cast<int>(query.Int(0)));
     found.max_running = IfSet(static_cast<int>(query.Int(1)));
     found.max_watches = IfSet(static_cast<int>(query.Int(2)));
     found.creates_per_s = IfSet(query.Double(3));
+    found.max_simulations = IfSet(static_cast<int>(query.Int(4)));
+    found.max_storage_bytes = IfSet(query.Int(5));
     return found;
   });
 }

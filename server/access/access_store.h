@@ -25,6 +25,8 @@ struct NewToken {
 struct TenantOverrides {
   std::optional<int> max_queued, max_running, max_watches;
   std::optional<double> creates_per_s;
+  std::optional<int> max_simulations = {};
+  std::optional<int64_t> max_storage_bytes = {};
 };
 
 // Tokens, tenants and the audit trail, beside the solves in the same database. Any thread and process may call; every

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_ACCESS_CALLER_H_
 #define ROLLGAIT_SERVER_ACCESS_CALLER_H_
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,8 @@ std::optional<unsigned> ParseScopes(const std::string& names);
 struct TenantLimits {
   int max_queued = 0, max_running = 0, max_watches = 0;
   double creates_per_s = 0;
+  int max_simulations = 0;
+  int64_t max_storage_bytes = 0;  // what its solves take in the store
 };
 
 // The numbers of rollgait.v1.Caller.Authentication.

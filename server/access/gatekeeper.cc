@@ -57,7 +57,11 @@ void Admission::WhenWithdrawn(std::function<void(const Error&)> end) {
 }
 
 Gatekeeper::Gatekeeper(const Options& options, AccessStore* store, const Clock* clock)
-    : options_(options), store_(store), clock_(clock), backpressure_(options.most_creates_at_once) {
+    : options_(options),
+      store_(store),
+      clock_(clock),
+      backpressure_(options.most_creates_at_once),
+      answers_(std::make_shared<AnswerBudget>(options.answers)) {
   if (options_.require_identity && store_ != nullptr) watcher_ = std::thread([this] { Watch(); });
 }
 
@@ -100,12 +104,20 @@ Outcome<std::shared_ptr<Admission>> Gatekeeper::Admit(const MethodRule& rule, co
     if (std::optional<Error> fast = quotas_.TakeCreate(known.tenant, known.limits.creates_per_s))
       return *std::move(fast);
   }
+  Outcome<std::unique_ptr<AnswerHold>> answer = answers_->Open(presented.peer, known.tenant);
+  if (!answer.ok()) return answer.error();
   std::shared_ptr<Admission> admission(new Admission(*this, known));
+  admission->answer_ = std::move(answer).value();
   admission->place_ = std::move(place);
   if (rule.watches) {
     Outcome<std::shared_ptr<void>> watch = quotas_.TakeWatch(known.tenant, known.limits.max_watches);
     if (!watch.ok()) return watch.error();
     admission->watch_ = std::move(watch).value();
+  }
+  if (rule.simulates) {
+    Outcome<std::shared_ptr<void>> simulation = quotas_.TakeSimulation(known.tenant, known.limits.max_simulations);
+    if (!simulation.ok()) return simulation.error();
+    admission->simulation_ = std::move(simulation).value();
   }
   return admission;
 }
@@ -170,6 +182,8 @@ Outcome<TenantLimits> Gatekeeper::LimitsOf(const std::string& tenant) {
   limits.max_queued = own.value().max_queued.value_or(limits.max_queued);
   limits.max_running = own.value().max_running.value_or(0);
   limits.max_watches = own.value().max_watches.value_or(limits.max_watches);
+  limits.max_simulations = own.value().max_simulations.value_or(limits.max_simulations);
+  limits.max_storage_bytes = own.value().max_storage_bytes.value_or(limits.max_storage_bytes);
   limits.creates_per_s = own.value().creates_per_s.value_or(limits.creates_per_s);
   const std::lock_guard<std::mutex> lock(limits_mutex_);
   known_limits_[tenant] = {limits, now};

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "server/access/access_store.h"
+#include "server/access/answer_budget.h"
 #include "server/access/caller.h"
 #include "server/access/methods.h"
 #include "server/access/quotas.h"
@@ -39,6 +40,8 @@ class Admission {
   const Caller& caller() const { return caller_; }
   // What makes work has been made: the call no longer counts as one that is being answered.
   void WorkIsMade() { place_.reset(); }
+  // What the call's answer occupies until the client has read it.
+  AnswerHold& answer() { return *answer_; }
   // Calls `end`, from another thread and within seconds, when the token is revoked or expires. It may still be called
   // at the time when the admission is destroyed.
   void WhenWithdrawn(std::function<void(const Error&)> end);
@@ -49,7 +52,8 @@ class Admission {
 
   Gatekeeper& gatekeeper_;
   const Caller caller_;
-  std::shared_ptr<void> place_, watch_;
+  std::unique_ptr<AnswerHold> answer_;
+  std::shared_ptr<void> place_, watch_, simulation_;
   bool registered_ = false;
 };
 
@@ -59,6 +63,7 @@ class Gatekeeper {
  public:
   struct Options {
     bool require_identity = false;            // a token, or a certificate's name; false: everyone may do everything
+    AnswerLimits answers = {};                // unread
     TenantLimits limits = {};                 // of tenants that have none of their own; max_running is not used
     int most_creates_at_once = 64;            // calls that make work and are being answered
     std::chrono::milliseconds recheck{2000};  // of the tokens of open streams, and of tenants' limits
@@ -79,6 +84,7 @@ class Gatekeeper {
   // Check refuses from now on.
   void Drain() { draining_ = true; }
   bool draining() const { return draining_; }
+  std::shared_ptr<const AnswerBudget> answers() const { return answers_; }
   // Waits until no admission is left, at most so long. False: some are.
   bool WaitUntilLeft(std::chrono::milliseconds at_most);
 
@@ -103,6 +109,7 @@ class Gatekeeper {
   std::atomic<bool> draining_{false};
   Quotas quotas_;
   Backpressure backpressure_;
+  const std::shared_ptr<AnswerBudget> answers_;
 
   std::mutex admissions_mutex_;
   std::condition_variable left_;

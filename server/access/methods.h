@@ -9,11 +9,12 @@ namespace rollgait::server {
 
 // What a call of a method needs and uses up.
 struct MethodRule {
-  const char* name;      // of GaitService
-  Scope scope;           // that a token needs
-  bool creates = false;  // counts towards creates_per_s
-  bool watches = false;  // holds one of max_watches while it lasts
-  bool changes = false;  // leaves an audit row (the store writes it)
+  const char* name;        // of GaitService
+  Scope scope;             // that a token needs
+  bool creates = false;    // counts towards creates_per_s
+  bool watches = false;    // holds one of max_watches while it lasts
+  bool changes = false;    // leaves an audit row (the store writes it)
+  bool simulates = false;  // holds one of max_simulations while it lasts
 };
 
 // Every method of rollgait.v1.GaitService has a row; a test fails for one that has none.
@@ -28,8 +29,8 @@ inline constexpr MethodRule kMethodRules[] = {
     {"ListModels", kScopeRead},
     {"GetModel", kScopeRead},
     {"GetServerInfo", kScopeRead},
-    {"Simulate", kScopeSolve, true, true, false},
-    {"FindPeriodicGait", kScopeSolve, true, true, false},
+    {"Simulate", kScopeSolve, true, true, false, true},
+    {"FindPeriodicGait", kScopeSolve, true, true, false, true},
 };
 
 // The rule of a method; one without a row does not compile.

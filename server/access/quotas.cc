@@ -43,23 +43,31 @@ std::optional<Error> Quotas::TakeCreate(const std::string& tenant, double create
   return Exhausted(tenant, text.str(), wait);
 }
 
+std::shared_ptr<void> Quotas::TakeOne(const std::shared_ptr<Counts>& counts, const std::string& tenant, int most) {
+  const std::lock_guard<std::mutex> lock(counts->mutex);
+  const auto known = counts->of.find(tenant);
+  const int count = known == counts->of.end() ? 0 : known->second;
+  if (most > 0 && count >= most) return nullptr;
+  counts->of[tenant] = count + 1;
+  return {counts.get(), [counts, tenant](void*) {
+            const std::lock_guard<std::mutex> release(counts->mutex);
+            const auto place = counts->of.find(tenant);
+            if (--place->second == 0) counts->of.erase(place);
+          }};
+}
+
 Outcome<std::shared_ptr<void>> Quotas::TakeWatch(const std::string& tenant, int max_watches) {
-  const std::shared_ptr<Watches> watches = watches_;
-  const std::lock_guard<std::mutex> lock(watches->mutex);
-  const auto known = watches->of.find(tenant);
-  const int count = known == watches->of.end() ? 0 : known->second;
-  if (max_watches > 0 && count >= max_watches) {
-    return Exhausted(tenant,
-                     std::to_string(count) + " streams of tenant \"" + tenant + "\" are open, its limit is " +
-                         std::to_string(max_watches),
-                     std::chrono::milliseconds(1000));
-  }
-  watches->of[tenant] = count + 1;
-  return std::shared_ptr<void>(nullptr, [watches, tenant](void*) {
-    const std::lock_guard<std::mutex> release(watches->mutex);
-    const auto place = watches->of.find(tenant);
-    if (--place->second == 0) watches->of.erase(place);
-  });
+  if (std::shared_ptr<void> one = TakeOne(watches_, tenant, max_watches)) return one;
+  const std::string most = std::to_string(max_watches);
+  return Exhausted(tenant, most + " streams of tenant \"" + tenant + "\" are open, its limit is " + most,
+                   std::chrono::milliseconds(1000));
+}
+
+Outcome<std::shared_ptr<void>> Quotas::TakeSimulation(const std::string& tenant, int max_simulations) {
+  if (std::shared_ptr<void> one = TakeOne(simulations_, tenant, max_simulations)) return one;
+  const std::string most = std::to_string(max_simulations);
+  return Exhausted(tenant, most + " simulations of tenant \"" + tenant + "\" run, its limit is " + most,
+                   std::chrono::milliseconds(1000));
 }
 
 int Quotas::watches(const std::string& tenant) const {

@@ -29,21 +29,27 @@ class Quotas {
   // Takes a watch until the hold is released. kResourceExhausted.
   Outcome<std::shared_ptr<void>> TakeWatch(const std::string& tenant, int max_watches);
   int watches(const std::string& tenant) const;
+  // Likewise a simulation.
+  Outcome<std::shared_ptr<void>> TakeSimulation(const std::string& tenant, int max_simulations);
 
  private:
   struct Bucket {
     double level = 0;
     Clock::time_point filled;
   };
-  struct Watches {
+  // What is under way, by tenant.
+  struct Counts {
     std::mutex mutex;
     std::map<std::string, int> of;
   };
+  // nullptr: the tenant has `most` already; 0: no limit.
+  static std::shared_ptr<void> TakeOne(const std::shared_ptr<Counts>& counts, const std::string& tenant, int most);
 
   const Now now_;
   std::mutex mutex_;  // protects what follows
   std::map<std::string, Bucket> buckets_;
-  const std::shared_ptr<Watches> watches_ = std::make_shared<Watches>();
+  const std::shared_ptr<Counts> watches_ = std::make_shared<Counts>();
+  const std::shared_ptr<Counts> simulations_ = std::make_shared<Counts>();
 };
 
 // Refuses calls that make work when too many of them are being answered. Any thread may call; nothing blocks.

@@ -81,6 +81,7 @@ Agent::Agent(const Options& options, const Surroundings& surroundings, std::stri
                .kill_after = options.kill_after,
                .wall_grace = options.wall_grace,
                .lease = options.lease,
+               .max_event_bytes = options.max_event_bytes,
                .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s),
                .solver_fingerprint = options.solver_fingerprint} {}
 

@@ -36,6 +36,7 @@ class Agent {
     int lifeline_fd = -1;                               // at its end: claim nothing more, finish what runs
     std::chrono::milliseconds kill_after{2000};         // see SolveRun::Context
     std::chrono::milliseconds wall_grace{60'000};
+    size_t max_event_bytes = size_t{16} << 20;
   };
 
   // What it works with; outlives it.

@@ -118,14 +118,19 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
   }
   if (message.has_ready()) return;
   if (message.has_iteration()) {
-    AddIteration(message.iteration(), now);
+    AddIteration(std::move(*message.mutable_iteration()), now);
     return;
   }
   last_ = std::move(message);
   KillBy(now + context_.kill_after);  // nothing is to follow but its end
 }
 
-void SolveRun::AddIteration(const v1::Iteration& iteration, SteadyTime now) {
+void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
+  iteration.DiscardUnknownFields();  // of any length
+  if (event_bytes_ > context_.max_event_bytes) {
+    ++skipped_;
+    return;
+  }
   if (pending_.size() >= kMaxPending) {
     pending_.erase(pending_.begin());
     ++skipped_;
@@ -133,8 +138,9 @@ void SolveRun::AddIteration(const v1::Iteration& iteration, SteadyTime now) {
   v1::SolveEvent event;
   *event.mutable_time() = google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(context_.clock.WallMicros());
   event.set_skipped_count(std::exchange(skipped_, 0));
-  *event.mutable_iteration() = iteration;
+  *event.mutable_iteration() = std::move(iteration);
   pending_.push_back({next_sequence_++, EventKind::kIteration, event.SerializeAsString()});
+  event_bytes_ += pending_.back().payload.size();
   if (!flush_at_) flush_at_ = sent_any_ ? now + context_.batch : now;
   sent_any_ = true;
 }

@@ -33,6 +33,9 @@ class SolveRun {
     std::chrono::milliseconds kill_after{2000};        // from the request to stop to SIGKILL
     std::chrono::milliseconds wall_grace{60'000};      // from max_wall_time_s to SIGKILL
     std::chrono::milliseconds lease = kLeaseDuration;  // renewed when a third of it is over
+    // Of the iterations of a run, 140 each at most: as many as a request may ask for. A solver program that sends more
+    // is not right; what is beyond is dropped.
+    size_t max_event_bytes = size_t{16} << 20;
     double cpu_limit_s = 86400;
     std::string solver_fingerprint = {};  // results for keys of another solver are not reused; empty: unknown
   };
@@ -65,7 +68,7 @@ class SolveRun {
 
   void ReadSolver(SteadyTime now);
   void Take(const std::string& payload, SteadyTime now);
-  void AddIteration(const v1::Iteration& iteration, SteadyTime now);
+  void AddIteration(v1::Iteration iteration, SteadyTime now);
   void RenewLease(SteadyTime now);
   void EnforceDeadlines(SteadyTime now);
   void ConcludeIfGone(SteadyTime now);
@@ -87,7 +90,8 @@ class SolveRun {
   std::vector<StoredEvent> pending_;
   int64_t next_sequence_;
   bool spooled_ = false;
-  int skipped_ = 0;  // iterations dropped because the store does not take any
+  int skipped_ = 0;         // iterations dropped: the store does not take any, or there were too many
+  size_t event_bytes_ = 0;  // of all iterations so far
   bool sent_any_ = false;
   bool cancelled_ = false;
   bool out_of_time_ = false;

@@ -178,18 +178,21 @@ void SolverProcess::Write() {
 }
 
 FrameStatus SolverProcess::Receive(std::vector<std::string>* payloads) {
-  while (true) {
+  size_t bytes = 0;
+  while (bytes < kAtOnce) {
     const FrameStatus read = ReadAvailable(stream_fd_, &parser_);
     if (read != FrameStatus::kOk) return read;
     std::string payload;
     FrameStatus parsed = parser_.Next(&payload);
     while (parsed == FrameStatus::kOk) {
+      bytes += payload.size() + 1;  // empty ones count too
       payloads->push_back(std::move(payload));
       payload.clear();
       parsed = parser_.Next(&payload);
     }
     if (parsed != FrameStatus::kNeedMore) return parsed;
   }
+  return FrameStatus::kNeedMore;
 }
 
 void SolverProcess::ReadOutput() {

@@ -41,6 +41,10 @@ class SolverProcess {
   ~SolverProcess();
 
   static constexpr int kMaxLoggedLines = 100;
+  // Bytes of one message: a trajectory of the largest mesh has 51 MB.
+  static constexpr size_t kMaxMessage = size_t{64} << 20;
+  // Bytes of messages after which Receive leaves what follows to its next call.
+  static constexpr size_t kAtOnce = size_t{1} << 20;
 
   pid_t pid() const { return pid_; }
   // Non-blocking descriptors to poll, and whether the stream waits to be writable.
@@ -52,8 +56,8 @@ class SolverProcess {
   void Send(std::string_view request);
   // Writes on. A failure shows as the end of the stream.
   void Write();
-  // Appends the payloads that have arrived. kNeedMore: the stream goes on; else its end: kEnd, kTruncated, kGarbage,
-  // kTooLarge, kError.
+  // Appends the payloads that have arrived, kAtOnce and one more at most. kNeedMore: the stream goes on; else its end:
+  // kEnd, kTruncated, kGarbage, kTooLarge, kError.
   FrameStatus Receive(std::vector<std::string>* payloads);
   // Reads what the child has printed; whole lines go to the log too (event "solver.printed"), at most kMaxLoggedLines
   // of them.
@@ -74,7 +78,7 @@ class SolverProcess {
   pid_t pid_;  // 0: reaped
   int stream_fd_;
   int output_fd_;
-  FrameParser parser_;
+  FrameParser parser_{kMaxMessage};
   std::string unsent_;
   std::string output_;  // the last kilobyte
   std::string line_;    // printed, but not to its end

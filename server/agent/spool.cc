@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,6 +20,7 @@ namespace rollgait::server {
 namespace {
 
 constexpr const char* kSuffix = ".end";
+constexpr const char* kTemporary = ".tmp";
 
 Error Unavailable(const std::string& what) { return {ErrorCode::kUnavailable, what + ": " + std::strerror(errno)}; }
 
@@ -61,6 +63,14 @@ bool ReadFile(const std::string& path, PendingEnd* pending) {
   return parser.Next(&payload) == FrameStatus::kOk && parser.AtBoundary() && Decode(payload, pending);
 }
 
+// Removes what an agent that died has left half written.
+void RemoveIfLeft(const std::string& path) {
+  const int fd = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (fd < 0) return;
+  if (flock(fd, LOCK_EX | LOCK_NB) == 0) unlink(path.c_str());
+  close(fd);
+}
+
 // Makes names in a directory durable.
 bool SyncDirectory(const std::string& directory) {
   const int fd = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -82,9 +92,15 @@ std::string Spool::Path(const Lease& lease) const {
 }
 
 Outcome<Done> Spool::Put(const PendingEnd& pending) const {
-  const std::string path = Path(pending.lease), temporary = path + ".tmp";
+  const std::string path = Path(pending.lease), temporary = path + kTemporary;
   const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (fd < 0) return Unavailable("cannot make " + temporary);
+  // Held while it is written: one that nobody holds was left by an agent that died (ReadAll).
+  if (flock(fd, LOCK_EX) != 0) {
+    const Error error = Unavailable("cannot lock " + temporary);
+    close(fd);
+    return error;
+  }
   const bool written = WriteFrame(fd, Encode(pending)) == FrameStatus::kOk && fsync(fd) == 0;
   const int reason = errno;
   close(fd);
@@ -103,6 +119,7 @@ std::vector<PendingEnd> Spool::ReadAll() const {
   std::vector<PendingEnd> ends;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(directory_, failure)) {
+    if (entry.path().extension() == kTemporary) RemoveIfLeft(entry.path().string());
     if (entry.path().extension() != kSuffix) continue;
     PendingEnd pending;
     if (ReadFile(entry.path().string(), &pending)) {

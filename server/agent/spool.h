@@ -27,7 +27,8 @@ class Spool {
   // Durable when it returns.
   Outcome<Done> Put(const PendingEnd& pending) const;
   void Remove(const Lease& lease) const;
-  // Everything that is there. Files that cannot be read are renamed to *.bad and left.
+  // Everything that is there. Files that cannot be read are renamed to *.bad and left; what an agent was writing when
+  // it died is removed.
   std::vector<PendingEnd> ReadAll() const;
 
  private:

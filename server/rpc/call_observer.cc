@@ -71,11 +71,22 @@ class CallObserver::Call : public grpc::experimental::Interceptor {
         shared_->behind_door && batch->GetSendStatus().error_code() == grpc::StatusCode::UNAUTHENTICATED) {
       batch->GetSendInitialMetadata()->emplace(kDoorRefused, "unauthenticated");
     }
+    if (at(InterceptionHookPoints::PRE_SEND_STATUS) && IsUnreadable(batch->GetSendStatus())) {
+      batch->ModifySendStatus(
+          {grpc::StatusCode::INVALID_ARGUMENT, "the bytes are not a request message of " + method_.method +
+                                                   "; send what rollgait/v1/gait_service.proto describes"});
+    }
     if (at(InterceptionHookPoints::PRE_SEND_STATUS) && !ended_) End(batch->GetSendStatus());
     batch->Proceed();
   }
 
  private:
+  // What gRPC answers, without a word, to a message that cannot be read.
+  bool IsUnreadable(const grpc::Status& status) const {
+    return method_.service == "rollgait.v1.GaitService" && status.error_code() == grpc::StatusCode::UNIMPLEMENTED &&
+           status.error_message().empty();
+  }
+
   void Begin(const Metadata& metadata) {
     const std::string wish = Value(metadata, "x-request-id");
     CallRecord::Origin origin;

@@ -7,8 +7,10 @@
 
 #include "server/rpc/call_record.h"
 #include "server/rpc/door.h"
+#include "server/rpc/message_memory.h"
 #include "server/rpc/simulation_stream.h"
 #include "server/rpc/status.h"
+#include "server/rpc/unary_call.h"
 #include "server/rpc/watch_stream.h"
 #include "server/service/solve_message.h"
 
@@ -63,7 +65,7 @@ Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule,
 template <typename Serve>
 grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context,
                                                    Serve serve) {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  auto* const reactor = new UnaryCall;  // deletes itself
   Outcome<Admit> admit = Enter(rule, *context);
   if (!admit.ok()) {
     reactor->Finish(Report(PeerOf(*context), admit.error()));
@@ -77,7 +79,10 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
       reactor->Finish(Report(PeerOf(*context), admitted.error()));
       return;
     }
-    const Outcome<Done> served = serve(admitted.value()->caller());
+    Admission& admission = *admitted.value();
+    reactor->Keep(admitted.value());
+    const Outcome<Done> served = serve(admission);
+    admission.WorkIsMade();
     if (served.ok()) {
       reactor->Finish(grpc::Status::OK);
     } else {
@@ -95,13 +100,20 @@ grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::C
                                                                                            const Request&)) {
   // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method)
   // otherwise.
-  return AnswerBy(rule, context,
-                  [&service = service_, request, response, method](const Caller& caller) -> Outcome<Done> {
-                    Outcome<Response> outcome = (service.*method)(caller, *request);
-                    if (!outcome.ok()) return outcome.error();
-                    *response = std::move(outcome).value();
-                    return Done{};
-                  });
+  return AnswerBy(
+      rule, context,
+      [&service = service_, request, response, method, changes = rule.changes](Admission& admission) -> Outcome<Done> {
+        Outcome<Response> outcome = (service.*method)(admission.caller(), *request);
+        if (!outcome.ok()) return outcome.error();
+        const int64_t bytes = MemoryOf(outcome.value());
+        if (changes) {
+          admission.answer().Owe(bytes);
+        } else if (Outcome<Done> held = admission.answer().Hold(bytes); !held.ok()) {
+          return held.error();
+        }
+        *response = std::move(outcome).value();
+        return Done{};
+      });
 }
 
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule,
@@ -157,13 +169,14 @@ grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContex
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context,
                                                    const grpc::ByteBuffer* request, grpc::ByteBuffer* response) {
-  const auto get = [&service = service_, request, response](const Caller& caller) -> Outcome<Done> {
+  const auto get = [&service = service_, request, response](Admission& admission) -> Outcome<Done> {
     v1::GetSolveRequest message;
-    grpc::ByteBuffer bytes(*request);
-    if (!grpc::SerializationTraits<v1::GetSolveRequest>::Deserialize(&bytes, &message).ok()) {
+    grpc::ByteBuffer copy(*request);
+    if (!grpc::SerializationTraits<v1::GetSolveRequest>::Deserialize(&copy, &message).ok()) {
       return Error{ErrorCode::kInvalidArgument, "the request is not a rollgait.v1.GetSolveRequest"};
     }
-    Outcome<SolveBytes> solve = service.GetSolve(caller, message);
+    Outcome<SolveBytes> solve =
+        service.GetSolve(admission.caller(), message, [&](int64_t bytes) { return admission.answer().Hold(bytes); });
     if (!solve.ok()) return solve.error();
     const grpc::Slice parts[] = {grpc::Slice(solve.value().head), Owning(std::move(solve.value().result))};
     *response = grpc::ByteBuffer(parts, std::size(parts));

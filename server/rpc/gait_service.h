@@ -65,11 +65,12 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
 
   // The first half of the decision; an error of the gatekeeper becomes the answer of the second.
   Outcome<Admit> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
-  // Answers a unary call: `serve` is called on the executor with the caller, fills the response and returns
-  // Outcome<Done>.
+  // Answers a unary call: `serve` is called on the executor with the admission, whose budget it asks, fills
+  // the response and returns Outcome<Done>. The admission lasts until gRPC has written the answer.
   template <typename Serve>
   grpc::ServerUnaryReactor* AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve);
-  // Answers a unary call with (service_.*method)(caller, request).
+  // Answers a unary call with (service_.*method)(caller, request). An answer beyond the budget is refused, unless the
+  // method changes something.
   template <typename Request, typename Response>
   grpc::ServerUnaryReactor* Answer(const MethodRule& rule, grpc::CallbackServerContext* context, const Request* request,
                                    Response* response,

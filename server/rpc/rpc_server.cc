@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/rpc/answer_metrics.h"
 #include "server/rpc/call_observer.h"
 #include "server/rpc/tls_credentials.h"
 #include "server/service/request_check.h"
@@ -89,6 +90,7 @@ Outcome<Done> RpcServer::Open(const RpcOptions& options) {
     std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> observers;
     observers.push_back(std::make_unique<CallObserver>(*options.metrics, options.behind_door));
     builder.experimental().SetInterceptorCreators(std::move(observers));
+    options.metrics->Collect(std::make_shared<AnswerMetrics>(gatekeeper_.answers()));
   }
   builder.RegisterService(&rpc_);
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> hand_over;

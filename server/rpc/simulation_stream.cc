@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/rpc/door.h"
+#include "server/rpc/message_memory.h"
 #include "server/rpc/status.h"
 
 namespace rollgait::server {
@@ -131,6 +132,7 @@ bool SimulationStream::Emit(v1::SimulationMessage&& message) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (client_gone_ || ended_) return false;
   message_ = std::move(message);
+  admission_->answer().Owe(MemoryOf(message_));  // one a slot at a time
   writing_ = true;
   StartWrite(&message_);
   if (!written_.wait_for(lock, kLongestWrite, [this] { return !writing_; })) {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/rpc/message_memory.h"
 #include "server/rpc/status.h"
 
 namespace rollgait::server {
@@ -133,6 +134,12 @@ void WatchStream::Send(WatchBatch batch) {
 }
 
 void WatchStream::StartNextWrite() {
+  const Outcome<Done> held = admission_->answer().Hold(MemoryOf(*waiting_.front()));
+  if (!held.ok()) {
+    waiting_.clear();
+    End(ToStatus(held.error()));
+    return;
+  }
   write_start_ = std::chrono::steady_clock::now();
   StartWrite(waiting_.front().get());
 }
@@ -141,6 +148,7 @@ void WatchStream::OnWriteDone(bool ok) {
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_.pop_front();
   if (ended_) return;
+  admission_->answer().Owe(0);
   if (!ok || cancelled_) {
     EndAsDisconnected();
     return;

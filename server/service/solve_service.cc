@@ -101,7 +101,9 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   solve.actor = caller.actor();
   solve.traceparent = caller.traceparent;
   solve.max_queued_tenant = caller.limits.max_queued;
+  solve.max_bytes_tenant = caller.limits.max_storage_bytes;
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
+  solve.place = PlaceOf(request.spec());
   solve.solver_fingerprint = options_.solver_fingerprint;
   const Outcome<CreatedSolve> created = Store(solve);
   if (!created.ok()) return created.error();
@@ -113,12 +115,17 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
   return ToSolve(record);
 }
 
-Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request) {
+Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request,
+                                           const std::function<Outcome<Done>(int64_t bytes)>& hold) {
   const Outcome<std::string> id = SolveId(request.name());
   if (!id.ok()) return id.error();
+  const Outcome<SolveExtent> extent = store_.Extent(id.value());
+  if (!extent.ok()) return extent.error();
+  if (caller.sees().value_or(extent.value().tenant) != extent.value().tenant) return NoSuchSolve(id.value());
+  const Outcome<Done> held = hold(extent.value().bytes);
+  if (!held.ok()) return held.error();
   Outcome<SolveRecord> record = store_.Get(id.value());
   if (!record.ok()) return record.error();
-  if (caller.sees().value_or(record.value().tenant) != record.value().tenant) return NoSuchSolve(id.value());
   return ToSolveBytes(std::move(record).value());
 }
 
@@ -221,9 +228,9 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const 
 Outcome<std::string> SolveService::FindOwn(const Caller& caller, const std::string& name) {
   Outcome<std::string> id = SolveId(name);
   if (!id.ok() || !caller.sees()) return id;
-  const Outcome<std::string> tenant = store_.TenantOf(id.value());
-  if (!tenant.ok()) return tenant.error();
-  if (tenant.value() != caller.tenant) return NoSuchSolve(id.value());
+  const Outcome<SolveExtent> extent = store_.Extent(id.value());
+  if (!extent.ok()) return extent.error();
+  if (extent.value().tenant != caller.tenant) return NoSuchSolve(id.value());
   return id;
 }
 

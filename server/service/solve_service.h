@@ -41,7 +41,9 @@ class SolveService {
                std::function<void(const std::string& id)> announce);
 
   Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
-  Outcome<SolveBytes> GetSolve(const Caller& caller, const v1::GetSolveRequest& request);
+  // Asks for room before it reads: `hold` is told about how many bytes the answer has, and its error is the answer.
+  Outcome<SolveBytes> GetSolve(const Caller& caller, const v1::GetSolveRequest& request,
+                               const std::function<Outcome<Done>(int64_t bytes)>& hold);
   Outcome<v1::ListSolvesResponse> ListSolves(const Caller& caller, const v1::ListSolvesRequest& request);
   Outcome<v1::Solve> CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request);
   Outcome<google::protobuf::Empty> DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request);

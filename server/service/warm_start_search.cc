@@ -1,11 +1,12 @@
 #include "server/service/warm_start_search.h"
 
-#include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/gait/default_speed.h"
 #include "rollgait/v1/solve.pb.h"
+#include "server/base/digest.h"
 #include "server/base/wire.pb.h"
 #include "server/service/request_check.h"
 #include "server/service/solve_key.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr double kSlopeUnit = std::numbers::pi / 180;  // rad
 constexpr double kSpeedUnit = 0.05;                    // m/s
 constexpr double kFarthest = 5;                        // in these units
-constexpr int kMostConsidered = 1000;
+constexpr int kPlacedAtOnce = 20;                      // their specs have up to 4 MiB each
 
 Error Refuse(const v1::SolveSpec& spec, const std::string& reason) {
   return InvalidArgument({{"spec.warm_start", "is \"" + spec.warm_start() + "\"; " + reason}});
@@ -46,35 +47,6 @@ std::string CommonPart(v1::SolveSpec spec) {
   return CanonicalBytes(spec);
 }
 
-// The id of the nearest neighbour; empty: none.
-Outcome<std::string> Nearest(SolveStore& store, const v1::SolveSpec& spec, const std::optional<std::string>& tenant) {
-  const std::string common = CommonPart(spec);
-  std::string nearest;
-  double least = kFarthest;
-  ListQuery query{200, "", SolveState::kSucceeded, tenant};
-  for (int considered = 0; considered < kMostConsidered;) {
-    const Outcome<SolvePage> page = store.List(query);
-    if (!page.ok()) return page.error();
-    for (const SolveRecord& record : page.value().records) {
-      ++considered;
-      v1::SolveSpec other;
-      if (!other.ParseFromString(record.spec) || CommonPart(other) != common) continue;
-      const std::optional<double> distance = WarmStartDistance(spec, other);
-      if (!distance || *distance > least || (*distance == least && !nearest.empty())) continue;
-      // Its record has no result; one that is not optimal is no neighbour.
-      const Outcome<SolveRecord> full = store.Get(record.id);
-      v1::SolveResult result;
-      if (!full.ok() || !result.ParseFromString(full.value().result) || result.termination() != v1::TERMINATION_OPTIMAL)
-        continue;
-      least = *distance;
-      nearest = record.id;
-    }
-    query.page_token = page.value().next_page_token;
-    if (query.page_token.empty()) break;
-  }
-  return nearest;
-}
-
 // The part of the message that the solver needs.
 wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1::SolveSpec& source,
                      v1::SolveResult result) {
@@ -91,10 +63,29 @@ wire::WarmStart Take(const v1::SolveSpec& spec, const std::string& id, const v1:
 
 }  // namespace
 
-std::optional<double> WarmStartDistance(const v1::SolveSpec& a, const v1::SolveSpec& b) {
-  const std::optional<double> speed = PrescribedSpeed(a), other = PrescribedSpeed(b);
-  if (speed.has_value() != other.has_value()) return std::nullopt;
-  return std::hypot((a.slope_rad() - b.slope_rad()) / kSlopeUnit, speed ? (*speed - *other) / kSpeedUnit : 0);
+SolvePlace PlaceOf(const v1::SolveSpec& spec) {
+  const std::optional<double> speed = PrescribedSpeed(spec);
+  const char* const kind = speed ? "at a speed " : "at any speed ";
+  return {Sha256Hex(kind + CommonPart(spec)), spec.slope_rad(), speed.value_or(0)};
+}
+
+Outcome<int> PlaceOldSolves(SolveStore& store) {
+  int count = 0;
+  int64_t last = 0;
+  while (true) {
+    const Outcome<std::vector<UnplacedSolve>> solves = store.Unplaced(last, kPlacedAtOnce);
+    if (!solves.ok()) return solves.error();
+    if (solves.value().empty()) return count;
+    std::vector<PlacedSolve> placed;
+    for (const UnplacedSolve& solve : solves.value()) {
+      v1::SolveSpec spec;  // one that cannot be read stands nowhere
+      placed.push_back({solve.number, spec.ParseFromString(solve.spec) ? PlaceOf(spec) : SolvePlace{}});
+    }
+    const Outcome<Done> set = store.SetPlaces(placed);
+    if (!set.ok()) return set.error();
+    last = placed.back().number;
+    count += static_cast<int>(placed.size());
+  }
 }
 
 Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const GaitKnowledge& knowledge,
@@ -103,7 +94,7 @@ Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const Ga
   if (spec.warm_start().empty()) return std::optional<FoundWarmStart>();
   std::string id;
   if (spec.warm_start() == "nearest") {
-    Outcome<std::string> nearest = Nearest(store, spec, tenant);
+    Outcome<std::string> nearest = store.Nearest({PlaceOf(spec), tenant, kSlopeUnit, kSpeedUnit, kFarthest});
     if (!nearest.ok()) return nearest.error();
     id = std::move(nearest).value();
     if (id.empty()) return std::optional<FoundWarmStart>();
@@ -112,12 +103,14 @@ Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const Ga
     if (!named.ok()) return Refuse(spec, "give the name of a solve, solves/{id}, or nearest");
     id = std::move(named).value();
   }
-  const Outcome<SolveRecord> record = store.Get(id);
-  const bool foreign = record.ok() && tenant.value_or(record.value().tenant) != record.value().tenant;
-  if (!record.ok() || foreign) {
-    if (!foreign && record.error().code != ErrorCode::kNotFound) return record.error();
+  const Outcome<SolveExtent> extent = store.Extent(id);
+  const bool foreign = extent.ok() && tenant.value_or(extent.value().tenant) != extent.value().tenant;
+  if (foreign || (!extent.ok() && extent.error().code == ErrorCode::kNotFound)) {
     return Refuse(spec, "there is no such solve; ListSolves lists those that are");
   }
+  if (!extent.ok()) return extent.error();
+  const Outcome<SolveRecord> record = store.Get(id);
+  if (!record.ok()) return record.error();
   if (record.value().state != SolveState::kSucceeded) return Refuse(spec, "that solve has no result; wait for its end");
   v1::SolveSpec source;
   v1::SolveResult result;

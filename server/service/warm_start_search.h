@@ -24,9 +24,12 @@ Outcome<std::optional<FoundWarmStart>> FindWarmStart(SolveStore& store, const Ga
                                                      const v1::SolveSpec& spec,
                                                      const std::optional<std::string>& tenant = std::nullopt);
 
-// How far apart two requests are in 1° of slope and 0.05 m/s of prescribed speed, together as a length; nothing if one
-// prescribes a speed and the other does not.
-std::optional<double> WarmStartDistance(const v1::SolveSpec& a, const v1::SolveSpec& b);
+// Where a request stands for `nearest`: with those that ask the same but for slope, motion, mesh, limits and start, and
+// prescribe a speed if it does. Distances are counted in 1° of slope and 0.05 m/s of speed, and 5 is too far.
+SolvePlace PlaceOf(const v1::SolveSpec& spec);
+
+// Gives solves of a store that an older version wrote their places; returns how many had none.
+Outcome<int> PlaceOldSolves(SolveStore& store);
 
 }  // namespace rollgait::server
 

@@ -22,6 +22,7 @@ class DiskRoom {
   std::optional<Error> Refusal() const;
   // What may still be written there without root, bytes; nullopt: no disk of ours, or it does not say.
   std::optional<int64_t> FreeBytes() const;
+  int64_t reserve_bytes() const { return reserve_bytes_; }
 
  private:
   std::string directory_;

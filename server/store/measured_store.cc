@@ -58,8 +58,8 @@ Outcome<SolveRecord> MeasuredStore::Get(const std::string& id) {
   return Measure("get", [&] { return store_.Get(id); });
 }
 
-Outcome<std::string> MeasuredStore::TenantOf(const std::string& id) {
-  return Measure("tenant_of", [&] { return store_.TenantOf(id); });
+Outcome<SolveExtent> MeasuredStore::Extent(const std::string& id) {
+  return Measure("extent", [&] { return store_.Extent(id); });
 }
 
 Outcome<SolvePage> MeasuredStore::List(const ListQuery& query) {
@@ -76,6 +76,18 @@ Outcome<SolveRecord> MeasuredStore::RequestCancel(const std::string& id, const A
 
 Outcome<EventPage> MeasuredStore::ReadEvents(const std::string& id, int64_t after_sequence, int max_events) {
   return Measure("read_events", [&] { return store_.ReadEvents(id, after_sequence, max_events); });
+}
+
+Outcome<std::string> MeasuredStore::Nearest(const NearQuery& query) {
+  return Measure("nearest", [&] { return store_.Nearest(query); });
+}
+
+Outcome<std::vector<UnplacedSolve>> MeasuredStore::Unplaced(int64_t after_number, int most) {
+  return Measure("unplaced", [&] { return store_.Unplaced(after_number, most); });
+}
+
+Outcome<Done> MeasuredStore::SetPlaces(const std::vector<PlacedSolve>& solves) {
+  return Measure("set_places", [&] { return store_.SetPlaces(solves); });
 }
 
 Outcome<SolveCounts> MeasuredStore::Counts(const std::optional<std::string>& tenant) {

@@ -21,11 +21,14 @@ class MeasuredStore : public SolveStore {
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
-  Outcome<std::string> TenantOf(const std::string& id) override;
+  Outcome<SolveExtent> Extent(const std::string& id) override;
   Outcome<SolvePage> List(const ListQuery& query) override;
   Outcome<Done> Delete(const std::string& id, const Actor& actor) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<std::string> Nearest(const NearQuery& query) override;
+  Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) override;
+  Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) override;
   Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant) override;
   Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) override;
   Outcome<Removed> Retain(const RetentionLimits& limits) override;

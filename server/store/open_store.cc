@@ -1,6 +1,8 @@
 #include "server/store/open_store.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "server/base/data_dir.h"
@@ -11,8 +13,31 @@
 #include "server/store/sqlite_connection.h"
 
 namespace rollgait::server {
+namespace {
+
+// SQLite's log is written back into the store after 1000 pages, 4 MB. On a full disk that ends half way, and the log
+// grows by what is left, which was less. This is twice what both then need to get to their end.
+constexpr int64_t kMostDeletionReserve = int64_t{16} << 20;
+
+// An empty file is what is left of a store, or what another process begins to write at this moment.
+bool IsEmptied(const std::string& path) {
+  constexpr int kLooks = 100;
+  for (int look = 0; look < kLooks; ++look) {
+    std::error_code failure;
+    if (std::filesystem::file_size(path, failure) != 0 || failure) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+}  // namespace
 
 Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, const Clock& clock) {
+  if (!location.is_postgres() && IsEmptied(location.sqlite_path)) {
+    return Error{ErrorCode::kFailedPrecondition, "the store " + location.sqlite_path +
+                                                     " is an empty file: its solves are lost; put a backup in its " +
+                                                     "place, or remove it to begin anew"};
+  }
   Database::Options options;
   options.name = location.Name();
   options.readers = location.connections;
@@ -23,7 +48,12 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
     options.group_writes = true;
     options.connect = [path = location.sqlite_path, &clock] { return std::make_unique<SqliteConnection>(path, clock); };
   }
-  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, RoomOf(location));
+  std::unique_ptr<DiskReserve> reserve;
+  if (!location.is_postgres()) {
+    const int64_t bytes = std::min(kMostDeletionReserve, location.reserve_bytes / 4);
+    if (bytes > 0) reserve = std::make_unique<DiskReserve>(location.sqlite_path + "-reserve", bytes);
+  }
+  return SqlStore::Open(std::make_unique<Database>(std::move(options)), clock, RoomOf(location), std::move(reserve));
 }
 
 DiskRoom RoomOf(const StoreLocation& location) {

@@ -13,7 +13,8 @@
 
 namespace rollgait::server {
 
-// Opens the store, making what is missing. kUnavailable with the reason if another try may help, else another code. The
+// Opens the store, making what is missing; an SQLite file that is there and empty is not a new store but a lost one
+// (kFailedPrecondition). kUnavailable with the reason if another try may help, else another code. The
 // clock outlives it.
 Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, const Clock& clock);
 

@@ -10,11 +10,12 @@
 namespace rollgait::server {
 
 // Where the next page begins, as a text that callers hand back unread: it names the filter it was made for and carries
-// a check sum, so that a damaged or foreign token is recognised. It grants nothing.
-std::string MakePageToken(int64_t before_number, const ListQuery& query);
+// a check sum, so that a damaged or foreign token is recognised. It grants nothing, and whoever does not know the
+// secret cannot tell the number, which counts the solves of all tenants. `before_number` >= 0.
+std::string MakePageToken(int64_t before_number, const ListQuery& query, const std::string& secret);
 
 // The number the query's page lies below; nullopt if its token is not ours or was made for another state or tenant.
-std::optional<int64_t> ParsePageToken(const ListQuery& query);
+std::optional<int64_t> ParsePageToken(const ListQuery& query, const std::string& secret);
 
 }  // namespace rollgait::server
 

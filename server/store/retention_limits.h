@@ -11,7 +11,7 @@ struct RetentionLimits {
   std::chrono::seconds solves{0};  // since the end of a solve
   std::chrono::seconds events{0};  // the same, for its event log but for the terminal event
   std::chrono::seconds audit{0};
-  int64_t solve_bytes = 0;  // of all finished solves together
+  int64_t solve_bytes = 0;  // of the finished solves of each tenant
 
   RetentionLimits WithoutAges() const { return {.solve_bytes = solve_bytes}; }
   bool any() const { return solves.count() > 0 || events.count() > 0 || audit.count() > 0 || solve_bytes > 0; }

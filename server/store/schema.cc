@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rollgait/v1/solve.pb.h"
+#include "server/base/digest.h"
 
 namespace rollgait::server {
 namespace {
@@ -174,9 +175,37 @@ void From3To4(SqlConnection& connection) {
   }
 }
 
+// Where `nearest` looks (solve_place.h): apart from solves, whose rows are as long as their specs. Solves of older
+// stores get theirs from the server, which knows what specs mean.
+constexpr char kPlaces[] = R"(
+CREATE TABLE places (
+  solve BIGINT PRIMARY KEY REFERENCES solves (number) ON DELETE CASCADE,
+  tenant TEXT NOT NULL,
+  question TEXT NOT NULL,
+  slope_rad DOUBLE PRECISION NOT NULL,
+  speed_m_s DOUBLE PRECISION NOT NULL,
+  optimal BIGINT NOT NULL);
+CREATE INDEX places_by_question ON places (question, tenant, optimal, slope_rad, speed_m_s);
+)";
+
+// What tenants may store and how much they simulate; -1: the server's default. The index sums what a tenant stores.
+constexpr char kTenantLimits[] = R"(
+ALTER TABLE tenants ADD COLUMN max_storage_bytes BIGINT NOT NULL DEFAULT -1;
+ALTER TABLE tenants ADD COLUMN max_simulations BIGINT NOT NULL DEFAULT -1;
+CREATE INDEX solves_by_tenant_end ON solves (tenant, end_time_us, bytes);
+)";
+
+// Random texts that never leave the store.
+constexpr char kSecrets[] = "CREATE TABLE secrets (name TEXT PRIMARY KEY, value TEXT NOT NULL);";
+
+void From4To5(SqlConnection& connection) {
+  for (const char* part : {kPlaces, kTenantLimits, kSecrets}) connection.Execute(part);
+  Query::Do(connection, "INSERT INTO secrets (name, value) VALUES ('page_tokens', ?)", RandomHex(32));
+}
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

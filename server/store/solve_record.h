@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/store/audit.h"
+#include "server/store/solve_place.h"
 
 namespace rollgait::server {
 
@@ -46,11 +47,13 @@ struct NewSolve {
   std::string request_id;  // of its tenant; empty: none
   std::string spec;
   std::string solve_key;
-  int max_queued = 1000;        // refuse with kResourceExhausted if so many are queued already
-  std::string warm_start = {};  // wire::WarmStart, kept until the solve ends; empty: none
-  Actor actor = {};             // its tenant is the solve's
-  int max_queued_tenant = 0;    // the same limit for the tenant alone; 0: none
+  int max_queued = 1000;         // refuse with kResourceExhausted if so many are queued already
+  std::string warm_start = {};   // wire::WarmStart, kept until the solve ends; empty: none
+  Actor actor = {};              // its tenant is the solve's
+  int max_queued_tenant = 0;     // the same limit for the tenant alone; 0: none
+  int64_t max_bytes_tenant = 0;  // refuse likewise if the tenant's solves take more with this one; 0: no limit
   std::string solver_fingerprint = {}, traceparent = {};
+  SolvePlace place = {};
 };
 
 struct CreatedSolve {

@@ -12,6 +12,12 @@
 
 namespace rollgait::server {
 
+// What can be said of a solve without reading what is long.
+struct SolveExtent {
+  std::string tenant;
+  int64_t bytes = 0;  // of spec, result and error together
+};
+
 // Where solves live. Every call is one transaction and durable when it returns; any number of threads and processes may
 // call. Every call may also fail with kUnavailable (also: it may have happened), kResourceExhausted (no room on the
 // disk) or kInternal. What a person or an agent changes leaves a row in `audit` with it.
@@ -30,8 +36,8 @@ class SolveStore {
   virtual Outcome<bool> NeedsPlace(const NewSolve& solve) = 0;
   // kNotFound.
   virtual Outcome<SolveRecord> Get(const std::string& id) = 0;
-  // kNotFound.
-  virtual Outcome<std::string> TenantOf(const std::string& id) = 0;
+  // Whose it is and how long Get's answer would be, without reading that. kNotFound.
+  virtual Outcome<SolveExtent> Extent(const std::string& id) = 0;
   // kInvalidArgument: page_token is not one of ours or belongs to another query.
   virtual Outcome<SolvePage> List(const ListQuery& query) = 0;
   // Removes a solve, its events, and its result unless another solve shares it. kNotFound, kFailedPrecondition: not
@@ -42,6 +48,11 @@ class SolveStore {
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
   // beyond the newest, negative, or before the oldest held (retention), which the message names.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
+  // The id of the solve that stands nearest; empty: none is near enough.
+  virtual Outcome<std::string> Nearest(const NearQuery& query) = 0;
+  // Solves without a place and with a larger number, in order, at most `most`; and gives them theirs.
+  virtual Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) = 0;
+  virtual Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) = 0;
   virtual Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) = 0;
   // Rows with a larger number, in order, at most max_rows.
   virtual Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) = 0;

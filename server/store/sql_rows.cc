@@ -145,6 +145,10 @@ void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& d
   SaveSolve(connection, row);
 }
 
+void MarkOptimal(SqlConnection& connection, int64_t solve) {
+  Query::Do(connection, "UPDATE places SET optimal = 1 WHERE solve = ?", solve);
+}
+
 void RemoveSolve(SqlConnection& connection, const SolveRow& row) {
   Query::Do(connection, "DELETE FROM solves WHERE number = ?", row.number);
   Query::Do(connection, "DELETE FROM results WHERE id = ? AND NOT EXISTS (SELECT 1 FROM solves WHERE result_id = ?)",

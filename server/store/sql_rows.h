@@ -68,6 +68,9 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_
 // Puts a running solve back into the queue, or ends it if it was to be cancelled; saves the row.
 void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us);
 
+// Its result may be the nearest of `nearest`.
+void MarkOptimal(SqlConnection& connection, int64_t solve);
+
 // Removes the solve, its events, and its result unless another solve shares it.
 void RemoveSolve(SqlConnection& connection, const SolveRow& row);
 

@@ -68,15 +68,26 @@ Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) 
                before, limit);
 }
 
+Outcome<std::string> PageSecret(Database& database) {
+  return database.ReadOne([](SqlConnection& connection) -> Outcome<std::string> {
+    Query query(connection, "SELECT value FROM secrets WHERE name = 'page_tokens'");
+    if (!query.Step()) return Error{ErrorCode::kInternal, "the store has lost its secret of page tokens"};
+    return query.Bytes(0);
+  });
+}
+
 }  // namespace
 
-Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> database, const Clock& clock,
-                                                  DiskRoom room) {
+Outcome<std::unique_ptr<SqlStore>> SqlStore::Open(std::unique_ptr<Database> database, const Clock& clock, DiskRoom room,
+                                                  std::unique_ptr<DiskReserve> reserve) {
   const Outcome<Done> ready = database->PrepareSchema();
   if (!ready.ok()) {
     return Error{ready.error().code, "cannot use the store " + database->name() + ": " + ready.error().message};
   }
-  return std::unique_ptr<SqlStore>(new SqlStore(std::move(database), clock, std::move(room)));
+  const Outcome<std::string> secret = PageSecret(*database);
+  if (!secret.ok()) return secret.error();
+  return std::unique_ptr<SqlStore>(
+      new SqlStore(std::move(database), clock, std::move(room), std::move(reserve), secret.value()));
 }
 
 Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
@@ -93,19 +104,23 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
   });
 }
 
-Outcome<std::string> SqlStore::TenantOf(const std::string& id) {
+Outcome<SolveExtent> SqlStore::Extent(const std::string& id) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
-  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<std::string> {
-    Query query(connection, "SELECT tenant FROM solves WHERE id = ?", id);
+  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveExtent> {
+    // Neither engine reads a blob for its length.
+    Query query(connection,
+                "SELECT tenant, LENGTH(spec), COALESCE(LENGTH(error), 0), COALESCE((SELECT LENGTH(payload) FROM "
+                "results WHERE results.id = solves.result_id), 0) FROM solves WHERE id = ?",
+                id);
     if (!query.Step()) return NoSuchSolve(id);
-    return query.Bytes(0);
+    return SolveExtent{query.Bytes(0), query.Int(1) + query.Int(2) + query.Int(3)};
   });
 }
 
 Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
   int64_t before = INT64_MAX;
   if (!query.page_token.empty()) {
-    const std::optional<int64_t> parsed = ParsePageToken(query);
+    const std::optional<int64_t> parsed = ParsePageToken(query, page_secret_);
     if (!parsed.has_value()) {
       const std::string message =
           "is not a token of this list: give back next_page_token unchanged, with the same filter";
@@ -120,7 +135,7 @@ Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
     size_t bytes = 0;
     while (rows.Step()) {
       if (static_cast<int>(page.records.size()) == query.page_size || bytes > kMaxPageBytes) {
-        page.next_page_token = MakePageToken(last_number, query);
+        page.next_page_token = MakePageToken(last_number, query, page_secret_);
         break;
       }
       SolveRow row = ReadSolveAndOutcome(rows);
@@ -133,20 +148,21 @@ Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
 }
 
 Outcome<Done> SqlStore::Delete(const std::string& id, const Actor& actor) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
+  return WriteForRoom([&](SqlConnection& connection) -> Outcome<Done> {
     const std::optional<SolveRow> row = FindSolve(connection, id);
     if (!row.has_value()) return NoSuchSolve(id);
     if (!IsTerminal(row->record.state)) {
       return Error{ErrorCode::kFailedPrecondition, "solves/" + id + " has not finished; cancel it first"};
     }
     RemoveSolve(connection, *row);
+    storage_use_.Forget();
     AddAudit(connection, {actor, "delete", id, "deleted"}, clock_.WallMicros());
     return Done{};
   });
 }
 
 Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor& actor) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<SolveRecord> {
+  return WriteForRoom([&](SqlConnection& connection) -> Outcome<SolveRecord> {
     std::optional<SolveRow> row = FindSolve(connection, id);
     if (!row.has_value()) return NoSuchSolve(id);
     const int64_t now_us = clock_.WallMicros();

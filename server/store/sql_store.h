@@ -8,8 +8,10 @@
 
 #include "server/base/clock.h"
 #include "server/store/database.h"
+#include "server/store/disk_reserve.h"
 #include "server/store/disk_room.h"
 #include "server/store/solve_store.h"
+#include "server/store/storage_use.h"
 
 namespace rollgait::server {
 
@@ -18,18 +20,21 @@ namespace rollgait::server {
 class SqlStore : public SolveStore {
  public:
   // Makes the tables or brings them up to date; kUnavailable with the reason if that fails. New solves are refused when
-  // there is no room. The clock outlives the store.
+  // there is no room; the reserve (null: none) is given up for what makes some. The clock outlives the store.
   static Outcome<std::unique_ptr<SqlStore>> Open(std::unique_ptr<Database> database, const Clock& clock,
-                                                 DiskRoom room = {});
+                                                 DiskRoom room = {}, std::unique_ptr<DiskReserve> reserve = nullptr);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
-  Outcome<std::string> TenantOf(const std::string& id) override;
+  Outcome<SolveExtent> Extent(const std::string& id) override;
   Outcome<SolvePage> List(const ListQuery& query) override;
   Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<std::string> Nearest(const NearQuery& query) override;
+  Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) override;
+  Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) override;
   Outcome<SolveCounts> Counts(const std::optional<std::string>& tenant = std::nullopt) override;
   Outcome<std::vector<AuditRow>> ReadAudit(int64_t after_number, int max_rows) override;
   Outcome<Removed> Retain(const RetentionLimits& limits) override;
@@ -49,8 +54,22 @@ class SqlStore : public SolveStore {
   Database& database() { return *database_; }
 
  private:
-  SqlStore(std::unique_ptr<Database> database, const Clock& clock, DiskRoom room)
-      : database_(std::move(database)), clock_(clock), room_(std::move(room)) {}
+  SqlStore(std::unique_ptr<Database> database, const Clock& clock, DiskRoom room, std::unique_ptr<DiskReserve> reserve,
+           std::string page_secret)
+      : database_(std::move(database)),
+        clock_(clock),
+        room_(std::move(room)),
+        reserve_(std::move(reserve)),
+        page_secret_(std::move(page_secret)) {}
+
+  // A write that makes room in the end: on a full disk it is tried again with the reserve given up.
+  template <typename Body>
+  auto WriteForRoom(Body body) {
+    auto outcome = database_->Write(body);
+    const bool full = !outcome.ok() && outcome.error().code == ErrorCode::kResourceExhausted;
+    if (!full || reserve_ == nullptr || !reserve_->Release()) return outcome;
+    return database_->Write(body);
+  }
 
   // nullopt: so near a limit of the queue that it takes LockMode::kExclusive to be sure.
   Outcome<std::optional<CreatedSolve>> TryCreate(const NewSolve& solve, SqlConnection::LockMode mode);
@@ -58,6 +77,9 @@ class SqlStore : public SolveStore {
   const std::unique_ptr<Database> database_;
   const Clock& clock_;
   const DiskRoom room_;
+  const std::unique_ptr<DiskReserve> reserve_;
+  const std::string page_secret_;  // of page tokens
+  StorageUse storage_use_;
 };
 
 }  // namespace rollgait::server

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "rollgait/v1/solve.pb.h"
 #include "server/store/sql_rows.h"
 #include "server/store/sql_store.h"
 
@@ -115,6 +116,9 @@ void Insert(SqlConnection& connection, const NewSolve& solve, const std::string&
       record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
       record.last_sequence, row.bytes);
   InsertEvent(connection, row.number, {record.last_sequence, EventKind::kStateChange, event});
+  Query::Do(connection,
+            "INSERT INTO places (solve, tenant, question, slope_rad, speed_m_s, optimal) VALUES (?, ?, ?, ?, ?, 0)",
+            row.number, record.tenant, solve.place.question, solve.place.slope_rad, solve.place.speed_m_s);
   if (solve.warm_start.empty()) return;
   Query::Do(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start});
 }
@@ -153,6 +157,8 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
                                                   ", which has another spec; use a new request_id"};
     }
     if (std::optional<Error> full = room_.Refusal()) return *full;
+    if (reserve_ != nullptr) reserve_->Restore(room_.reserve_bytes());
+    if (std::optional<Error> full = storage_use_.Refusal(connection, solve)) return *full;
     const bool held = questions.reusable.has_value() && questions.reusable->Step();
     if (!held) {
       const Outcome<bool> may = MayQueue(questions, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters());
@@ -169,6 +175,7 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
       row.record.result = questions.reusable->Bytes(1);
       row.record.termination = static_cast<int>(questions.reusable->Int(2));
       row.record.verdict = static_cast<int>(questions.reusable->Int(3));
+      if (row.record.termination == v1::TERMINATION_OPTIMAL) MarkOptimal(connection, row.number);
     }
     return std::optional(CreatedSolve{std::move(row.record), true});
   });

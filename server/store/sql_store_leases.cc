@@ -217,11 +217,14 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
                 static_cast<int>(result.accuracy().verdict()));
       row.bytes += static_cast<int64_t>(end.result.size());
     }
+    const bool optimal = succeeded && result.termination() == v1::TERMINATION_OPTIMAL;
+    if (optimal) MarkOptimal(connection, row.number);
     EndSolve(connection, row, end.state, result_id, end.error, now_us);
     if (!equal.has_value()) return Done{};
     // Those that wait for the result of an equal one.
     for (SolveRow& waiting : AllRows(*equal)) {
       waiting.record.from_cache = true;
+      if (optimal) MarkOptimal(connection, waiting.number);
       EndSolve(connection, waiting, SolveState::kSucceeded, result_id, "", now_us);
     }
     return Done{};

@@ -1,4 +1,8 @@
 // What SqlStore removes in time.
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "server/store/sql_rows.h"
 #include "server/store/sql_store.h"
 
@@ -21,10 +25,28 @@ std::vector<SolveRow> Oldest(SqlConnection& connection, int64_t before_us) {
   return rows;
 }
 
-// By how much finished solves are above the limit.
-int64_t Excess(SqlConnection& connection, int64_t limit) {
-  Query query(connection, "SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM solves WHERE end_time_us > 0");
-  return query.Step() ? query.Int(0) - limit : 0;
+// A tenant whose finished solves are above the limit, and by how much.
+struct Excess {
+  std::string tenant;
+  int64_t bytes = 0;
+};
+std::optional<Excess> FindExcess(SqlConnection& connection, int64_t limit) {
+  Query query(connection,
+              "SELECT tenant, CAST(SUM(bytes) AS BIGINT) FROM solves WHERE end_time_us > 0 GROUP BY tenant "
+              "HAVING SUM(bytes) > ? ORDER BY tenant LIMIT 1",
+              limit);
+  if (!query.Step()) return std::nullopt;
+  return Excess{query.Bytes(0), query.Int(1) - limit};
+}
+
+std::vector<SolveRow> OldestOf(SqlConnection& connection, const std::string& tenant) {
+  std::vector<SolveRow> rows;
+  Query query(connection,
+              "SELECT " ROLLGAIT_SOLVE_COLUMNS
+              "FROM solves WHERE tenant = ? AND end_time_us > 0 ORDER BY end_time_us LIMIT ? {skip_locked}",
+              tenant, kSolvesAtOnce);
+  while (query.Step()) rows.push_back(ReadSolve(query));
+  return rows;
 }
 
 void Expire(SqlConnection& connection, const SolveRow& row, const std::string& why, int64_t now_us) {
@@ -41,12 +63,12 @@ int ExpireSolves(SqlConnection& connection, const RetentionLimits& limits, int64
     }
   }
   if (count > 0 || limits.solve_bytes <= 0) return count;
-  int64_t excess = Excess(connection, limits.solve_bytes);
-  if (excess <= 0) return 0;
-  for (const SolveRow& row : Oldest(connection, INT64_MAX)) {
-    if (excess <= 0) break;
+  std::optional<Excess> excess = FindExcess(connection, limits.solve_bytes);
+  if (!excess.has_value()) return 0;
+  for (const SolveRow& row : OldestOf(connection, excess->tenant)) {
+    if (excess->bytes <= 0) break;
     Expire(connection, row, "size", now_us);
-    excess -= row.bytes;
+    excess->bytes -= row.bytes;
     ++count;
   }
   return count;
@@ -78,10 +100,11 @@ int TrimEvents(SqlConnection& connection, int64_t before_us) {
 }  // namespace
 
 Outcome<Removed> SqlStore::Retain(const RetentionLimits& limits) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<Removed> {
+  return WriteForRoom([&](SqlConnection& connection) -> Outcome<Removed> {
     const int64_t now_us = clock_.WallMicros();
     Removed removed;
     removed.solves = ExpireSolves(connection, limits, now_us);
+    if (removed.solves > 0) storage_use_.Forget();
     if (limits.events.count() > 0) removed.event_logs = TrimEvents(connection, now_us - Micros(limits.events));
     if (limits.audit.count() > 0) {
       removed.audit_rows = Query(connection,

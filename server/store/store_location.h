@@ -14,7 +14,9 @@ struct StoreLocation {
   std::string postgres_url = {};  // empty: SQLite
   int connections = 8;            // most at once for writing, and as many for reading; SQLite has one writer
 
-  int64_t reserve_bytes = 0;  // SQLite: new solves are refused while the disk has less free
+  // SQLite: new solves are refused while the disk has less free. A quarter of it besides, at most 16 MiB, is a file
+  // beside the store that is given up when the disk is full and something is to be deleted.
+  int64_t reserve_bytes = 0;
 
   bool is_postgres() const { return !postgres_url.empty(); }
   // For logs: without a password.

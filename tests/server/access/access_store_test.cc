@@ -40,6 +40,13 @@ TEST(AccessStoreTest, LimitsOfATenantAreSetOneByOne) {
   EXPECT_EQ(limits.creates_per_s, 0.5);
   ASSERT_TRUE(bench.access().SetTenant("acme", {-1, std::nullopt, std::nullopt, std::nullopt}).ok());
   EXPECT_FALSE(bench.access().FindTenant("acme").value().max_queued.has_value());
+  TenantOverrides more;
+  more.max_simulations = 3;
+  more.max_storage_bytes = int64_t{5} << 30;
+  ASSERT_TRUE(bench.access().SetTenant("acme", more).ok());
+  limits = bench.access().FindTenant("acme").value();
+  EXPECT_EQ(limits.max_simulations, 3);
+  EXPECT_EQ(limits.max_storage_bytes, int64_t{5} << 30);
   bench.Create("other");
   EXPECT_EQ(bench.access().ListTenants().value(), (std::vector<std::string>{"acme", "other"}));
 }

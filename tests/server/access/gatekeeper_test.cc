@@ -34,6 +34,21 @@ class GatekeeperTest : public testing::Test {
   Gatekeeper gate_{Strict(), &bench_.access(), &bench_.clock()};
 };
 
+TEST_F(GatekeeperTest, ATenantHasItsShareOfSimulations) {
+  TenantOverrides limits;
+  limits.max_simulations = 1;
+  ASSERT_TRUE(bench_.access().SetTenant("acme", limits).ok());
+  const Presented acme = With(bench_.Create("acme").Text()), lab = With(bench_.Create("lab").Text());
+  constexpr const MethodRule& simulate = RuleOf("Simulate");
+  constexpr const MethodRule& find = RuleOf("FindPeriodicGait");
+  Outcome<std::shared_ptr<Admission>> first = Admit(simulate, acme);
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(Refusal(find, acme), ErrorCode::kResourceExhausted);
+  EXPECT_TRUE(Admit(find, lab).ok());
+  first.value().reset();
+  EXPECT_TRUE(Admit(find, acme).ok());
+}
+
 TEST_F(GatekeeperTest, AnOpenServerTakesEveryone) {
   Gatekeeper open({});
   const auto admission = open.Admit(kCreate, {"Bearer nonsense", "", "peer", "trace"}, nullptr);

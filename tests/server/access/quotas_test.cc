@@ -41,6 +41,21 @@ TEST(QuotasTest, WatchesAreGivenBack) {
   EXPECT_TRUE(quotas.TakeWatch("a", 2).ok());
 }
 
+TEST(QuotasTest, SimulationsAreCountedForThemselves) {
+  Quotas quotas;
+  const Outcome<std::shared_ptr<void>> watch = quotas.TakeWatch("a", 1);
+  Outcome<std::shared_ptr<void>> first = quotas.TakeSimulation("a", 1);
+  ASSERT_TRUE(first.ok());
+  const Outcome<std::shared_ptr<void>> second = quotas.TakeSimulation("a", 1);
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(second.error().code, ErrorCode::kResourceExhausted);
+  EXPECT_NE(second.error().message.find("1 simulations of tenant \"a\" run"), std::string::npos)
+      << second.error().message;
+  EXPECT_TRUE(quotas.TakeSimulation("b", 1).ok());
+  first.value().reset();
+  EXPECT_TRUE(quotas.TakeSimulation("a", 1).ok());
+}
+
 TEST(BackpressureTest, TooManyAtOnceAreRefused) {
   Backpressure pressure(1);
   Outcome<std::shared_ptr<void>> inside = pressure.Enter();

@@ -41,6 +41,22 @@ TEST_F(AgentTest, TheFirstIterationDoesNotWaitForTheEnd) {
   EXPECT_EQ(Get(id).state, SolveState::kRunning);
 }
 
+TEST_F(AgentTest, ASolverThatSendsTooMuchFillsNoStore) {
+  Agent::Options options = Options();
+  options.max_event_bytes = 100'000;
+  const auto agent = MakeAgent(options);
+  const std::string padded = Queue("flood 50 result"), many = Queue("iterations 20000 result");
+  for (const std::string& id : {padded, many}) {
+    EXPECT_EQ(RunToEnd(*agent, id).state, SolveState::kSucceeded);
+    size_t bytes = 0;
+    const EventPage page = store_->ReadEvents(id, 0, 100'000).value();
+    for (const StoredEvent& event : page.events) bytes += event.payload.size();
+    EXPECT_LT(bytes, 101'000u) << id;
+  }
+  EXPECT_EQ(CountIterations(padded), 50) << "what is not of an iteration is left out";
+  EXPECT_GT(CountIterations(many), 1000);
+}
+
 TEST_F(AgentTest, ANumericalFailureIsAResult) {
   const auto agent = MakeAgent();
   const SolveRecord record = RunToEnd(*agent, Queue("infeasible"));

@@ -1,5 +1,9 @@
 #include "server/agent/spool.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <fstream>
 
 #include "tests/server/agent/agent_fixture.h"
@@ -53,6 +57,19 @@ TEST_F(SpoolTest, DamagedAndUnfinishedFilesAreNotReplayed) {
   EXPECT_TRUE(spool.ReadAll().empty());
   EXPECT_TRUE(std::filesystem::exists(Directory() + "/a-1.end.bad"));
   EXPECT_TRUE(std::filesystem::exists(Directory() + "/b-1.end.bad"));
+  EXPECT_FALSE(std::filesystem::exists(Directory() + "/c-1.end.tmp")) << "its writer is dead";
+}
+
+TEST_F(SpoolTest, WhatIsBeingWrittenIsLeftAlone) {
+  const Spool spool = Open();
+  const std::string path = Directory() + "/a-1.end.tmp";
+  const int writer = open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  ASSERT_EQ(flock(writer, LOCK_EX), 0);
+  EXPECT_TRUE(spool.ReadAll().empty());
+  EXPECT_TRUE(std::filesystem::exists(path));
+  close(writer);
+  EXPECT_TRUE(spool.ReadAll().empty());
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST_F(SpoolTest, ADirectoryThatCannotBeMadeIsAnError) {

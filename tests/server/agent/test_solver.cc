@@ -5,10 +5,12 @@
 //   obey           waits for kCancelSignal, then sends a cancelled result
 //   hang           waits for ever, deaf to kCancelSignal
 //   close          closes its stream and waits for ever
+//   flood N        sends N iterations of 1 MiB each, most of it unknown fields
 //   print WORD     prints                      crash      dies by SIGSEGV
 //   xcpu           dies by SIGXCPU             once FILE  dies by SIGSEGV unless FILE exists; makes it
 // After the last word it exits with status 0.
 #include <fcntl.h>
+#include <google/protobuf/unknown_field_set.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -85,6 +87,13 @@ void Obey(std::istringstream& words) {
         message.mutable_iteration()->set_index(i);
         Send(message);
       }
+    } else if (word == "flood" && words >> count) {
+      wire::SolverMessage message;
+      message.mutable_iteration()
+          ->GetReflection()
+          ->MutableUnknownFields(message.mutable_iteration())
+          ->AddLengthDelimited(1000, std::string(1 << 20, 'x'));
+      for (int i = 0; i < count; ++i) Send(message);
     } else if (word == "sleep" && words >> count) {
       usleep(static_cast<useconds_t>(count) * 1000);
     } else if (word == "result") {

@@ -103,6 +103,28 @@ TEST_F(CallObserverTest, InventedMethodsMakeNoSeries) {
   EXPECT_LE(ParseExposition(Scrape(address_)).size(), before + 1);  // at most unknown/Unimplemented is new
 }
 
+TEST_F(CallObserverTest, BytesThatAreNoRequestAreRefusedWithAWord) {
+  for (const std::string method : {"CreateSolve", "WatchSolve", "ListModels", "Simulate"}) {
+    grpc::GenericStub stub(bench_.channel());
+    grpc::ClientContext context;
+    grpc::CompletionQueue queue;
+    grpc::Slice slice("\xff\xff\xff\xff");
+    auto call =
+        stub.PrepareUnaryCall(&context, "/rollgait.v1.GaitService/" + method, grpc::ByteBuffer(&slice, 1), &queue);
+    call->StartCall();
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    call->Finish(&response, &status, nullptr);
+    void* tag = nullptr;
+    bool ok = false;
+    queue.Next(&tag, &ok);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT) << method;
+    EXPECT_NE(status.error_message().find("not a request message of " + method), std::string::npos)
+        << status.error_message();
+  }
+  ExpectSoon(1, "grpc_server_handled_total", "CreateSolve", "unary", "InvalidArgument");
+}
+
 TEST_F(CallObserverTest, TheRequestIdComesBack) {
   for (const std::string wish : {"mine-17", "", "with space"}) {
     grpc::ClientContext context;

@@ -18,8 +18,9 @@ namespace rollgait::server {
 class RpcBench {
  public:
   explicit RpcBench(RpcOptions rpc_options = {}, ServiceOptions options = {},
-                    std::chrono::milliseconds heartbeat = std::chrono::hours(1))
+                    std::chrono::milliseconds heartbeat = std::chrono::hours(1), const Gatekeeper::Options& gate = {})
       : bench_(heartbeat, std::move(options)),
+        gatekeeper_(gate),
         server_(std::move(RpcServer::Start(rpc_options, bench_.service(), bench_.hub(), gatekeeper_).value())),
         channel_(Connect(server_->address())),
         stub_(v1::GaitService::NewStub(channel_)) {}
@@ -39,7 +40,7 @@ class RpcBench {
   }
 
   ServiceBench bench_;
-  Gatekeeper gatekeeper_{{}};
+  Gatekeeper gatekeeper_;
   std::unique_ptr<RpcServer> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::GaitService::Stub> stub_;

@@ -19,6 +19,10 @@ v1::CreateSolveRequest CreateRequest(const v1::SolveSpec& spec, const std::strin
   return request;
 }
 
+// Of the answers' budget: all of it, or nothing.
+const auto kHoldAll = [](int64_t) -> Outcome<Done> { return Done{}; };
+const auto kHoldNone = [](int64_t) -> Outcome<Done> { return Error{ErrorCode::kResourceExhausted, "no room"}; };
+
 template <typename Request>
 Request Named(const std::string& id) {
   Request request;
@@ -35,7 +39,7 @@ TEST(SolveServiceTest, CreateGetListAndDelete) {
   EXPECT_EQ(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).error().code,
             ErrorCode::kFailedPrecondition);
   bench.Finish(bench.Claim());
-  const SolveBytes bytes = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).value();
+  const SolveBytes bytes = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), kHoldAll).value();
   v1::Solve done;
   ASSERT_TRUE(done.ParseFromString(bytes.head + bytes.result));
   EXPECT_EQ(done.state(), v1::SOLVE_STATE_SUCCEEDED);
@@ -44,7 +48,21 @@ TEST(SolveServiceTest, CreateGetListAndDelete) {
   ASSERT_EQ(list.solves_size(), 1);
   EXPECT_FALSE(list.solves(0).has_result());
   EXPECT_TRUE(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).ok());
-  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id)).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), kHoldAll).error().code, ErrorCode::kNotFound);
+}
+
+TEST(SolveServiceTest, AnAnswerIsReadOnlyOnceThereIsRoomForIt) {
+  ServiceBench bench;
+  const std::string id = bench.Create();
+  bench.Finish(bench.Claim());
+  const SolveRecord record = bench.store().Get(id).value();
+  int64_t asked = 0;
+  const auto hold = [&](int64_t bytes) -> Outcome<Done> {
+    asked = bytes;
+    return Error{ErrorCode::kResourceExhausted, "no room"};
+  };
+  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), hold).error().message, "no room");
+  EXPECT_EQ(asked, static_cast<int64_t>(record.spec.size() + record.result.size()));
 }
 
 TEST(SolveServiceTest, BadSpecsAreRefusedWithTheirPathsAndNothingIsStored) {
@@ -209,9 +227,9 @@ TEST(SolveServiceTest, ASolveOfAnotherTenantDoesNotExist) {
   cancel.set_name(name);
   v1::DeleteSolveRequest remove;
   remove.set_name(name);
-  ASSERT_TRUE(service.GetSolve(Of("acme"), get).ok());
+  ASSERT_TRUE(service.GetSolve(Of("acme"), get, kHoldAll).ok());
   EXPECT_EQ(service.FindOwn(Of("acme"), name).value(), id);
-  const Error none = service.GetSolve(Of("rival"), get).error();
+  const Error none = service.GetSolve(Of("rival"), get, kHoldNone).error();
   EXPECT_EQ(none.code, ErrorCode::kNotFound);
   EXPECT_EQ(service.CancelSolve(Of("rival"), cancel).error().message, none.message);
   EXPECT_EQ(service.DeleteSolve(Of("rival"), remove).error().message, none.message);
@@ -223,7 +241,7 @@ TEST(SolveServiceTest, ASolveOfAnotherTenantDoesNotExist) {
   // In the store's own words for what is not there.
   ASSERT_TRUE(service.CancelSolve(Of("acme"), cancel).ok());
   ASSERT_TRUE(service.DeleteSolve(Of("acme"), remove).ok());
-  EXPECT_EQ(service.GetSolve(Of("acme"), get).error().message, none.message);
+  EXPECT_EQ(service.GetSolve(Of("acme"), get, kHoldAll).error().message, none.message);
 }
 
 TEST(SolveServiceTest, ResultsAndRequestIdsAreOfOneTenant) {

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <numbers>
 
 #include "server/base/wire.pb.h"
+#include "server/service/solve_key.h"
 #include "tests/server/service/service_fixture.h"
 
 namespace rollgait::server {
@@ -128,16 +130,75 @@ TEST_F(WarmStartSearchTest, WhatCannotBeStartedFromIsRefused) {
   EXPECT_THAT(Refusal("solves/" + queued), HasSubstr("has no result"));
 }
 
-TEST(WarmStartDistance, CountsDegreesAndFiveCentimetresPerSecond) {
+TEST_F(WarmStartSearchTest, SolvesOfAnOlderStoreAreFoundOnceTheyAreIndexed) {
+  const std::string old = Solved(PlanarSpec(0.1));
+  ASSERT_TRUE(bench_.store()
+                  .database()
+                  .Write([](SqlConnection& connection) -> Outcome<Done> {
+                    Query::Do(connection, "DELETE FROM places");
+                    return Done{};
+                  })
+                  .ok());
+  ASSERT_TRUE(Create(From("nearest", 0.11)).ok());
+  EXPECT_FALSE(Claimed().has_trajectory());
+  EXPECT_EQ(PlaceOldSolves(bench_.store()).value(), 1);
+  EXPECT_EQ(PlaceOldSolves(bench_.store()).value(), 0);
+  ASSERT_TRUE(Create(From("nearest", 0.12)).ok());
+  EXPECT_EQ(Claimed().source().name(), "solves/" + old);
+}
+
+TEST_F(WarmStartSearchTest, NoTenantStartsFromAnothers) {
+  Caller acme, lab;
+  acme.authentication = lab.authentication = Authentication::kToken;
+  acme.tenant = "acme";
+  lab.tenant = "lab";
+  v1::CreateSolveRequest first;
+  *first.mutable_spec() = PlanarSpec(0.1);
+  ASSERT_TRUE(bench_.service().CreateSolve(acme, first).ok());
+  bench_.Finish(bench_.Claim());
+  v1::CreateSolveRequest second = From("nearest", 0.11);
+  EXPECT_TRUE(bench_.service().CreateSolve(lab, second).ok());
+  EXPECT_EQ(Claimed().source().name(), "");
+}
+
+// 300 solves with specs of 2.6 MB took 10 s to look through.
+TEST_F(WarmStartSearchTest, LongSpecsAreNotRead) {
+  v1::SolveSpec spec = PlanarSpec(0.1);
+  spec.add_costs()->mutable_tracking()->add_channels()->mutable_positions()->Resize(2'600'000 / 8, 0.5);
+  const std::string bytes = CanonicalBytes(spec);
+  v1::SolveResult result;
+  result.set_termination(v1::TERMINATION_OPTIMAL);
+  result.set_objective(1);
+  const SolveEnd end{SolveState::kSucceeded, result.SerializeAsString(), "", false};
+  for (int i = 0; i < 40; ++i) {
+    NewSolve solve{"long-" + std::to_string(i), "", bytes, ""};
+    solve.place = PlaceOf(PlanarSpec(0.1 + 1e-3 * i));
+    ASSERT_TRUE(bench_.store().Create(solve).ok());
+    ASSERT_TRUE(bench_.store().Finish(bench_.Claim(), {}, end).ok());
+  }
+  v1::CreateSolveRequest request = From("nearest", 0.1);
+  request.set_validate_only(true);
+  const auto start = std::chrono::steady_clock::now();
+  constexpr int kCalls = 20;
+  for (int i = 0; i < kCalls; ++i) ASSERT_TRUE(Create(request).ok());
+  const std::chrono::duration<double> each = (std::chrono::steady_clock::now() - start) / kCalls;
+  EXPECT_LT(each.count(), 0.1) << "s a call: one spec is read, not all";
+}
+
+TEST(PlaceOf, SeparatesQuestionsAndPrescribedFromFreeSpeeds) {
   v1::SolveSpec a = PlanarSpec(0), b = PlanarSpec(3 * kDegree);
-  EXPECT_NEAR(*WarmStartDistance(a, b), 3, 1e-12);
+  EXPECT_EQ(PlaceOf(a).question, PlaceOf(b).question);
+  EXPECT_NEAR(PlaceOf(b).slope_rad, 3 * kDegree, 1e-15);
+  EXPECT_NEAR(PlaceOf(a).speed_m_s, 1.3, 0.01);
   b.mutable_motion()->set_step_length_m(0.75);
-  b.mutable_motion()->set_step_duration_s(0.5);  // 1.5 m/s
-  EXPECT_NEAR(*WarmStartDistance(a, b), 5, 1e-12);
+  b.mutable_motion()->set_step_duration_s(0.5);
+  EXPECT_EQ(PlaceOf(a).question, PlaceOf(b).question);
+  EXPECT_NEAR(PlaceOf(b).speed_m_s, 1.5, 1e-12);
   b.mutable_motion()->set_free_speed(true);
-  EXPECT_FALSE(WarmStartDistance(a, b));
-  a.mutable_motion()->set_free_speed(true);
-  EXPECT_NEAR(*WarmStartDistance(a, b), 3, 1e-12);
+  EXPECT_NE(PlaceOf(a).question, PlaceOf(b).question);
+  EXPECT_EQ(PlaceOf(b).speed_m_s, 0);
+  a.mutable_ground_contact()->set_friction_coefficient(0.7);
+  EXPECT_NE(PlaceOf(a).question, PlaceOf(PlanarSpec(0)).question);
 }
 
 }  // namespace

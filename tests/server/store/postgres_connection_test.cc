@@ -146,7 +146,7 @@ TEST(PostgresRoundTripTest, ReadsWaitOnceAndOtherWritesTwice) {
   store.Connect();
   ASSERT_TRUE(store->Get("a").ok());
   ASSERT_EQ(store->ReadEvents("a", 0, 10).value().events.size(), 1u);
-  EXPECT_EQ(store->TenantOf("a").value(), "");
+  EXPECT_EQ(store->Extent("a").value().bytes, 1);
   EXPECT_EQ(store->Counts().value().queued, 1);
   EXPECT_EQ(store->List({10, "", std::nullopt}).value().records.size(), 1u);
   EXPECT_TRUE(store->CancelRequests("agent").value().empty());

@@ -127,6 +127,21 @@ TEST_P(SolveStoreConformance, ForeignPageTokensAreRefused) {
   EXPECT_EQ(bench.store().List({1, token, SolveState::kQueued}).error().code, ErrorCode::kInvalidArgument);
 }
 
+TEST_P(SolveStoreConformance, PageTokensDoNotTellHowManySolvesThereAre) {
+  StoreBench bench(GetParam()), other(GetParam());
+  for (size_t i = 0; i < 3; ++i) {
+    bench.Add(Numbered("s", i));
+    other.Add(Numbered("s", i));
+  }
+  const std::string token = bench.store().List({1, "", std::nullopt}).value().next_page_token;
+  const std::string of_other = other.store().List({1, "", std::nullopt}).value().next_page_token;
+  EXPECT_EQ(token.size(), of_other.size());
+  EXPECT_NE(token, of_other) << "the same place of the same list";
+  EXPECT_FALSE(bench.store().List({1, of_other, std::nullopt}).ok());
+  bench.Restart();
+  EXPECT_EQ(bench.store().List({1, token, std::nullopt}).value().records.front().id, "s1") << "it outlives a restart";
+}
+
 TEST_P(SolveStoreConformance, EventsAreReadAfterANumberInPages) {
   StoreBench bench(GetParam());
   bench.Add("a");

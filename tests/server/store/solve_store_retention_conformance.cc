@@ -70,6 +70,26 @@ TEST_P(SolveStoreConformance, TheOldestGoWhenAllTakeTooMuch) {
   EXPECT_TRUE(Held(bench, "s3"));
 }
 
+TEST_P(SolveStoreConformance, WhatOneTenantStoresRemovesNothingOfAnother) {
+  StoreBench bench(GetParam());
+  const auto finish = [&](const std::string& tenant, const std::string& id) {
+    NewSolve solve{id, "", "spec", ""};
+    solve.actor.tenant = tenant;
+    ASSERT_TRUE(bench.store().Create(solve).ok());
+    ASSERT_TRUE(
+        bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, std::string(10'000, 'r'), "", true}).ok());
+    bench.clock().Advance(hours(1));
+  };
+  finish("victim", "oldest");
+  for (size_t i = 0; i < 4; ++i) finish("flood", Numbered("s", i));
+  RetentionLimits limits;
+  limits.solve_bytes = 25'000;
+  EXPECT_EQ(RetainAll(bench, limits), 2);
+  EXPECT_TRUE(Held(bench, "oldest"));
+  EXPECT_FALSE(Held(bench, "s1"));
+  EXPECT_TRUE(Held(bench, "s2"));
+}
+
 TEST_P(SolveStoreConformance, ASharedResultOutlivesTheSolveThatMadeIt) {
   StoreBench bench(GetParam());
   bench.Add("a", "key");

@@ -68,6 +68,34 @@ TEST_P(SolveStoreConformance, ATenantsQueueHasALimitOfItsOwn) {
   EXPECT_TRUE(bench.store().Create(Of("blue", "c")).ok());
 }
 
+TEST_P(SolveStoreConformance, ATenantsStorageHasALimit) {
+  StoreBench bench(GetParam());
+  const auto add = [&](const std::string& tenant, const std::string& id, const std::string& request_id = "") {
+    NewSolve solve = Of(tenant, id, request_id);
+    solve.spec = std::string(1000, 's');
+    solve.max_bytes_tenant = 4900;
+    return bench.store().Create(solve);
+  };
+  ASSERT_TRUE(add("red", "a", "known").ok());
+  ASSERT_TRUE(bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, std::string(3500, 'r'), "", true}).ok());
+  bench.Restart();  // sums are asked for again
+  const auto refused = add("red", "b");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kResourceExhausted);
+  EXPECT_NE(refused.error().message.find("bytes, this one would add 1000 and the limit is 4900; delete some"),
+            std::string::npos)
+      << refused.error().message;
+  EXPECT_EQ(refused.error().quota->subject, "tenant:red");
+  EXPECT_FALSE(add("red", "c", "known").value().created) << "a retry takes nothing";
+  EXPECT_TRUE(add("blue", "d").ok()) << "others have their own";
+  ASSERT_TRUE(bench.store().Delete("a").ok());
+  EXPECT_TRUE(add("red", "e").ok()) << "room at once";
+  EXPECT_TRUE(add("red", "f").ok());
+  EXPECT_TRUE(add("red", "g").ok());
+  EXPECT_TRUE(add("red", "h").ok());
+  EXPECT_FALSE(add("red", "i").ok()) << "what was made since the last sum counts";
+}
+
 TEST_P(SolveStoreConformance, FingerprintAndTraceAreKept) {
   StoreBench bench(GetParam());
   NewSolve solve{"a", "", "s", ""};

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <atomic>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -36,6 +37,19 @@ TEST(SqliteStoreTest, FilesThatAreNotOursAreRefused) {
   ASSERT_FALSE(text.ok());
   EXPECT_EQ(text.error().code, ErrorCode::kInternal);
   EXPECT_FALSE(OpenStore({directory.path() + "/no/such/directory.db"}, clock).ok());
+}
+
+TEST(SqliteStoreTest, AnEmptyFileIsNoNewStore) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  std::ofstream(path).flush();
+  const auto store = OpenStore({path}, clock);
+  ASSERT_FALSE(store.ok());
+  EXPECT_EQ(store.error().code, ErrorCode::kFailedPrecondition);
+  EXPECT_NE(store.error().message.find(path + " is an empty file"), std::string::npos) << store.error().message;
+  std::filesystem::remove(path);
+  EXPECT_TRUE(OpenStore({path}, clock).ok());
 }
 
 TEST(SqliteStoreTest, ANewerSchemaVersionIsRefusedByName) {
@@ -103,6 +117,7 @@ TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
     EXPECT_EQ(late.verdict, 0) << "older results have none";
     EXPECT_EQ(store.value()->ReadEvents("old", 0, 10).value().events.size(), 3u);
     EXPECT_EQ(store.value()->Counts().value().queued, 1);
+    EXPECT_EQ(store.value()->Unplaced(0, 10).value().size(), 4u) << "the server gives them places";
   }
   const auto store = OpenStore({path}, clock);
   // The old lease is still good, the old request_id is known, the old result answers, and parts go with their solve.
