@@ -27,7 +27,7 @@ std::optional<std::string> ListenObstacle(const ListenFlags& flags, const Access
   }
   if (flags.behind_door && has_certificate) {
     return "behind a door it is the door that speaks TLS: give the certificate, the key and the authority of clients "
-           "to the door (docs/door.md) and leave --tls-cert, --tls-key and --tls-client-ca away";
+           "to the door (docs/door.md) and omit --tls-cert, --tls-key and --tls-client-ca";
   }
   if (access.certificate_tenant != CertificateTenant::kNone && access.tls.client_ca.empty() && !flags.behind_door) {
     return "--certificate-tenant needs certificates of clients: give --tls-client-ca, or --behind-door where the door "
