@@ -106,7 +106,7 @@ void AddExport(CLI::App& app, ExportOptions& options) {
   command->add_option("--format", options.format, "One of the formats below; default: by the ending of --output");
   command->add_option("-o,--output", options.output,
                       "A file, a folder for formats of several files, - for standard output");
-  std::string footer = "Formats (docs/formats.md has their axes, units and names):\n";
+  std::string footer = "Formats (docs/reference/formats.md has their axes, units and names):\n";
   for (const Format& format : Formats()) {
     footer += "  " + format.name + std::string(format.name.size() < 10 ? 10 - format.name.size() : 1, ' ') +
               (format.ending.empty() ? "folder" : format.ending) +

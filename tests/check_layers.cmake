@@ -1,6 +1,6 @@
 # Reads every #include under core/, server/ and client/ and fails on one that the tables below do not allow.
 #   cmake -DROOT=<repository> -P tests/check_layers.cmake
-# The tables are the law; docs/life_of_a_request.md says why the house is built this way.
+# The tables are the law; docs/explanation/life_of_a_request.md says why the house is built this way.
 
 cmake_minimum_required(VERSION 3.25)
 if(NOT IS_DIRECTORY "${ROOT}")
@@ -8,7 +8,7 @@ if(NOT IS_DIRECTORY "${ROOT}")
 endif()
 
 # What a layer may include besides itself. Not in the list: not allowed, so every edge points one way.
-set(CORE_FLOORS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)
+set(CORE_LAYERS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)
 set(core_base)
 set(core_math base)
 set(core_geometry base math)
@@ -87,7 +87,7 @@ function(check_edge file header)
   if(target_house MATCHES "^(tests|bench)$")
     set(problem "the product does not include ${target_house}/" PARENT_SCOPE)
   elseif(house STREQUAL "core")
-    if(NOT part IN_LIST CORE_FLOORS)
+    if(NOT part IN_LIST CORE_LAYERS)
       set(problem "core/${part} is not a layer of the table" PARENT_SCOPE)
     elseif(NOT target_house STREQUAL "core")
       set(problem "core knows no ${target_house}" PARENT_SCOPE)

@@ -7,7 +7,7 @@
 
 namespace rollgait {
 
-// What the presets are is said in rollgait.v1.Preset and measured in docs/walking.md. A preset fills only what a
+// rollgait.v1.Preset says what the presets are, docs/explanation/walking.md measures them. A preset fills only what a
 // request leaves open; its costs take the place of costs, which a request with a preset must not give.
 
 // Feet, duty factor and clearance.
