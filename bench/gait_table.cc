@@ -110,9 +110,9 @@ const char* Name(NormativeQuantity quantity) {
   return "?";
 }
 
-void PrintHumps(const ForceHumps& humps) {
-  std::printf("force %s / %s / %s %%BW%s", Text(humps.first).c_str(), Text(humps.trough).c_str(),
-              Text(humps.second).c_str(), humps.two ? ", two humps\n" : "\n");
+void PrintForcePeaks(const ForcePeaks& peaks) {
+  std::printf("force %s / %s / %s %%BW%s", Text(peaks.first).c_str(), Text(peaks.valley).c_str(),
+              Text(peaks.second).c_str(), peaks.two ? ", two peaks\n" : "\n");
 }
 
 void PrintNormative(const NormativeComparison& people) {
@@ -121,7 +121,7 @@ void PrintNormative(const NormativeComparison& people) {
       "opposite heel strike %s, toe-off %s %%, ",
       100 * people.stance, 100 * people.double_support, people.step_length, people.cadence,
       Text(people.opposite_toe_off).c_str(), Text(people.opposite_heel_strike).c_str(), Text(people.toe_off).c_str());
-  PrintHumps(people.humps);
+  PrintForcePeaks(people.peaks);
   std::printf("    at a limit through stance:");
   for (const RestingJoint& joint : people.resting) {
     std::printf(" %s %s %.0f %%", joint.joint.c_str(), joint.at_max ? "max" : "min", 100 * joint.share);
@@ -129,7 +129,7 @@ void PrintNormative(const NormativeComparison& people) {
   std::printf("\n");
   for (const DatasetComparison& set : people.datasets) {
     std::printf("    %s: stance %.1f %%, ", set.dataset.c_str(), 100 * set.stance);
-    PrintHumps(set.humps);
+    PrintForcePeaks(set.peaks);
     for (const CurveComparison& curve : set.curves) {
       std::printf("      %-5s %-8s r %6.3f  rms %7.3f = %5.2f sd  ours %7.2f .. %7.2f  people %7.2f .. %7.2f\n",
                   curve.joint.c_str(), Name(curve.quantity), curve.distance.correlation, curve.distance.rms,

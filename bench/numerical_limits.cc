@@ -1,6 +1,6 @@
 // Where double precision ends: errors of contact kinematics against the same formulas in long double (64 bits of
 // mantissa), worst of 400 random cases each, as CSV: plot,series,x,y. docs/plot_limits.py makes the pictures of
-// docs/numerical_limits.md from it.
+// docs/explanation/numerical_limits.md from it.
 //   numerical_limits > limits.csv
 
 #include <Eigen/Geometry>

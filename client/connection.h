@@ -15,7 +15,7 @@ namespace rollgait::client {
 // What applies to every command.
 struct GlobalOptions {
   std::string server = "127.0.0.1:50051";
-  // PEM files: who signs the server (empty: the system's authorities), and who this client is.
+  // PEM files: CA bundle for the server's certificate (empty: the system's), and this client's certificate and key.
   std::string tls_ca, tls_cert, tls_key;
   // File with a bearer token in its first line; empty: the token of `token`.
   std::string token_file, token;
@@ -23,7 +23,7 @@ struct GlobalOptions {
   bool insecure = false;
   bool json = false;
   bool quiet = false;
-  // Longest wait for the answer of one call, s. Streams have no such limit.
+  // RPC deadline of unary calls, s. Streams have none.
   double timeout_s = 30.0;
 };
 

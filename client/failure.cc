@@ -57,7 +57,7 @@ std::string TlsAdvice(const std::string& message) {
     return "The server's certificate is for another name: call the server by a name in its certificate.";
   }
   if (says("wrong version number") || says("WRONG_VERSION_NUMBER") || says("packet length too long")) {
-    return "The server does not speak TLS: leave --tls-ca and --tls-cert away (beyond loopback with --insecure).";
+    return "The server does not speak TLS: omit --tls-ca and --tls-cert (beyond loopback with --insecure).";
   }
   if (says("handshake") || says("SSL_ERROR")) return "TLS failed: check --tls-ca, --tls-cert and --tls-key.";
   if (says("Invalid cert chain file") || says("key values mismatch"))

@@ -21,11 +21,11 @@ std::string RestingJoints(const v1::NormativeComparison& people) {
 
 }  // namespace
 
-std::string HumpsText(const v1::ForceHumps& humps) {
+std::string ForcePeaksText(const v1::ForcePeaks& peaks) {
   const auto text = [](bool has, double value) { return has ? FormatNumber(value, 3) : std::string("-"); };
-  return text(humps.has_first_percent_bw(), humps.first_percent_bw()) + " / " +
-         text(humps.has_trough_percent_bw(), humps.trough_percent_bw()) + " / " +
-         text(humps.has_second_percent_bw(), humps.second_percent_bw()) + " %";
+  return text(peaks.has_first_percent_bw(), peaks.first_percent_bw()) + " / " +
+         text(peaks.has_valley_percent_bw(), peaks.valley_percent_bw()) + " / " +
+         text(peaks.has_second_percent_bw(), peaks.second_percent_bw()) + " %";
 }
 
 std::string QuantityUnit(v1::NormativeCurve::Quantity quantity) {
@@ -46,11 +46,11 @@ std::vector<std::vector<std::string>> NormativeRows(const v1::NormativeCompariso
   rows.push_back({"  stance", percent(people.stance_fraction())});
   rows.push_back({"  double support", percent(people.double_support_fraction())});
   rows.push_back({"  cadence", FormatNumber(people.cadence_per_min(), 3) + " /min"});
-  rows.push_back({"  vertical GRF: first peak / valley / second peak", HumpsText(people.vertical_force())});
+  rows.push_back({"  vertical GRF: first peak / valley / second peak", ForcePeaksText(people.vertical_force())});
   rows.push_back({"  joints at a limit for ≥ 50 % of stance", RestingJoints(people)});
   for (const v1::NormativeDatasetComparison& set : people.datasets()) {
     rows.push_back({"  " + set.name() + ": stance " + percent(set.stance_fraction()) + ", force " +
-                    HumpsText(set.vertical_force())});
+                    ForcePeaksText(set.vertical_force())});
     for (const v1::NormativeCurve& curve : set.curves()) {
       const bool angle = curve.quantity() == v1::NormativeCurve::QUANTITY_ANGLE;
       if (!angle && curve.quantity() != v1::NormativeCurve::QUANTITY_MOMENT) continue;

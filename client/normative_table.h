@@ -14,7 +14,7 @@ namespace rollgait::client {
 std::vector<std::vector<std::string>> NormativeRows(const v1::NormativeComparison& people);
 
 // "110 / 72 / 108 %", a dash for what is not there.
-std::string HumpsText(const v1::ForceHumps& humps);
+std::string ForcePeaksText(const v1::ForcePeaks& peaks);
 
 // "deg", "N m/kg" or "% of weight".
 std::string QuantityUnit(v1::NormativeCurve::Quantity quantity);

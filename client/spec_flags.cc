@@ -168,7 +168,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--step-length", flags.step_length_m, "Motion", "Distance of a step in m, (0, 2]");
   add("--step-duration", flags.step_duration_s, "Motion", "Duration of a step in s, [0.1, 5]");
   add("--duty-factor", flags.duty_factor, "Motion", "Share of the cycle that a foot stands, [0.5, 0.95]");
-  command.add_flag("--free-speed", flags.free_speed, "Leave the speed to the optimiser")->group("Motion");
+  command.add_flag("--free-speed", flags.free_speed, "Optimise the speed")->group("Motion");
   add("--cycle", flags.cycle, "Motion", "half (one step and its mirror image) or full (two steps)");
   add("--friction", flags.friction, "Motion", "Coulomb coefficient of the ground, (0, 5]");
   add("--clearance", flags.clearance_m, "Motion", "Height of the swing foot in mid-swing in m, [0, 0.3]");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/numerical_limits.md from what bench/numerical_limits, dynamics_limits and
+"""Draws the pictures of docs/explanation/numerical_limits.md from what bench/numerical_limits, dynamics_limits and
 long_rolling print.
 
     numerical_limits > limits.csv && python3 docs/plot_limits.py limits.csv docs/images

@@ -266,7 +266,7 @@ std::optional<int> RunAccessCommand(int argc, char** argv) {
   if (first != "token" && first != "tenant" && first != "audit") return std::nullopt;
   Arguments arguments;
   Action chosen;
-  CLI::App app("Who may use a rollgaitd; docs/security.md", "rollgaitd");
+  CLI::App app("Who may use a rollgaitd; docs/explanation/security.md", "rollgaitd");
   app.require_subcommand(1);
   AddTokenCommands(app, arguments, chosen);
   AddTenantCommands(app, arguments, chosen);

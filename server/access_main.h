@@ -15,7 +15,7 @@ class App;
 
 namespace rollgait::server {
 
-// Who may use a server: docs/security.md.
+// Who may use a server: docs/explanation/security.md.
 struct AccessFlags {
   TlsFiles tls;
   CertificateTenant certificate_tenant = CertificateTenant::kNone;

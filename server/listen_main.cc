@@ -10,9 +10,10 @@ void AddListenFlags(CLI::App& app, ListenFlags& flags) {
   app.add_option("--listen", flags.address,
                  "HOST:PORT, port 0: any free one; or unix:PATH; printed as `rollgaitd listening on ...`")
       ->capture_default_str();
-  auto* behind = app.add_flag("--behind-door", flags.behind_door,
-                              "The door of docs/door.md is in front and alone may reach --listen unix:PATH; it says "
-                              "who calls");
+  auto* behind =
+      app.add_flag("--behind-door", flags.behind_door,
+                   "The door of docs/explanation/door.md is in front and alone may reach --listen unix:PATH; it "
+                   "says who calls");
   app.add_flag("--without-door", flags.without_door,
                "Allow --listen beyond the loopback interface without a door in front; any peer can then use up memory")
       ->excludes(behind);
@@ -27,7 +28,7 @@ std::optional<std::string> ListenObstacle(const ListenFlags& flags, const Access
   }
   if (flags.behind_door && has_certificate) {
     return "behind a door it is the door that speaks TLS: give the certificate, the key and the authority of clients "
-           "to the door (docs/door.md) and leave --tls-cert, --tls-key and --tls-client-ca away";
+           "to the door (docs/explanation/door.md) and omit --tls-cert, --tls-key and --tls-client-ca";
   }
   if (access.certificate_tenant != CertificateTenant::kNone && access.tls.client_ca.empty() && !flags.behind_door) {
     return "--certificate-tenant needs certificates of clients: give --tls-client-ca, or --behind-door where the door "
@@ -36,7 +37,7 @@ std::optional<std::string> ListenObstacle(const ListenFlags& flags, const Access
   if (IsLoopback(flags.address)) return std::nullopt;
   if (!flags.without_door) {
     return "--listen " + flags.address + " is not a loopback address, and there any peer could use up the memory of " +
-           "this server before it shows a token (docs/door.md). Let the door listen there and give " +
+           "this server before it shows a token (docs/explanation/door.md). Let the door listen there and give " +
            "--listen unix:/run/rollgait/door.sock --behind-door, or say --without-door";
   }
   if (!has_certificate && !flags.insecure) {

@@ -8,7 +8,7 @@
 
 namespace rollgait::server {
 
-// Where a server listens, and what stands in front of it: docs/door.md.
+// Where a server listens, and what stands in front of it: docs/explanation/door.md.
 struct ListenFlags {
   std::string address = "127.0.0.1:50051";
   bool behind_door = false, without_door = false, insecure = false;

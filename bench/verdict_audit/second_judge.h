@@ -1,4 +1,4 @@
-// The second judge: measures the criteria of a trajectory by code that shares nothing with core/validation.
+// The second verifier: measures the criteria of a trajectory independently of core/validation, with code of its own.
 #ifndef ROLLGAIT_BENCH_VERDICT_AUDIT_SECOND_JUDGE_H_
 #define ROLLGAIT_BENCH_VERDICT_AUDIT_SECOND_JUDGE_H_
 

@@ -1,4 +1,4 @@
-// Every format that a result or a model can be written in. docs/formats.md states the axes, units and names of each.
+// Every format of results and models. docs/reference/formats.md states the axes, units and names of each.
 #ifndef ROLLGAIT_CLIENT_FORMATS_FORMAT_TABLE_H_
 #define ROLLGAIT_CLIENT_FORMATS_FORMAT_TABLE_H_
 

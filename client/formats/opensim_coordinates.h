@@ -22,7 +22,7 @@ struct OpensimCoordinate {
 };
 
 // One for each of Model.joints. Joints of a human have the names of OpenSim's gait models where they turn about the
-// same axis ("hip_flexion_r"; docs/formats.md has the table); others keep theirs.
+// same axis ("hip_flexion_r"; docs/reference/formats.md has the table); others keep theirs.
 std::vector<OpensimCoordinate> OpensimCoordinates(const v1::Model& model);
 
 }  // namespace rollgait::client

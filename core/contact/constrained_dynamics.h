@@ -12,7 +12,7 @@
 
 namespace rollgait {
 
-// The solution of   M a − Jᵀ λ = f,   J a = r   (docs/notation.md; source: eqs (3.8)–(3.10) with the factor ½).
+// The solution of   M a − Jᵀ λ = f,   J a = r   (docs/explanation/notation.md; eqs (3.8)–(3.10) with the factor ½).
 struct ConstrainedSolution {
   VectorX acceleration;  // n
   VectorX forces;        // rows of J; on the body that carries the surface

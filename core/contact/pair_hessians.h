@@ -15,7 +15,7 @@ using Matrix24 = Eigen::Matrix<double, 24, 24>;
 // twists of the two frames, as in PairDerivatives. Twists in world axes keep their values while the poses change, and
 // so do the accelerations of the frames; by the latter the drift has the derivative slip_by_twist. Second derivatives
 // of vectors are contracted: y, a constant world vector, times the quantity. Multipliers λ on γ: Drift(λ). Exact,
-// nothing by differences. Immutable. Source: contact-math 4 to 6, 8; docs/derivatives.md.
+// nothing by differences. Immutable. Source: contact-math 4 to 6, 8; docs/explanation/derivatives.md.
 class PairHessians {
  public:
   // Contract: as ComputePlaneContact, ComputeSurfaceContact.

@@ -62,7 +62,7 @@ GaitSpec OnTheWay(GaitSpec spec) {
 // How many of the requested intervals are put together in the group that has `place` others between itself and the end
 // of its phase. With a price of rates alone the outermost ones are the requested intervals themselves, and the sizes
 // double from there: what happens at touch-down and lift-off is learned while intervals are few. With a price of power
-// that is too much at once (docs/accuracy.md).
+// that is too much at once (docs/explanation/accuracy.md).
 int GroupSize(const GaitSpec& spec, int place, int inner) {
   if (!HasRates(spec) || LeastSmoothing(spec)) return place < kOuterGroups ? inner / 2 : inner;
   int size = 1;

@@ -206,7 +206,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     if (is_artefact) {
       if (refinements++ == spec.max_refinements) break;
       // Start afresh: a finer mesh started from there would stay near it. Feet slip where joints leave their ranges
-      // and velocities between the nodes, so those that did are bounded there (docs/optimizer.md).
+      // and velocities between the nodes, so those that did are bounded there (docs/explanation/optimizer.md).
       AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
       mesh = Halved(mesh);
       previous = {};

@@ -7,8 +7,8 @@
 
 namespace rollgait {
 
-// What the presets are is said in rollgait.v1.Preset and measured in docs/walking.md. A preset fills only what a
-// request leaves open; how its costs and those of the request become one cost is said in combined_costs.h.
+// rollgait.v1.Preset says what the presets are, docs/explanation/walking.md measures them. A preset fills only what a
+// request leaves open; combined_costs.h says how its costs and those of the request become one cost.
 
 // Feet, duty factor and clearance.
 void FillFromPreset(GaitRequest* request);

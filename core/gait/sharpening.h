@@ -7,7 +7,7 @@
 namespace rollgait {
 
 // A cold start seldom converges where the cost of power has a sharp corner; with this smoothing, W, it does
-// (docs/walking.md): 40 W at 75 kg and 9.81 m/s², in proportion to the powers of walking.
+// (docs/explanation/walking.md): 40 W at 75 kg and 9.81 m/s², in proportion to the powers of walking.
 inline double ColdSmoothing(const GaitSpec& spec) { return 40 * spec.similarity.power(); }
 
 // Follows a solution that converged with powers smoothed by ColdSmoothing to the spec: an eighth of the smoothing at a

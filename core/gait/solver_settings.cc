@@ -18,7 +18,7 @@ struct Settings {
   double step_residual, first_shift;
 };
 
-// Found by trial on human29 and the planar human; docs/optimizer.md has the figures.
+// Found by trial on human29 and the planar human; docs/explanation/optimizer.md has the figures.
 //  * A guess takes Ipopt's own values.
 //  * From a neighbour bounds become active and inactive: start well inside of them and follow the barrier loosely.
 //  * From another request the first Hessian often needs a shift, and 1e-4 is refused. With powers, pushed further off

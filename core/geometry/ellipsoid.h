@@ -6,7 +6,7 @@
 namespace rollgait {
 
 // Ellipsoid in its own principal axes. Every member works in those axes and takes a unit outward normal `nu`.
-// Notation and formulas: h = support function, x = ∇h, S = ∇²h, T = D S, Q = D² S (docs/notation.md).
+// Notation and formulas: h = support function, x = ∇h, S = ∇²h, T = D S, Q = D² S (docs/explanation/notation.md).
 // Immutable; any thread may share it. Contract: semi-axes finite and > 0.
 class Ellipsoid {
  public:

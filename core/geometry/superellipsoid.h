@@ -21,7 +21,7 @@ namespace rollgait {
 // Immutable; any thread may share it.
 class Superellipsoid {
  public:
-  // The range of exponents for which double precision keeps the accuracy that docs/numerical_limits.md states.
+  // Exponents for which double precision keeps the accuracy that docs/explanation/numerical_limits.md states.
   static constexpr double kMinExponent = 0.05, kMaxExponent = 1.95;
 
   // Refuses semi-axes that are not finite and > 0, and exponents outside kMinExponent … kMaxExponent. Violations name

@@ -7,7 +7,7 @@
 
 namespace rollgait {
 
-// The support function h of a convex body at one normal ν, and its derivatives with respect to ν (m; docs/notation.md).
+// The support function h of a convex body at one normal ν, and its derivatives by ν (m; docs/explanation/notation.md).
 // All derivatives are totally symmetric; T and Q are kept by components. Every function that fills a jet fills it up to
 // the order asked for: 1 = h and x, 2 = S, 3 = T, 4 = Q. Members above that order are not touched.
 struct SupportJet {

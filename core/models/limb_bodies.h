@@ -34,7 +34,7 @@ struct LimbSurface {
 // each forearm with both thighs, and the two forearms. Left and right are mirror images of each other. The bodies of
 // one leg are no pairs: the ranges of their joints keep them apart, or they share a joint. Usual are, of feet, shanks
 // and thighs, the widest body and its mirror image: legs that swing past each other meet there first (measured on -20
-// to 20 degrees, docs/walking.md). Contract: `surfaces` with their mirror bodies set.
+// to 20 degrees, docs/explanation/walking.md). Contract: `surfaces` with their mirror bodies set.
 std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces);
 
 // Where the numbers come from.

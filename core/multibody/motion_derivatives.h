@@ -11,7 +11,7 @@ namespace rollgait {
 
 // ID(q, v, a), its exact first derivatives (that by a is M) and those of the motion of every link along the tangent
 // directions of q and along v, for any tree: free joints count six columns S_c that are fixed in the link's axes. Along
-// column c of joint k, with parent p, in the frame that moves along with everything beyond k (docs/derivatives.md;
+// column c of joint k, with parent p, in the frame that moves with what is beyond k (docs/explanation/derivatives.md;
 // six-vectors in world axes at a point of the world close to the tree, so that they keep their digits far from the
 // world's origin):
 //   by q:  δV_i = ψ̇_c,  δA_i = ψ̈_c − V_i × ψ̇_c      ψ̇_c = V_p × S_c,  ψ̈_c = A_p × S_c + V_p × ψ̇_c

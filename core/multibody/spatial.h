@@ -55,7 +55,7 @@ struct SpatialInertia {
 };
 
 // A moving composite of bodies: inertia, the Coriolis operator  B X = V ×* I X + X ×* I V − I (V × X)  summed over its
-// bodies (docs/derivatives.md), which is  [b x_ω; −2 p × x_ω]  with p the linear momentum. Sums like the inertia.
+// bodies (docs/explanation/derivatives.md), which is  [b x_ω; −2 p × x_ω]  with p the momentum. Sums like the inertia.
 struct CompositeMotion {
   Matrix3 coriolis = Matrix3::Zero();
   Vector3 momentum = Vector3::Zero();

@@ -12,7 +12,7 @@ namespace rollgait {
 
 // Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ
 // ID, all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that.
-// The derivation is in docs/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every
+// Derivation: docs/explanation/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every
 // derivative along joint m is one linear map of three six-vectors:
 //   ψ̇_m = V_p(m) × S_m,  ψ̈_m = A_p(m) × S_m + V_p(m) × ψ̇_m,  ω_m = W_p(m) × S_m,   W = Σ S λ  ("virtual velocity").
 // Cost O(n d) for tree depth d (factorising: O(n d²)), no allocation after construction. What Update leaves out is made

@@ -20,8 +20,8 @@ struct SparsityPattern {
 };
 
 // Which group of unknowns and multipliers a variable and a row belong to when the Newton system of the problem is
-// factored: smaller groups are eliminated first, each in one dense front. For a chain of stages it makes the cost
-// linear in their number.
+// factored: smaller groups are eliminated first, each in one dense front. For a problem of stages the cost of
+// the factorisation is then linear in their number.
 struct EliminationGroups {
   std::vector<int> variables, constraints;  // variables(), constraints(); >= 0
 };

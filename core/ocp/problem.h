@@ -91,7 +91,7 @@ struct OptimalControlProblem {
   std::vector<int> GivenUp(int phase) const;
   // Whether the forces of contacts that are taken up at the start of a phase, or given up at its end, vanish there:
   // where all efforts are continuous, since their rates cost something, velocities do not jump, and no least normal
-  // force is asked for. Source: docs/contact_changes.md.
+  // force is asked for. Source: docs/explanation/contact_changes.md.
   bool ForcesVanishAtStart(int phase) const;
   bool ForcesVanishAtEnd(int phase) const;
   // How many feet stand in a phase. Contacts that mirror each other are of different feet; one that mirrors itself is a

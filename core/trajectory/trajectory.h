@@ -40,8 +40,8 @@ struct TrajectoryPhase {
 // position of the Runge–Kutta scheme,  q_i = q₀ + h c_i v₀ + h² Σ_j (A²)_ij a_j  with A_ij = ∫₀^{c_i} L_j (Tableau):
 // twice the rule of a single integration. q(t) integrates the same accelerations exactly. The two agree at c_i = 0 and
 // 1; at the others they differ by O(h^(s+1)), and with them the equations of motion at a point of q(t). Stage positions
-// keep the stability of the scheme (docs/accuracy.md); the difference belongs to the error that AccuracyReport
-// measures.
+// keep the stability of the scheme (docs/explanation/accuracy.md); the difference is part of the error that
+// AccuracyReport measures.
 struct Trajectory {
   Scheme scheme = Scheme::kRadau2;
   int points_per_interval = 2;

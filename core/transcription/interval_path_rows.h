@@ -22,7 +22,7 @@ struct IntervalPlace {
 // friction.
 //   A row is  lower <= Σ coefficient · h^power · y_local · scale_local <= upper,  with the interval's length h in s.
 // At the ends of a phase the forces of contacts that are taken up or given up at rest vanish where the problem says so
-// (OptimalControlProblem::ForcesVanish). Source: docs/contact_changes.md.
+// (OptimalControlProblem::ForcesVanish). Source: docs/explanation/contact_changes.md.
 class IntervalPathRows {
  public:
   // Local variables as in IntervalBlock: sources of the scheme, then the controls of every point.

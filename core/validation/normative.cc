@@ -106,7 +106,7 @@ DatasetComparison CompareWith(const NormativeDataset& set, const LegCurves& curv
     if (normal.quantity != NormativeQuantity::kVerticalForce) continue;
     result.stance = StanceOf(normal.mean);
     const auto stance = static_cast<std::ptrdiff_t>(std::ceil(result.stance * kNormativeSamples));
-    result.humps = FindHumps({normal.mean.begin(), normal.mean.begin() + stance}, kDepth);
+    result.peaks = FindForcePeaks({normal.mean.begin(), normal.mean.begin() + stance}, kDepth);
   }
   return result;
 }
@@ -160,17 +160,17 @@ CurveDistance MeasureDistance(const std::vector<double>& ours, const std::vector
           scale > 0 ? product / scale : 0};
 }
 
-ForceHumps FindHumps(const std::vector<double>& force, double depth) {
-  ForceHumps humps;
-  if (force.size() < 5) return humps;
+ForcePeaks FindForcePeaks(const std::vector<double>& force, double depth) {
+  ForcePeaks peaks;
+  if (force.size() < 5) return peaks;
   const auto middle = force.begin() + static_cast<std::ptrdiff_t>(force.size() / 2);
   const auto first = std::max_element(force.begin(), middle), second = std::max_element(middle, force.end());
-  if (first != force.begin() && first != middle - 1) humps.first = *first;
-  if (second != middle && second != force.end() - 1) humps.second = *second;
-  if (!humps.first || !humps.second) return humps;
-  humps.trough = *std::min_element(first, second);
-  humps.two = *humps.trough <= std::min(*humps.first, *humps.second) - depth;
-  return humps;
+  if (first != force.begin() && first != middle - 1) peaks.first = *first;
+  if (second != middle && second != force.end() - 1) peaks.second = *second;
+  if (!peaks.first || !peaks.second) return peaks;
+  peaks.valley = *std::min_element(first, second);
+  peaks.two = *peaks.valley <= std::min(*peaks.first, *peaks.second) - depth;
+  return peaks;
 }
 
 NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events) {
@@ -187,7 +187,7 @@ NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& traj
   result.opposite_toe_off = events.First(GaitEventKind::kToeOff, Foot::kLeft);
   result.opposite_heel_strike = events.First(GaitEventKind::kHeelStrike, Foot::kLeft);
   result.toe_off = events.First(GaitEventKind::kToeOff, Foot::kRight);
-  result.humps = FindHumps(StanceForce(curves, result.stance), kDepth);
+  result.peaks = FindForcePeaks(StanceForce(curves, result.stance), kDepth);
   result.resting = FindResting(scene, *cycle, result.stance);
   for (const NormativeDataset& set : NormativeDatasets()) result.datasets.push_back(CompareWith(set, curves));
   return result;

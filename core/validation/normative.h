@@ -34,17 +34,17 @@ struct CurveComparison {
   double normative_min, normative_max;
 };
 
-// The vertical ground force of the right foot through its stance, % of body weight. A hump is the largest value of the
-// first or the second half of stance where the force rises before it and falls after it. Two humps: both, and the
-// trough between them is at least 5 % of body weight below the lower one.
-struct ForceHumps {
-  std::optional<double> first, second;  // empty: no such hump
-  std::optional<double> trough;         // between the two; empty without both
+// The vertical ground force of the right foot through its stance, % of body weight. A peak is the largest value of the
+// first or the second half of stance where the force rises before it and falls after it. Two peaks: both, and the
+// valley between them is at least 5 % of body weight below the lower one.
+struct ForcePeaks {
+  std::optional<double> first, second;  // empty: no such peak
+  std::optional<double> valley;         // between the two; empty without both
   bool two = false;
 };
 
 // `force`: equally spaced through stance, any unit with `depth` for the 5 % of body weight.
-ForceHumps FindHumps(const std::vector<double>& force, double depth);
+ForcePeaks FindForcePeaks(const std::vector<double>& force, double depth);
 
 // A joint of the right side or the trunk that lies within 0.5 deg of an end of its range, through a share of the right
 // leg's stance.
@@ -58,7 +58,7 @@ struct DatasetComparison {
   std::string dataset, source, deviation;  // as in NormativeDataset
   double speed, stride_time;               // m/s, s
   double stance;                           // share of the cycle with more than 5 % of body weight on the foot
-  ForceHumps humps;
+  ForcePeaks peaks;
   std::vector<CurveComparison> curves;  // of the joints that the model has
 };
 
@@ -67,7 +67,7 @@ struct NormativeComparison {
   double cadence;                                                         // steps per minute
   double stance, double_support;                                          // shares of the cycle, right leg
   std::optional<double> opposite_toe_off, opposite_heel_strike, toe_off;  // % of the cycle
-  ForceHumps humps;
+  ForcePeaks peaks;
   std::vector<RestingJoint> resting;  // largest share first
   std::vector<DatasetComparison> datasets;
 };

@@ -19,11 +19,11 @@ v1::NormativeCurve::Quantity EncodeQuantity(NormativeQuantity quantity) {
   ROLLGAIT_CHECK(false);
 }
 
-void EncodeHumps(const ForceHumps& humps, v1::ForceHumps* encoded) {
-  if (humps.first) encoded->set_first_percent_bw(*humps.first);
-  if (humps.trough) encoded->set_trough_percent_bw(*humps.trough);
-  if (humps.second) encoded->set_second_percent_bw(*humps.second);
-  encoded->set_two_humps(humps.two);
+void EncodeForcePeaks(const ForcePeaks& peaks, v1::ForcePeaks* encoded) {
+  if (peaks.first) encoded->set_first_percent_bw(*peaks.first);
+  if (peaks.valley) encoded->set_valley_percent_bw(*peaks.valley);
+  if (peaks.second) encoded->set_second_percent_bw(*peaks.second);
+  encoded->set_two_peaks(peaks.two);
 }
 
 void EncodeCurve(const CurveComparison& curve, v1::NormativeCurve* encoded) {
@@ -54,7 +54,7 @@ v1::NormativeComparison EncodeNormative(const NormativeComparison& comparison) {
   if (comparison.opposite_toe_off) encoded.set_opposite_toe_off_percent(*comparison.opposite_toe_off);
   if (comparison.opposite_heel_strike) encoded.set_opposite_heel_strike_percent(*comparison.opposite_heel_strike);
   if (comparison.toe_off) encoded.set_toe_off_percent(*comparison.toe_off);
-  EncodeHumps(comparison.humps, encoded.mutable_vertical_force());
+  EncodeForcePeaks(comparison.peaks, encoded.mutable_vertical_force());
   for (const RestingJoint& resting : comparison.resting) {
     v1::RestingJoint* const joint = encoded.add_resting_joints();
     joint->set_joint(resting.joint);
@@ -69,7 +69,7 @@ v1::NormativeComparison EncodeNormative(const NormativeComparison& comparison) {
     set->set_speed_m_s(dataset.speed);
     set->set_stride_time_s(dataset.stride_time);
     set->set_stance_fraction(dataset.stance);
-    EncodeHumps(dataset.humps, set->mutable_vertical_force());
+    EncodeForcePeaks(dataset.peaks, set->mutable_vertical_force());
     for (const CurveComparison& curve : dataset.curves) EncodeCurve(curve, set->add_curves());
   }
   return encoded;

@@ -21,7 +21,7 @@ constexpr size_t kMaxPeer = 128;  // "ipv6:[...]:port" has at most 58
 Error Misconfigured(const std::string& what) {
   return {ErrorCode::kFailedPrecondition, "the door in front of this server " + what + "; its configuration must set " +
                                               kDoorPeer + " and " + kDoorCertificate +
-                                              " as docker/door/haproxy.cfg does (docs/door.md)"};
+                                              " as docker/door/haproxy.cfg does (docs/explanation/door.md)"};
 }
 
 // nullopt: not there exactly once. Empty: not there.

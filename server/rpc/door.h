@@ -11,9 +11,9 @@
 
 namespace rollgait::server {
 
-// The door is the proxy that ends TLS and HTTP/2 for a server: docs/door.md. It tells the server over a unix socket, in
-// metadata, what it knows of a client, and removes whatever the client itself sends under these names. A server without
-// a door does not read them.
+// The door is the proxy that ends TLS and HTTP/2 for a server: docs/explanation/door.md. Over a unix socket it tells
+// the server, in metadata, what it knows of a client, and removes whatever the client itself sends under these names. A
+// server without a door does not read them.
 inline constexpr char kDoorPeer[] = "x-rollgait-peer";                       // "ipv4:192.0.2.1:4711"
 inline constexpr char kDoorCertificate[] = "x-rollgait-client-certificate";  // verified; DER in base64; absent: none
 // In an answer to the door, which counts it and takes it off: the caller showed nothing that the server knows.

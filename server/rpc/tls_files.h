@@ -11,7 +11,7 @@ namespace rollgait::server {
 struct TlsFiles {
   std::string cert;       // chain, the server's own first; empty: no TLS
   std::string key;        // of the first certificate, without a passphrase
-  std::string client_ca;  // who signs clients; empty: clients show no certificate
+  std::string client_ca;  // CA bundle (PEM) for clients; empty: clients show no certificate
 };
 
 // What the files hold.

@@ -2,7 +2,7 @@
 
     python3 tests/container/check_deployments.py DIRECTORY [CERTIFICATE]
 
-The files parse; every service and pod is confined as docs/operations.md says; flags that they give to programs exist (DIRECTORY
+The files parse; every service and pod is confined as docs/how-to/operations.md says; flags that they give to programs exist (DIRECTORY
 holds what `rollgaitd --help` and `rollgait-agent --help` print, in files of these names); haproxy takes the door's configuration
 (with CERTIFICATE, name.crt beside its name.key); names that refer to each other agree.
 Prints one line a problem; exit code 1 if there is one.
@@ -36,7 +36,7 @@ FLAGS = {program: flags_of(program) for program in ("rollgaitd", "rollgait-agent
 
 def check_command(where, command):
     if command[:1] == ["haproxy"]:
-        expect(command[1:] == ["-W", "-db", "-f", "/etc/rollgait/door.cfg"], where, "does not start the door as docs/door.md says")
+        expect(command[1:] == ["-W", "-db", "-f", "/etc/rollgait/door.cfg"], where, "does not start the door as docs/explanation/door.md says")
         return
     expect(command and command[0] in FLAGS, where, f"the program {command[:1]} is none of {sorted(FLAGS)}")
     for argument in command[1:]:

@@ -1,5 +1,5 @@
 // Every method of every service of a server that asks for certificates and tokens, called by everyone who may not, and
-// by one who may. Prints the matrix that docs/security.md shows.
+// by one who may. Prints the matrix that docs/explanation/security.md shows.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/dynamic_message.h>
 #include <gtest/gtest.h>

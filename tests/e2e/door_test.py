@@ -1,9 +1,9 @@
-"""The door of docs/door.md: rollgaitd behind haproxy with TLS and tokens, good calls during every attack, and that the
+"""The door of docs/explanation/door.md: rollgaitd behind haproxy with TLS and tokens, good calls during every attack, and that the
 server learns who calls from the door alone.
 
   door_test.py [TEST...]    environment: ROLLGAITD, SLOW_SOLVER, ROLLGAIT_SOURCE; exit code 77: haproxy is missing
 
-Asserts answers and memory, not times; prints a row of docs/door.md's table for each attack.
+Asserts answers and memory, not times; prints a row of docs/explanation/door.md's table for each attack.
 """
 import json
 import os

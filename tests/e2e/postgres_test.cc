@@ -18,7 +18,7 @@ namespace {
 
 using Stub = v1::GaitService::Stub;
 
-// A rollgait-agent as on another machine: it shares nothing with the others but the database.
+// A rollgait-agent as on another machine: the database is all that it has in common with the others.
 class FarAgent {
  public:
   FarAgent(const std::string& url, const std::string& work_dir) {

@@ -19,7 +19,7 @@ set(errors "")
 
 # Every file a person wrote, wherever git is absent too; build trees and pictures excepted.
 file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/*")
-list(FILTER files EXCLUDE REGEX "^build/|^[.]git(/|$)|[.](png|jpg|svg|ico)$")
+list(FILTER files EXCLUDE REGEX "^build/|^[.]git(/|$)|[.](png|jpg|webp|svg|ico)$")
 
 foreach(file ${files})
   set(path "${ROOT}/${file}")

@@ -34,7 +34,7 @@ class Connection:
     """How to reach a server. Every field has the meaning of the command line's flag of that name.
 
     server     "HOST:PORT" or "unix:PATH". Default: ROLLGAIT_SERVER, else 127.0.0.1:50051.
-    tls_ca     PEM file of who signs the server. Default beyond loopback: the authorities of grpcio.
+    tls_ca     CA bundle (PEM) for the server's certificate. Default beyond loopback: that of grpcio.
     tls_cert, tls_key   PEM files of this client, both or none.
     token_file File with the token. Default: the token in ROLLGAIT_TOKEN, else none.
     insecure   Speak plain text beyond loopback. Refused with a token.

@@ -163,8 +163,8 @@ function accuracy() {
 // Figures of the gait cycle beside those of people.
 const peaks = (force) =>
   force
-    ? [force.firstPercentBw, force.troughPercentBw, force.secondPercentBw].map((v) => fmt(v, 3)).join(" / ") +
-      (force.twoHumps ? "" : " (no two peaks)")
+    ? [force.firstPercentBw, force.valleyPercentBw, force.secondPercentBw].map((v) => fmt(v, 3)).join(" / ") +
+      (force.twoPeaks ? "" : " (no two peaks)")
     : "–";
 
 function normative() {

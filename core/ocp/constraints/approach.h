@@ -7,7 +7,7 @@ namespace rollgait {
 
 // A surface that an impact stops came from above:  n · J(q) (v⁺ − v⁻) ≥ 0, m/s, one row, since J v⁺ = 0. On the z of a
 // jump (OptimalControlProblem::JumpLayout), where v⁺ − v⁻ stands in the place of the accelerations.  Source:
-// docs/contact_changes.md.
+// docs/explanation/contact_changes.md.
 class ApproachConstraint : public PointConstraint {
  public:
   ApproachConstraint(const Model& model, const std::vector<ContactSurface>& contacts, int contact,

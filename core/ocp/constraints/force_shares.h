@@ -12,7 +12,7 @@ namespace rollgait {
 // Without it the forces along the line that joins two contacts were free, since the motion does not depend on them. Of
 // all divisions this one is within the friction pyramids wherever a division along x is that leaves the other
 // components alone, it is unique, and it is continuous where a contact is taken up or given up without force. Source:
-// docs/contact_changes.md.
+// docs/explanation/contact_changes.md.
 class ForceSharesConstraint : public PointConstraint {
  public:
   // One contact's share among all of its link: offsets of f_x and f_n relative to PointLayout::force().

@@ -1,6 +1,6 @@
-// What docs/contact_changes.md states: how far the Delassus matrix of the walkers couples normal and tangential
-// directions, and that the optimum of the preset human does not depend on mesh and scheme where forces vanish with
-// their contacts.
+// States of docs/explanation/contact_changes.md: how far the Delassus matrix of the walkers couples normal and
+// tangential directions, and that the optimum of the preset human does not depend on mesh and scheme where forces
+// vanish with their contacts.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -26,7 +26,7 @@ GaitRequest Human(const char* model, Scheme scheme, int intervals, double slope_
   return request;
 }
 
-// Without the condition: 0.186, 0.189 and 0.195 (docs/contact_changes.md), 5 % apart.
+// Without the condition: 0.186, 0.189 and 0.195 (docs/explanation/contact_changes.md), 5 % apart.
 TEST(ContactChanges, TheOptimumOfThePresetHumanIsThatOfEveryMeshAndScheme) {
   std::vector<double> objectives;
   for (const auto& [scheme, intervals] : {std::pair(Scheme::kRadau2, 64), std::pair(Scheme::kRadau2, 128),

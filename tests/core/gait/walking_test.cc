@@ -141,7 +141,7 @@ TEST(Preset, HumanResemblesPeople) {
   ASSERT_TRUE(people);
   EXPECT_GT(people->stance, 0.58);
   EXPECT_LT(people->stance, 0.64);
-  EXPECT_TRUE(people->humps.two);
+  EXPECT_TRUE(people->peaks.two);
   EXPECT_TRUE(people->resting.empty() || people->resting[0].share < 0.1);
   int angles = 0, moments = 0;
   for (const DatasetComparison& set : people->datasets) {

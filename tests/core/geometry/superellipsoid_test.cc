@@ -31,7 +31,7 @@ TEST(SuperellipsoidTest, RefusesWhatItCannotCompute) {
   EXPECT_TRUE(Superellipsoid::Create({0.1, 0.2, 0.3}, 0.05, 1.95).ok());
 }
 
-// Exponents 1: the ellipsoid, by formulas that share nothing with its own; on coordinate planes and poles, too.
+// Exponents 1: the ellipsoid, by independent formulas; on coordinate planes and poles, too.
 TEST(SuperellipsoidTest, WithExponentsOneItIsTheEllipsoidEverywhere) {
   SeededRandom random(5);
   const Vector3 axes(0.3, 1.7, 0.6);

@@ -1,4 +1,4 @@
-// People's own curves put into a trajectory come out without distance; moments against statics; humps by hand.
+// People's own curves put into a trajectory come out without distance; moments against statics; peaks by hand.
 #include "core/validation/normative.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::vector<double> Wave(double size, double phase, double center) {
   return values;
 }
 
-// A walk beside people.
+// The comparison of a walk with normative data.
 NormativeComparison CompareWalk(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity) {
   const auto events = MeasureGaitEvents(scene, trajectory, gravity);
   EXPECT_TRUE(events);
@@ -85,10 +85,10 @@ TEST_P(PeopleTest, TheirOwnWalkHasNoDistance) {
       if (curve.joint == "foot") continue;
       EXPECT_NEAR(curve.min, curve.normative_min, 1e-6) << curve.joint;
     }
-    EXPECT_TRUE(people.humps.two);
-    EXPECT_NEAR(people.humps.first.value(), own.humps.first.value(), 1e-6);
-    EXPECT_NEAR(people.humps.trough.value(), own.humps.trough.value(), 1e-6);
-    EXPECT_NEAR(people.humps.second.value(), own.humps.second.value(), 1e-6);
+    EXPECT_TRUE(people.peaks.two);
+    EXPECT_NEAR(people.peaks.first.value(), own.peaks.first.value(), 1e-6);
+    EXPECT_NEAR(people.peaks.valley.value(), own.peaks.valley.value(), 1e-6);
+    EXPECT_NEAR(people.peaks.second.value(), own.peaks.second.value(), 1e-6);
   }
 }
 
@@ -238,17 +238,17 @@ TEST(CurveDistanceTest, KnownAnswers) {
   EXPECT_EQ(MeasureDistance(std::vector<double>(wave.size(), 2), wave, deviation).correlation, 0);
 }
 
-TEST(ForceHumpsTest, ByHand) {
-  const ForceHumps two = FindHumps({0, 50, 110, 90, 70, 80, 105, 60, 0}, 5);
+TEST(ForcePeaksTest, ByHand) {
+  const ForcePeaks two = FindForcePeaks({0, 50, 110, 90, 70, 80, 105, 60, 0}, 5);
   EXPECT_TRUE(two.two);
   EXPECT_EQ(two.first, 110);
-  EXPECT_EQ(two.trough, 70);
+  EXPECT_EQ(two.valley, 70);
   EXPECT_EQ(two.second, 105);
-  EXPECT_FALSE(FindHumps({0, 50, 110, 105, 103, 104, 107, 60, 0}, 5).two);  // too shallow
-  const ForceHumps one = FindHumps({0, 20, 50, 80, 100, 80, 50, 20, 0}, 5);
+  EXPECT_FALSE(FindForcePeaks({0, 50, 110, 105, 103, 104, 107, 60, 0}, 5).two);  // too shallow
+  const ForcePeaks one = FindForcePeaks({0, 20, 50, 80, 100, 80, 50, 20, 0}, 5);
   EXPECT_FALSE(one.first);
   EXPECT_FALSE(one.two);
-  EXPECT_FALSE(FindHumps({150, 120, 110, 90, 70, 80, 105, 60, 0}, 5).first);  // falls from the first instant on
+  EXPECT_FALSE(FindForcePeaks({150, 120, 110, 90, 70, 80, 105, 60, 0}, 5).first);  // falls from the first instant on
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ NormativeComparison Comparison() {
   people.double_support = 6;
   people.opposite_toe_off = 7;
   people.toe_off = 8;
-  people.humps = {.first = 9, .second = 11, .trough = 10, .two = true};
+  people.peaks = {.first = 9, .second = 11, .valley = 10, .two = true};
   people.resting = {{"knee_r", true, 0.25}};
   DatasetComparison set{"set", "source", "between", 12, 13, 14, {15, std::nullopt, std::nullopt, false}, {}};
   set.curves.push_back({NormativeQuantity::kMoment, "hip", {16, 17}, {18, 19}, {20, 21}, {22, 23, 24}, 25, 26, 27, 28});
@@ -35,9 +35,9 @@ TEST(EncodeNormative, EveryFigureOfTheCycleArrives) {
   EXPECT_FALSE(people.has_opposite_heel_strike_percent());
   EXPECT_EQ(people.toe_off_percent(), 8);
   EXPECT_EQ(people.vertical_force().first_percent_bw(), 9);
-  EXPECT_EQ(people.vertical_force().trough_percent_bw(), 10);
+  EXPECT_EQ(people.vertical_force().valley_percent_bw(), 10);
   EXPECT_EQ(people.vertical_force().second_percent_bw(), 11);
-  EXPECT_TRUE(people.vertical_force().two_humps());
+  EXPECT_TRUE(people.vertical_force().two_peaks());
   ASSERT_EQ(people.resting_joints_size(), 1);
   EXPECT_EQ(people.resting_joints(0).joint(), "knee_r");
   EXPECT_TRUE(people.resting_joints(0).at_max());
@@ -55,7 +55,7 @@ TEST(EncodeNormative, EveryFigureOfACurveArrives) {
   EXPECT_EQ(set.stride_time_s(), 13);
   EXPECT_EQ(set.stance_fraction(), 14);
   EXPECT_EQ(set.vertical_force().first_percent_bw(), 15);
-  EXPECT_FALSE(set.vertical_force().has_trough_percent_bw());
+  EXPECT_FALSE(set.vertical_force().has_valley_percent_bw());
   ASSERT_EQ(set.curves_size(), 1);
   const v1::NormativeCurve& curve = set.curves(0);
   EXPECT_EQ(curve.quantity(), v1::NormativeCurve::QUANTITY_MOMENT);

@@ -33,7 +33,7 @@ TEST(DoorTest, ThePeerIsStatedExactlyOnce) {
     const Outcome<std::string> peer = PeerBehindDoor(bad);
     ASSERT_FALSE(peer.ok());
     EXPECT_EQ(peer.error().code, ErrorCode::kFailedPrecondition);
-    EXPECT_NE(peer.error().message.find("docs/door.md"), std::string::npos);
+    EXPECT_NE(peer.error().message.find("docs/explanation/door.md"), std::string::npos);
   }
 }
 

@@ -1,6 +1,6 @@
-# Shows that check_floors.cmake can fail: copies the sources, plants one bad include at a time and expects a refusal
+# Shows that check_layers.cmake can fail: copies the sources, plants one bad include at a time and expects a refusal
 # that names the file and the header.
-#   cmake -DROOT=<repository> -DWORK=<directory to use> -P tests/check_floors_red.cmake
+#   cmake -DROOT=<repository> -DWORK=<directory to use> -P tests/check_layers_red.cmake
 cmake_minimum_required(VERSION 3.25)
 
 set(PLANTS
@@ -14,7 +14,7 @@ set(PLANTS
   "core/gait/planted.cc"         "coin/IpTNLP.hpp"
   "core/gait/planted.cc"         "IpIpoptApplication.hpp"
   "core/gait/planted.cc"         "tests/support/planted.h"
-  "core/attic/planted.cc"        "core/base/types.h"                 # a floor nobody declared
+  "core/attic/planted.cc"        "core/base/types.h"                 # a layer nobody declared
   "core/math/planted.cc"         "planted.h"                         # not from the root
   "server/store/planted.cc"      "server/service/planted.h"
   "server/service/planted.cc"    "grpcpp/grpcpp.h"
@@ -30,7 +30,7 @@ file(MAKE_DIRECTORY "${WORK}")
 file(COPY "${ROOT}/core" "${ROOT}/server" "${ROOT}/client" DESTINATION "${WORK}")
 
 function(run_check)
-  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${ROOT}/tests/check_floors.cmake"
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${ROOT}/tests/check_layers.cmake"
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   set(result "${result}" PARENT_SCOPE)
   string(REGEX REPLACE "[ \n]+" " " output "${output}")  # CMake wraps long lines

@@ -1,14 +1,14 @@
 # Reads every #include under core/, server/ and client/ and fails on one that the tables below do not allow.
-#   cmake -DROOT=<repository> -P tests/check_floors.cmake
-# The tables are the law; docs/life_of_a_request.md says why the house is built this way.
+#   cmake -DROOT=<repository> -P tests/check_layers.cmake
+# The tables are the law; docs/explanation/life_of_a_request.md says why the house is built this way.
 
 cmake_minimum_required(VERSION 3.25)
 if(NOT IS_DIRECTORY "${ROOT}")
   message(FATAL_ERROR "Say where the repository is: cmake -DROOT=<repository> -P ${CMAKE_CURRENT_LIST_FILE}")
 endif()
 
-# What a floor may include besides itself. Not in the list: not allowed, so every edge points one way.
-set(CORE_FLOORS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)
+# What a layer may include besides itself. Not in the list: not allowed, so every edge points one way.
+set(CORE_LAYERS base math geometry multibody nlp contact simulation models ocp trajectory transcription validation gait)
 set(core_base)
 set(core_math base)
 set(core_geometry base math)
@@ -87,8 +87,8 @@ function(check_edge file header)
   if(target_house MATCHES "^(tests|bench)$")
     set(problem "the product does not include ${target_house}/" PARENT_SCOPE)
   elseif(house STREQUAL "core")
-    if(NOT part IN_LIST CORE_FLOORS)
-      set(problem "core/${part} is not a floor of the table" PARENT_SCOPE)
+    if(NOT part IN_LIST CORE_LAYERS)
+      set(problem "core/${part} is not a layer of the table" PARENT_SCOPE)
     elseif(NOT target_house STREQUAL "core")
       set(problem "core knows no ${target_house}" PARENT_SCOPE)
     elseif(NOT target_part STREQUAL part AND NOT target_part IN_LIST core_${part})
@@ -137,6 +137,6 @@ endforeach()
 
 if(errors)
   list(JOIN errors "\n  " text)
-  message(FATAL_ERROR "Includes that the floors do not allow:\n  ${text}")
+  message(FATAL_ERROR "Includes that the layers do not allow:\n  ${text}")
 endif()
-message(STATUS "${edge_count} includes in ${file_count} files keep to the floors.")
+message(STATUS "${edge_count} includes in ${file_count} files keep to the layers.")
