@@ -167,8 +167,9 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   request.set_validate_only(options.validate_only);
 
   RequireOneDocument(options.output, global.json);
+  const bool document_alone = IsStandardOutput(options.output);  // in place of the samples
   std::optional<SimulationDocument> document;
-  if (!options.output.empty() && !options.validate_only)
+  if (!options.output.empty() && !document_alone && !options.validate_only)
     document.emplace(options.output, request.scene(), terminal.out);
   grpc::ClientContext context;
   const Interrupt interrupt([&](int) { context.TryCancel(); });
@@ -182,7 +183,6 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
     if (!global.quiet) terminal.out << "the scene is valid" << std::endl;
     return ExitCode::kSuccess;
   }
-  const bool document_alone = IsStandardOutput(options.output);  // in place of the samples
   std::optional<SampleWriter> writer;
   v1::SimulationMessage message;
   v1::SimulationReport report;
@@ -190,6 +190,8 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   while (stream->Read(&message)) {
     if (!writer && !document_alone) writer.emplace(request.scene(), global.json, terminal.out);
     if (writer) writer->Write(message);
+    // Standard output gets nothing of a scene that is refused.
+    if (document_alone && !document) document.emplace(options.output, request.scene(), terminal.out);
     if (document) document->Add(message);
     if (live && message.has_samples()) {
       const double time = message.samples().samples(message.samples().samples_size() - 1).time_s();

@@ -58,6 +58,14 @@ TEST_F(ReproducePaperTest, AsksForThreeSlopesAndWritesThePage) {
   EXPECT_THAT(text.str(), HasSubstr("\"squared_torque_n2m2s\""));
 }
 
+TEST_F(ReproducePaperTest, ThePageMayGoToStandardOutput) {
+  ClientProcess client(Arguments({"--model", "planar", "-o", "-"}));
+  EXPECT_EQ(client.Wait(), 0) << client.err();
+  EXPECT_THAT(client.out(), testing::StartsWith("<!doctype html>"));
+  EXPECT_THAT(client.err(), HasSubstr("Torque consumption is larger downhill than uphill."));
+  EXPECT_THAT(client.err(), Not(HasSubstr("written: ")));
+}
+
 TEST_F(ReproducePaperTest, JsonIsTheData) {
   ClientProcess client(Arguments({"--json", "--model", "planar"}));
   EXPECT_EQ(client.Wait(), 0) << client.err();

@@ -156,6 +156,20 @@ TEST_F(SimulateCommandTest, OutputIsADocumentBesideTheData) {
   EXPECT_EQ(whole.report().end_time_s(), 0.2);
 }
 
+TEST_F(SimulateCommandTest, TheDocumentMayTakeThePlaceOfTheData) {
+  const Ended ended = Run({"simulate", "--scene", Scene("good"), "-o", "-"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  v1::Simulation whole;
+  const auto status = google::protobuf::util::JsonStringToMessage(ended.out, &whole);
+  ASSERT_TRUE(status.ok()) << status.ToString();
+  EXPECT_EQ(whole.samples_size(), 3);
+  EXPECT_EQ(whole.report().end_time_s(), 0.2);
+  const Ended refused = Run({"simulate", "--scene", Scene("refused"), "-o", "-"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_EQ(Run({"simulate", "--json", "--scene", Scene("good"), "-o", "-"}).code, 2);
+}
+
 TEST_F(SimulateCommandTest, NoDocumentWithoutAWholeRun) {
   const std::string path = testing::TempDir() + "rollgait_simulate_none.json";
   std::filesystem::remove(path);
