@@ -18,7 +18,7 @@ constexpr char kSolveArgument[] = "solves/ID or ID, or a .json file of --output"
 void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.add_option("--server", global.server, "HOST:PORT of the server")->capture_default_str();
   app.add_option("--tls-ca", global.tls_ca,
-                 "Speak TLS; who signs the server, PEM; default beyond loopback: the system's authorities");
+                 "Speak TLS; CA bundle (PEM) that signs the server; default beyond loopback: the system's");
   app.add_option("--tls-cert", global.tls_cert, "Certificate of this client, PEM");
   app.add_option("--tls-key", global.tls_key, "Private key of --tls-cert, PEM");
   app.add_option("--token-file", global.token_file, "File with the token for the server; default: ROLLGAIT_TOKEN");
@@ -27,7 +27,7 @@ void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.add_flag("--json", global.json,
                "Proto3 JSON on standard output; solve and watch: one object a line, the Solve last");
   app.add_flag("-q,--quiet", global.quiet, "No progress, no summary: data and errors only");
-  app.add_option("--timeout", global.timeout_s, "Longest wait for the answer of one call, s")
+  app.add_option("--timeout", global.timeout_s, "RPC deadline, s; streams have none")
       ->check(CLI::Range(0.001, 86400.0))
       ->capture_default_str();
   app.set_version_flag("--version", "rollgait " ROLLGAIT_VERSION);

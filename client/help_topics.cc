@@ -41,7 +41,7 @@ std::string FormatLines() {
     text += "  " + format.name + std::string(format.name.size() < 10 ? 10 - format.name.size() : 1, ' ') + ending +
             std::string(ending.size() < 8 ? 8 - ending.size() : 1, ' ') + format.what + "\n";
   }
-  return text + "docs/formats.md has their axes, units and names.\n";
+  return text + "docs/reference/formats.md has their axes, units and names.\n";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ class App;
 
 namespace rollgait::server {
 
-// What a server keeps, for how long, and what it leaves free: docs/stores.md.
+// What a server keeps, for how long, and what it leaves free: docs/explanation/stores.md.
 struct StorageFlags {
   double keep_solves_days = 0, keep_events_days = 0, keep_audit_days = 0;
   int64_t keep_solves_mb = 0, reserve_mb = 64;

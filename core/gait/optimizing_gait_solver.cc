@@ -30,7 +30,7 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   }
   const double needed = std::hypot(spec.gravity.x(), spec.gravity.y()) / std::abs(spec.gravity.z());
   if (needed <= spec.friction_coefficient) return std::nullopt;
-  return UnmetConstraint{"friction, mean over the motion", 0, 0, needed - spec.friction_coefficient, "1"};
+  return UnmetConstraint{"mean friction", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
 // From the requested starts, and on a slope that these do not reach by continuation.
@@ -112,7 +112,10 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;
     solution.message =
-        "No motion can meet the request: without sliding, the ground must carry the weight at this slope.";
+        "No motion can meet the request: to carry the weight without sliding, the ground must provide a friction "
+        "coefficient of at least " +
+        FormatNumber(spec.friction_coefficient + contradiction->violation) + "; it provides " +
+        FormatNumber(spec.friction_coefficient) + ".";
     solution.unmet_constraints = {*contradiction};
     return solution;
   }

@@ -60,7 +60,7 @@ void ExpectCommands(const std::string& page, size_t at_least) {
   }
 }
 
-TEST(CommandLineDocsTest, CommandsOfThePageParse) { ExpectCommands("docs/command_line.md", 12); }
+TEST(CommandLineDocsTest, CommandsOfThePageParse) { ExpectCommands("docs/how-to/command_line.md", 12); }
 TEST(CommandLineDocsTest, CommandsOfTheReadmeParse) { ExpectCommands("README.md", 8); }
 
 TEST(CommandLineDocsTest, AWrongCommandIsSeen) {
