@@ -48,6 +48,19 @@ class Solving(unittest.TestCase):
         self.assertEqual(draft.verdict, "not judged")
         self.assertIsNone(draft.criteria["max_slip_m_s"].bound)
 
+    def test_estimates_errors_where_they_are_asked_for(self):
+        self.assertEqual(gait.errors, {})
+        coarse = client.solve("planar", accuracy="draft", intervals=8, estimate_errors=True, progress=False)
+        angle = coarse.errors["joint angle"]
+        self.assertEqual(angle.unit, "rad")
+        self.assertIn(angle.where, coarse.joints)
+        fine = client.solve("planar", accuracy="draft", intervals=8, max_error={"angle_rad": angle.largest / 2},
+                            progress=False)
+        self.assertTrue(fine.solve.result.errors.within_max_error, fine.solve.result.message)
+        self.assertLess(fine.errors["joint angle"].largest, angle.largest / 2)
+        with self.assertRaisesRegex(ValueError, "angle_rad"):
+            client.solve("planar", max_error={"angel": 1})
+
     def test_shows_every_iteration_in_order(self):
         events = []
         client.wait(gait.name, progress=events.append)
