@@ -60,8 +60,9 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   void Wake();
   // Takes what is new and starts a write or ends the stream. On the executor.
   void Pump();
+  // Ends the stream instead if its reader holds too many unread answers: what waits for the first event to be read is
+  // held too.
   void Send(WatchBatch batch);
-  // Ends the stream instead if its reader holds too many unread answers.
   void StartNextWrite();
   // Ends the stream once; later calls do nothing. Needs the lock.
   void End(const grpc::Status& status);
