@@ -40,6 +40,11 @@ Outcome<WatchStream::Target> WatchStream::FindTarget() {
   Outcome<Target> target = plan_.find(admission_->caller());
   admission_->WorkIsMade();
   if (target.ok()) {
+    const Outcome<Done> room = admission_->answer().Hold(target.value().bytes);
+    if (!room.ok()) return room.error();
+    admission_->answer().Owe(0);
+  }
+  if (target.ok()) {
     admission_->WhenWithdrawn([weak = weak_from_this()](const Error& error) {
       if (const auto stream = weak.lock()) stream->Withdraw(error);
     });
