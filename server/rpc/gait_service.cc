@@ -155,9 +155,11 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::CallbackServerContext* context,
                                                                      const v1::WatchSolveRequest* request) {
   const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
-    Outcome<std::string> id = service_.FindOwn(caller, request->name());
+    Outcome<std::string> id = SolveId(request->name());
     if (!id.ok()) return id.error();
-    return WatchStream::Target{std::move(id).value(), request->after_sequence()};
+    const Outcome<SolveExtent> extent = service_.ExtentOfOwn(caller, id.value());
+    if (!extent.ok()) return extent.error();
+    return WatchStream::Target{std::move(id).value(), request->after_sequence(), extent.value().bytes};
   };
   return Stream(RuleOf("WatchSolve"), context, find, false);
 }

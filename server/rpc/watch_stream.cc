@@ -40,6 +40,11 @@ Outcome<WatchStream::Target> WatchStream::FindTarget() {
   Outcome<Target> target = plan_.find(admission_->caller());
   admission_->WorkIsMade();
   if (target.ok()) {
+    const Outcome<Done> room = admission_->answer().Hold(target.value().bytes);
+    if (!room.ok()) return room.error();
+    admission_->answer().Owe(0);
+  }
+  if (target.ok()) {
     admission_->WhenWithdrawn([weak = weak_from_this()](const Error& error) {
       if (const auto stream = weak.lock()) stream->Withdraw(error);
     });
@@ -124,6 +129,13 @@ void WatchStream::Pump() {
 
 void WatchStream::Send(WatchBatch batch) {
   if (slow_) batch.events = MergeIterations(batch.events);
+  int64_t bytes = 0;
+  for (const EventPtr& event : batch.events) bytes += MemoryOf(*event);
+  const Outcome<Done> held = admission_->answer().Hold(bytes);
+  if (!held.ok()) {
+    End(ToStatus(held.error()));
+    return;
+  }
   last_batch_ = batch.ended;
   waiting_.assign(batch.events.begin(), batch.events.end());
   if (waiting_.empty()) {
@@ -134,12 +146,6 @@ void WatchStream::Send(WatchBatch batch) {
 }
 
 void WatchStream::StartNextWrite() {
-  const Outcome<Done> held = admission_->answer().Hold(MemoryOf(*waiting_.front()));
-  if (!held.ok()) {
-    waiting_.clear();
-    End(ToStatus(held.error()));
-    return;
-  }
   write_start_ = std::chrono::steady_clock::now();
   StartWrite(waiting_.front().get());
 }
@@ -147,8 +153,8 @@ void WatchStream::StartNextWrite() {
 void WatchStream::OnWriteDone(bool ok) {
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_.pop_front();
+  if (waiting_.empty()) admission_->answer().Owe(0);
   if (ended_) return;
-  admission_->answer().Owe(0);
   if (!ok || cancelled_) {
     EndAsDisconnected();
     return;

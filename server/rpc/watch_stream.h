@@ -26,6 +26,7 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   struct Target {
     std::string id;
     int64_t after_sequence = 0;
+    int64_t bytes = 0;  // of the solve: the stream is refused before that is read if there is no room for it
   };
   // Finds or makes the solve to be watched. Runs on the executor.
   using Find = std::function<Outcome<Target>(const Caller&)>;
@@ -60,8 +61,9 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   void Wake();
   // Takes what is new and starts a write or ends the stream. On the executor.
   void Pump();
+  // Ends the stream instead if its reader holds too many unread answers: what waits for the first event to be read is
+  // held too.
   void Send(WatchBatch batch);
-  // Ends the stream instead if its reader holds too many unread answers.
   void StartNextWrite();
   // Ends the stream once; later calls do nothing. Needs the lock.
   void End(const grpc::Status& status);

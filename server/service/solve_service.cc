@@ -119,9 +119,8 @@ Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSo
                                            const std::function<Outcome<Done>(int64_t bytes)>& hold) {
   const Outcome<std::string> id = SolveId(request.name());
   if (!id.ok()) return id.error();
-  const Outcome<SolveExtent> extent = store_.Extent(id.value());
+  const Outcome<SolveExtent> extent = ExtentOfOwn(caller, id.value());
   if (!extent.ok()) return extent.error();
-  if (caller.sees().value_or(extent.value().tenant) != extent.value().tenant) return NoSuchSolve(id.value());
   const Outcome<Done> held = hold(extent.value().bytes);
   if (!held.ok()) return held.error();
   Outcome<SolveRecord> record = store_.Get(id.value());
@@ -228,10 +227,16 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const 
 Outcome<std::string> SolveService::FindOwn(const Caller& caller, const std::string& name) {
   Outcome<std::string> id = SolveId(name);
   if (!id.ok() || !caller.sees()) return id;
-  const Outcome<SolveExtent> extent = store_.Extent(id.value());
+  const Outcome<SolveExtent> extent = ExtentOfOwn(caller, id.value());
   if (!extent.ok()) return extent.error();
-  if (extent.value().tenant != caller.tenant) return NoSuchSolve(id.value());
   return id;
+}
+
+Outcome<SolveExtent> SolveService::ExtentOfOwn(const Caller& caller, const std::string& id) {
+  Outcome<SolveExtent> extent = store_.Extent(id);
+  if (!extent.ok()) return extent;
+  if (caller.sees().value_or(extent.value().tenant) != extent.value().tenant) return NoSuchSolve(id);
+  return extent;
 }
 
 }  // namespace rollgait::server

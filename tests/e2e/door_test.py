@@ -5,11 +5,13 @@ server learns who calls from the door alone.
 
 Asserts answers and memory, not times; prints a row of docs/explanation/door.md's table for each attack.
 """
+import contextlib
 import json
 import os
 import re
 import shutil
 import socket
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -97,9 +99,27 @@ class Server:
                  "ROLLGAIT_DOOR_SOCKET": self.directory + "/door.sock",
                  "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **door})
 
-    def token(self):
+    def token(self, tenant="lab"):
         return run(os.environ["ROLLGAITD"], "token", "create", "--data-dir", self.directory + "/data", "--tenant",
-                   "lab", "--scopes", "read,solve").strip()
+                   tenant, "--scopes", "read,solve").strip()
+
+    def long_solve(self, channel, token):
+        """The name of a finished solve of the token's tenant, with a result of 1.5 MB."""
+        metadata = (("authorization", "Bearer " + token),)
+        spec = b"\x0a\x08\x0a\x06planar"  # model.name
+        solve = ask(channel, metadata, "CreateSolve", b"\x0a" + bytes((len(spec),)) + spec)
+        name = solve[2:2 + solve[1]]
+        request, deadline = b"\x0a" + bytes((len(name),)) + name, time.monotonic() + 60
+        while b"from the test's solver" not in ask(channel, metadata, "GetSolve", request):
+            if time.monotonic() > deadline:
+                raise AssertionError("the solve does not end")
+            time.sleep(0.1)
+        with contextlib.closing(sqlite3.connect(self.directory + "/data/rollgait.db", timeout=30)) as database:
+            (result,) = database.execute("SELECT payload FROM results").fetchone()
+            message = b"\x12\x80\x80\x60" + b"x" * (96 << 14)  # SolveResult.message again: the last one counts
+            database.execute("UPDATE results SET payload = ?", (result + message,))
+            database.commit()
+        return name.decode()
 
     def stop(self):
         for process in (self.haproxy, self.rollgaitd):
@@ -172,17 +192,22 @@ class DoorTest(unittest.TestCase):
 
     def test_good_calls_are_answered_during_every_attack(self):
         server = self.serve("--behind-door", "--require-token", door={})
-        token = server.token()
+        hostile = server.token("hostile")
         with open(server.directory + "/token", "w", encoding="utf-8") as file:
-            file.write(token)
-        caller = GoodCaller(server, token)  # from 127.0.0.1
+            file.write(hostile)
+        tls = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+        with grpc.secure_channel(server.address, tls, (("grpc.ssl_target_name_override", "localhost"),)) as channel:
+            solve = server.long_solve(channel, hostile)
+        caller = GoodCaller(server, server.token())  # from 127.0.0.1, another tenant
         caller.start()
         attacks = ["continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections",
-                   "half_handshakes", "half_calls", "half_bodies", "unread_refusals", "unread_answers"]
+                   "half_handshakes", "half_calls", "half_bodies", "unread_refusals", "unread_answers",
+                   "unread_results", "unread_watches"]
         print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB |")
         try:
             for number, name in enumerate(attacks):
-                more = ("--token", server.directory + "/token") if name == "unread_answers" else ()
+                legal = name.startswith("unread_") and name != "unread_refusals"
+                more = ("--token", server.directory + "/token", "--solve", solve) if legal else ()
                 caller.times.clear()
                 made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
                                    *more)
@@ -198,6 +223,23 @@ class DoorTest(unittest.TestCase):
             caller.stopping.set()
             caller.join()
         self.assertEqual(caller.failures, [])
+
+    def test_unread_results_are_bounded_without_the_door_too(self):
+        """Two connections of 2000 streams each took 5.9 GB. Refusals that nobody reads, of more of them, are the door's to
+        bound."""
+        server = self.serve("--require-token")
+        token, hostile = server.token(), server.token("hostile")
+        with open(server.directory + "/token", "w", encoding="utf-8") as file:
+            file.write(hostile)
+        with grpc.insecure_channel(server.address) as channel:
+            solve = server.long_solve(channel, hostile)
+            for name in ("unread_results", "unread_watches"):
+                self.attack(name, server, "127.0.0.2", "--token", server.directory + "/token", "--solve", solve,
+                            "--connections", "2", "--streams", "2000")
+                peak = memory(server.rollgaitd)
+                print(f"| {name} without the door | rollgaitd {peak} MiB |", flush=True)
+                self.assertLess(peak, MOST_MIB, name)
+                ask(channel, (("authorization", "Bearer " + token),))
 
     def test_without_the_door_the_attack_is_felt(self):
         """What the test above would see if the door did not hold."""

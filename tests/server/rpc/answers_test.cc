@@ -22,10 +22,11 @@ Gatekeeper::Options SmallBudget() {
   return options;
 }
 
-// A call whose request is sent and whose answer is not read: flow control stops the server after 64 KiB.
+// A call whose request is sent and whose answer is not read: flow control stops the server after so many bytes.
+constexpr int kWindow = 64;
 class UnreadCall {
  public:
-  UnreadCall(RpcBench& bench, const std::string& method, const std::string& request) : stub_(bench.channel()) {
+  UnreadCall(RpcBench& bench, const std::string& method, const std::string& request) : stub_(Channel(bench)) {
     stream_ = stub_.PrepareCall(&context_, method, &queue_);
     stream_->StartCall(nullptr);
     Wait();
@@ -56,6 +57,13 @@ class UnreadCall {
   }
 
  private:
+  // All calls share one connection. A window of less than the first event of a watch.
+  static std::shared_ptr<grpc::Channel> Channel(RpcBench& bench) {
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+    arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, kWindow);
+    return grpc::CreateCustomChannel(bench.server().address(), grpc::InsecureChannelCredentials(), arguments);
+  }
   bool Wait() {
     void* tag = nullptr;
     bool ok = false;
@@ -99,8 +107,8 @@ std::vector<std::unique_ptr<UnreadCall>> OpenUntilRefused(RpcBench& bench, const
   const auto budget = bench.gatekeeper().answers();
   std::vector<std::unique_ptr<UnreadCall>> calls;
   for (int i = 0; i < 20 && budget->refused()[AnswerBudget::kConnection] == 0; ++i) {
-    calls.push_back(std::make_unique<UnreadCall>(bench, method, request));
     const int64_t before = budget->held();
+    calls.push_back(std::make_unique<UnreadCall>(bench, method, request));
     Eventually([&] { return budget->held() > before + kMiB / 2 || budget->refused()[AnswerBudget::kConnection] > 0; });
   }
   return calls;
