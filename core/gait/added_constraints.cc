@@ -12,6 +12,7 @@ namespace {
 constexpr int kSamples = 16;  // an interval; what they miss of the largest excess, the finding names
 // Of the bound: a joint so close to it would violate it on the next mesh.
 constexpr double kNear = 0.5;
+constexpr double kFlatSideShare = 1e-3;  // of the objective
 
 template <typename T>
 bool Insert(const T& value, std::vector<T>* values) {
@@ -81,10 +82,14 @@ void KeepApart(const std::vector<int>& pairs, AddedConstraints* added) {
   for (int pair : pairs) Insert(pair, &added->separated);
 }
 
-bool AddFrictionEdges(const std::vector<FlatSide>& sides, double objective, double share, AddedConstraints* added) {
+double LeastCostOfASide(const GaitSpec& spec, double objective, double typical) {
+  return std::max(kFlatSideShare * std::abs(objective), spec.kkt_tolerance * typical);
+}
+
+bool AddFrictionEdges(const std::vector<FlatSide>& sides, double least_cost, AddedConstraints* added) {
   bool any = false;
   for (const FlatSide& flat : sides) {
-    if (!(flat.cost > share * std::abs(objective))) continue;
+    if (!(flat.cost > least_cost)) continue;
     const double step = 2 * std::numbers::pi / FrictionEdge::kDirections;
     const int direction = static_cast<int>(std::lround(flat.direction / step));
     if (direction <= flat.side.from || direction >= flat.side.to) continue;

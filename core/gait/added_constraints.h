@@ -19,12 +19,13 @@ bool AddViolated(const GaitSpec& spec, const Trajectory& trajectory, const Accur
 // The same for the distances of pairs of bodies that overlap, unless the request has no bound on overlap.
 bool AddOverlapping(const GaitSpec& spec, const AccuracyReport& report, AddedConstraints* added);
 
-// What one flat side of a friction pyramid may cost before it gets an edge, as a share of the objective.
-constexpr double kFlatSideShare = 1e-3;
+// What one flat side of a friction pyramid may cost before it gets an edge, in units of the objective: a thousandth of
+// it, and no less than the tolerance of the solve leaves open. `typical`: CollocationNlp::typical_objective.
+double LeastCostOfASide(const GaitSpec& spec, double objective, double typical);
 
-// Gives each side that costs more than `share` of the objective a new edge, at the multiple of 5° next to where the
-// force meets the cone. Returns whether any edge is new: a side none of whose inner directions is that multiple stays.
-bool AddFrictionEdges(const std::vector<FlatSide>& sides, double objective, double share, AddedConstraints* added);
+// Gives each side that costs more than `least_cost`, in units of the objective, a new edge, at the multiple of 5° next
+// to where the force meets the cone. Returns whether any edge is new: a side stays if that multiple is not inside it.
+bool AddFrictionEdges(const std::vector<FlatSide>& sides, double least_cost, AddedConstraints* added);
 
 // Adds the distances of these pairs (indices into Scene::pairs).
 void KeepApart(const std::vector<int>& pairs, AddedConstraints* added);

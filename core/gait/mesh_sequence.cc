@@ -182,9 +182,10 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     }
     if (!Converged(result.termination)) break;
     const bool is_artefact = IsArtefact(spec, solution);
-    const bool has_new_edges = !is_artefact && !spec.is_only_a_start &&
-                               AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
-                                                solution.objective, kFlatSideShare, &added);
+    const bool has_new_edges =
+        !is_artefact && !spec.is_only_a_start &&
+        AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
+                         LeastCostOfASide(spec, solution.objective, nlp.typical_objective()), &added);
     if (IsDone(solution)) {
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;

@@ -85,7 +85,7 @@ void Append(const std::vector<MeshStatistics>& more, std::vector<MeshStatistics>
 // One sketch on the requested mesh, carried through charts. The statistics of all programs go to `meshes`.
 Attempt Try(const GaitSpec& spec, RollingPath path, SolveBudget* budget, std::vector<MeshStatistics>* meshes) {
   GaitSpec rough = spec;
-  rough.max_refinements = 0;
+  LeaveTheRest(&rough);
   rough.bounds = NoBounds();
   Attempt attempt;
   for (int k = 0; k < kMostCharts && budget->Left(); ++k) {

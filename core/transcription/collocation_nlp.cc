@@ -78,9 +78,8 @@ void CollocationNlp::SetDenominator() {
 void CollocationNlp::ScaleObjective() {
   double typical = 0;
   for (const CostDescription& cost : problem_.costs) typical += cost.weight * cost.Typical();
-  // Integrals are per second; a metre takes about a second. 100 keeps the curvature of one node of a fine mesh well
-  // above the regularisation that Ipopt adds.
-  objective_scale_ = typical > 0 ? 100 / typical : 1;
+  // Integrals are per second; a metre takes about a second.
+  objective_scale_ = typical > 0 ? kTypicalScaled / typical : 1;
 }
 
 int CollocationNlp::GlobalColumn(int interval, int local) const {

@@ -65,6 +65,8 @@ class CollocationNlp : public NlpProblem {
   const AddedConstraints& added() const { return added_; }
   // f of the NLP = objective_scale() · (weighted sum of integrals / denominator).
   double objective_scale() const { return objective_scale_; }
+  // The order of magnitude of the objective in walking, in its own units.
+  double typical_objective() const { return kTypicalScaled / objective_scale_; }
 
   VectorX MakeStart(const MotionGuess& guess) const;
   // Fills the multipliers of `start` from those of a solution of the same problem on another mesh.
@@ -131,6 +133,9 @@ class CollocationNlp : public NlpProblem {
   int rows_ = 0, first_entry_row_ = 0, first_jump_row_ = 0, first_linear_row_ = 0;
   VectorX lower_, upper_, row_lower_, row_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
+  // The scaled objective in walking: it keeps the curvature of one node of a fine mesh well above the regularisation
+  // that Ipopt adds.
+  static constexpr double kTypicalScaled = 100;
   double objective_scale_ = 1;
 
   VectorX integrals_, weights_, local_gradient_, cost_gradient_;

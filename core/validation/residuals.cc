@@ -10,6 +10,9 @@
 namespace rollgait {
 namespace {
 
+// Of the kinetic and potential energy: what rounding may add to them. A body at rest does no work to compare it with.
+constexpr double kEnergyRounding = 1e-13;
+
 // Gauss–Legendre quadrature on [0, 1] with 4 points, exact to degree 7; power has degree 2s − 1 <= 5.
 constexpr int kGaussPoints = 4;
 constexpr double kGaussNodes[kGaussPoints] = {0.0694318442029737123880267555535953, 0.330009478207571867598667120448378,
@@ -86,7 +89,7 @@ double EndError(const Scene& scene, const BodyDynamics& dynamics, const Trajecto
 
 BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, const Trajectory& trajectory,
                               const Vector3& gravity, FindingLog* log) {
-  double work = 0, positive = 0, negative = 0, largest_kinetic = 0;
+  double work = 0, positive = 0, negative = 0, largest_kinetic = 0, largest_energy = 0;
   Vector3 impulse = Vector3::Zero();
   struct IntervalBalance {
     Instant start;
@@ -106,7 +109,9 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
       dynamics.ComputeState(phase.node_positions.col(k), phase.node_velocities.col(k), &state);
       const double kinetic = dynamics.KineticEnergy(state);
       RaiseTo(kinetic, &largest_kinetic);
-      after = {kinetic + dynamics.PotentialEnergy(state, gravity), dynamics.LinearMomentum(state)};
+      const double potential = dynamics.PotentialEnergy(state, gravity);
+      RaiseTo(kinetic + std::abs(potential), &largest_energy);
+      after = {kinetic + potential, dynamics.LinearMomentum(state)};
       if (p == 0 && k == 0) first = after;
       if (k > 0) {
         const IntervalPolynomials interval(trajectory, p, k - 1);
@@ -138,7 +143,10 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
   RaiseTo(std::abs(after.energy - first.energy - work), &errors.energy);
   const double done = std::max(positive, negative);
   const double scale = done > 0 ? done : largest_kinetic;
-  const auto relative = [scale](double energy) { return energy == 0 ? 0.0 : scale > 0 ? energy / scale : kInfinity; };
+  const double rounding = kEnergyRounding * largest_energy;
+  const auto relative = [scale, rounding](double energy) {
+    return energy <= rounding ? 0.0 : scale > 0 ? energy / scale : kInfinity;
+  };
   errors.energy_relative = relative(errors.energy);
   RaiseTo((impulse - after.momentum + first.momentum).norm(), &errors.momentum);
 

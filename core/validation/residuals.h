@@ -34,7 +34,8 @@ struct BalanceErrors {
   // trajectory states for jumps between its phases|
   double energy = 0;
   // energy / max(positive work, |negative work|). If the efforts do no work: relative to the largest kinetic energy at
-  // the nodes (0 if that is zero and the error is too, else infinite).
+  // the nodes (infinite if that is zero). 0 where `energy` is at most 1e-13 of the largest sum of kinetic and
+  // (absolute) potential energy at the nodes, which rounding explains.
   double energy_relative = 0;
   // N s, |∫ (contact forces + weight) dt + impulses between phases − change of linear momentum|, all three world axes
   double momentum = 0;

@@ -18,22 +18,34 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// The force of each side that costs more than its share of the objective gets an edge, once, if it is inside the side.
-TEST(AddFrictionEdges, WhereASideCostsMoreThanItsShare) {
+// The force of each side that costs more than the least cost gets an edge, once, if it is inside the side.
+TEST(AddFrictionEdges, WhereASideCostsMoreThanTheLeast) {
   const std::vector<FlatSide> sides = {{1, 0, {0, 9}, 0.011, 16 * kDegree},    // 3 · 5°
                                        {1, 0, {9, 18}, 0.009, 70 * kDegree},   // costs too little
                                        {1, 2, {63, 72}, 0.5, 341 * kDegree},   // 68 · 5°
                                        {1, 2, {18, 27}, 0.5, 91 * kDegree},    // next to an edge
                                        {1, 2, {63, 72}, 0.5, 359 * kDegree}};  // likewise
   AddedConstraints added;
-  EXPECT_TRUE(AddFrictionEdges(sides, -10, 1e-3, &added));
+  EXPECT_TRUE(AddFrictionEdges(sides, 0.01, &added));
   ASSERT_EQ(added.between.size(), 2u);
   EXPECT_TRUE(added.between[0].friction.empty());
   EXPECT_EQ(added.between[1].friction, (std::vector<FrictionEdge>{{0, 3}, {2, 68}}));
-  EXPECT_FALSE(AddFrictionEdges(sides, -10, 1e-3, &added));
+  EXPECT_FALSE(AddFrictionEdges(sides, 0.01, &added));
   EXPECT_EQ(added.between[1].friction.size(), 2u);
-  EXPECT_TRUE(AddFrictionEdges(sides, -10, 5e-4, &added));
+  EXPECT_TRUE(AddFrictionEdges(sides, 0.005, &added));
   EXPECT_EQ(added.between[1].friction, (std::vector<FrictionEdge>{{0, 3}, {0, 14}, {2, 68}}));
+}
+
+// A solution whose objective is 0 has sides that cost what the barrier leaves; they are not worth an edge.
+TEST(AddFrictionEdges, NotForLessThanTheToleranceLeavesOpen) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.motion.speed = 1.3;
+  request.accuracy.kkt_tolerance = 1e-5;
+  const GaitSpec spec = CheckRequest(request).value();
+  EXPECT_DOUBLE_EQ(LeastCostOfASide(spec, 0, 400), 4e-3);
+  EXPECT_DOUBLE_EQ(LeastCostOfASide(spec, -3, 400), 4e-3);
+  EXPECT_DOUBLE_EQ(LeastCostOfASide(spec, -40, 400), 4e-2);
 }
 
 class LowFriction : public ::testing::Test {
@@ -101,10 +113,11 @@ TEST_F(LowFriction, TheConeIsUsedAndKept) {
   ASSERT_EQ(solution.multipliers->rows.size(), nlp.constraints());
   const VectorX x = nlp.MakeStart(GuessFromTrajectory(*solution.trajectory));
   AddedConstraints more = solution.added;
-  EXPECT_FALSE(AddFrictionEdges(nlp.FlatSides(x.data(), nlp.objective_scale() * solution.multipliers->rows),
-                                solution.objective, kFlatSideShare, &more));
-  EXPECT_TRUE(AddFrictionEdges(nlp.FlatSides(x.data(), nlp.objective_scale() * solution.multipliers->rows),
-                               solution.objective, 1e-5, &more));
+  const auto sides = nlp.FlatSides(x.data(), nlp.objective_scale() * solution.multipliers->rows);
+  const double least = LeastCostOfASide(spec, solution.objective, nlp.typical_objective());
+  EXPECT_NEAR(least, 1e-3 * solution.objective, 1e-15);
+  EXPECT_FALSE(AddFrictionEdges(sides, least, &more));
+  EXPECT_TRUE(AddFrictionEdges(sides, 0.01 * least, &more));
 }
 
 // What the ground has is not asked for: the usual edges do.

@@ -96,5 +96,23 @@ TEST(MeasureBalances, WithoutWorkTheKineticEnergyIsTheScale) {
   EXPECT_NEAR(errors.energy_relative, errors.energy / kinetic, 1e-12);
 }
 
+// A body at rest does no work and has no kinetic energy: what rounding adds to its potential energy is no error, and
+// anything more is one without limit.
+TEST(MeasureBalances, RoundingOfABodyAtRestIsNoError) {
+  const Scene scene = FlywheelBall::MakeScene();
+  FlywheelBall ball;
+  ball.speed = 0;
+  Trajectory trajectory = ball.MakeTrajectory(Scheme::kRadau2);
+  const BodyDynamics dynamics(scene.model);
+  FindingLog log(8);
+  const double height = trajectory.phases[1].node_positions(1, 4);
+  trajectory.phases[1].node_positions(1, 4) = height + 1e-15;
+  const BalanceErrors rounding = MeasureBalances(dynamics, scene.model, trajectory, ball.gravity, &log);
+  EXPECT_GT(rounding.energy, 0);
+  EXPECT_EQ(rounding.energy_relative, 0);
+  trajectory.phases[1].node_positions(1, 4) = height + 1e-12;
+  EXPECT_EQ(MeasureBalances(dynamics, scene.model, trajectory, ball.gravity, &log).energy_relative, kInfinity);
+}
+
 }  // namespace
 }  // namespace rollgait
