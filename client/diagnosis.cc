@@ -77,7 +77,8 @@ Finding JudgeDisk(const v1::ServerInfo& info) {
   const std::string text =
       store + ", " +
       (mebibytes < 1024 ? FormatNumber(mebibytes, 3) + " MiB" : FormatNumber(mebibytes / 1024, 4) + " GiB") + " free";
-  const std::string advice = "Free room on the disk of the store, or let the server keep less (docs/explanation/stores.md).";
+  const std::string advice =
+      "Free room on the disk of the store, or let the server keep less (docs/explanation/stores.md).";
   if (mebibytes < 64) return {Level::kFail, "disk", text, "New solves are refused. " + advice};
   if (mebibytes < 1024) return {Level::kWarn, "disk", text, advice};
   return {Level::kOk, "disk", text, ""};

@@ -30,7 +30,7 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   }
   const double needed = std::hypot(spec.gravity.x(), spec.gravity.y()) / std::abs(spec.gravity.z());
   if (needed <= spec.friction_coefficient) return std::nullopt;
-  return UnmetConstraint{"mean friction", 0, 0, needed - spec.friction_coefficient, "1"};
+  return UnmetConstraint{"friction on average", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
 // From the requested starts, and on a slope that these do not reach by continuation.

@@ -108,7 +108,7 @@ TEST(ExplanationTest, AnInfeasibleSolveNamesConstraintsAndRemedies) {
   v1::Solve solve = SampleSolve("solves/s", 0);
   solve.mutable_result()->set_termination(v1::TERMINATION_INFEASIBLE);
   v1::UnmetConstraint& unmet = *solve.mutable_result()->add_unmet_constraints();
-  unmet.set_name("mean friction");
+  unmet.set_name("friction on average");
   unmet.set_violation(0.1263);
   unmet.set_unit("1");
   for (const double violation : {0.1, 0.05}) {
@@ -125,7 +125,7 @@ TEST(ExplanationTest, AnInfeasibleSolveNamesConstraintsAndRemedies) {
   EXPECT_THAT(text, Not(HasSubstr("0.05")));
   EXPECT_THAT(text, Not(HasSubstr("Active bounds")));
   EXPECT_THAT(text, HasSubstr("found no motion that meets every constraint"));
-  EXPECT_THAT(text, HasSubstr("\"mean friction\" is missed by 0.126 in phase 0"));
+  EXPECT_THAT(text, HasSubstr("\"friction on average\" is missed by 0.126 in phase 0"));
   EXPECT_THAT(text, HasSubstr("Raise --friction"));
 }
 

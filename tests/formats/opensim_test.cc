@@ -199,6 +199,11 @@ TEST_P(OpensimTest, ReactionIsThatOfTheGaitEvents) {
     return;
   }
   ASSERT_EQ(events.feet_size(), 2);
+  // The server weighs the places of the contacts by their normal forces. OpenSim takes the moment about the ground, to
+  // which tangential forces add that act above or below it: by the gap at most, and by the default coefficient of
+  // friction.
+  const double off = 1e-6 + 0.8 * solve_.result().accuracy().max_gap_m();
+  EXPECT_LT(off, 5e-4);
   int pressed = 0;
   for (const v1::FootOnGround& foot : events.feet()) {
     const std::string side = foot.foot() == v1::FOOT_RIGHT ? "r" : "l";
@@ -212,8 +217,8 @@ TEST_P(OpensimTest, ReactionIsThatOfTheGaitEvents) {
       }
       if (std::isnan(at(foot.center_of_pressure_m(), row, 0))) continue;
       ++pressed;
-      EXPECT_NEAR(reaction.At(row, "ground_force_" + side + "_px"), at(foot.center_of_pressure_m(), row, 0), 1e-4);
-      EXPECT_NEAR(reaction.At(row, "ground_force_" + side + "_pz"), -at(foot.center_of_pressure_m(), row, 1), 1e-4);
+      EXPECT_NEAR(reaction.At(row, "ground_force_" + side + "_px"), at(foot.center_of_pressure_m(), row, 0), off);
+      EXPECT_NEAR(reaction.At(row, "ground_force_" + side + "_pz"), -at(foot.center_of_pressure_m(), row, 1), off);
     }
   }
   EXPECT_GT(pressed, 200);
