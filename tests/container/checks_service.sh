@@ -133,6 +133,7 @@ check_kill_and_reattach() {
   check "the container starts again on its volume" pod start rollgaitd
   check "it becomes healthy again" until_true 60 healthy rollgaitd
   check "the watcher re-attaches by itself and sees the end" ended_well long
+  pod logs rollgaitd > "$logs/started-again.log" 2>&1 || true
   check "it missed nothing and saw nothing twice" dense interrupted.jsonl
   check "the solve was run again" grep -q '"attempt":2' "$work/out/interrupted.jsonl"
   check "a second client takes up after number $seen" takes_up_after "$name" "$seen"
