@@ -20,7 +20,9 @@ class FrontalLdlt {
  public:
   struct Inertia {
     int positive = 0, negative = 0;
-    int zero = 0;  // pivots that could not be found: the matrix is singular to working precision
+    // Pivots that could not be found: the matrix is singular to working precision. With more than a few fronts take up
+    // (many entries are zero or not numbers) the factorisation ends there, so that its memory stays bounded.
+    int zero = 0;
   };
 
   // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`; `groups` (size): smaller
@@ -82,6 +84,7 @@ class FrontalLdlt {
   Inertia inertia_;
   long factor_entries_ = 0;
   int delayed_pivots_ = 0;
+  int most_delayed_ = 0;  // that one front takes up
 };
 
 }  // namespace rollgait

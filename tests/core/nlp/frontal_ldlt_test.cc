@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <limits>
 #include <random>
 
 #include "tests/support/allocation_counter.h"
@@ -194,6 +195,21 @@ TEST(FrontalLdlt, SaysHowManyPivotsAreMissing) {
   ASSERT_EQ(repeated, row);
   FrontalLdlt factors(sample.size(), sample.pattern, sample.groups);
   EXPECT_EQ(factors.Factorise(sample.values.data(), 1e-6).zero, 1);
+}
+
+// Where no pivot is found the unknowns are not all carried to the last front, whose memory grows with their square.
+TEST(FrontalLdlt, EndsEarlyWhereNothingIsAPivot) {
+  for (const double value : {0.0, std::numeric_limits<double>::quiet_NaN(), kInfinity}) {
+    Sample sample = Chain(200, 4, 3, 4, 1);
+    FrontalLdlt factors(sample.size(), sample.pattern, sample.groups);
+    const std::vector<double> good = sample.values;
+    std::fill(sample.values.begin(), sample.values.end(), value);
+    const FrontalLdlt::Inertia inertia = factors.Factorise(sample.values.data(), 0.01);
+    EXPECT_GT(inertia.zero, 0) << value;
+    EXPECT_LT(inertia.zero, 600) << value << ": of " << sample.size();
+    EXPECT_EQ(factors.Factorise(good.data(), 0.01).zero, 0) << "after " << value;
+    EXPECT_LT(BackwardError(sample, &factors), 1e-9) << "after " << value;
+  }
 }
 
 TEST(FrontalLdlt, WorkGrowsLinearlyWithTheStages) {
