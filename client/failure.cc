@@ -4,10 +4,16 @@
 #include <google/rpc/error_details.pb.h>
 #include <google/rpc/status.pb.h>
 
+#include <utility>
+
 #include "client/text.h"
 
 namespace rollgait::client {
 namespace {
+
+// Fields in rad whose flags take degrees.
+constexpr std::pair<const char*, const char*> kDegreeFlags[] = {
+    {"spec.slope_rad", "--slope"}, {"spec.accuracy.max_error.angle_rad", "--max-error angle"}};
 
 // The lines that the rich error adds to the message, each starting with a line feed.
 std::string Details(const grpc::Status& status) {
@@ -21,7 +27,10 @@ std::string Details(const grpc::Status& status) {
     if (detail.UnpackTo(&bad_request)) {
       for (const auto& violation : bad_request.field_violations()) {
         text += "\n  " + violation.field() + ": " + violation.description();
-        if (violation.field() == "spec.slope_rad") text += " (1 rad = 57.3 degrees, in which --slope is given)";
+        for (const auto& [field, flag] : kDegreeFlags) {
+          if (violation.field() == field)
+            text += std::string(" (1 rad = 57.3 degrees, in which ") + flag + " is given)";
+        }
       }
     } else if (detail.UnpackTo(&retry)) {
       const double seconds = static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();

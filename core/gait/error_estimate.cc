@@ -104,6 +104,11 @@ GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBu
       solution.meshes = std::move(halved.meshes);
       return solution;
     }
+    if (solution.within_requested_accuracy() && halved.verdict.kind == Verdict::Kind::kExceeded) {
+      solution.meshes = std::move(halved.meshes);
+      solution.message += " A finer mesh brings smaller errors, but does not keep every bound.";
+      return solution;
+    }
     // The finer solution is the next answer; its programs were no mere estimate.
     for (MeshStatistics& mesh : halved.meshes) mesh.for_errors = false;
     halved.note = std::move(solution.note);

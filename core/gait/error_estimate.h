@@ -21,8 +21,9 @@ double WorstShareOf(const MaxError& allowed, const ErrorEstimate& errors);
 
 // Solves a converged solution's problem again on the halved mesh, so that its errors can be estimated (`finer`), and
 // with a max_error goes on to the finer solution until the estimates are within it, the next mesh would have more than
-// 1000 intervals, or the budget is used up. Where the finer program does not converge, or is not solved, the message
-// says why. A stop leaves the termination kCancelled. Contract: the spec has no manoeuvre.
+// 1000 intervals, the finer solution exceeds a bound that the answer keeps, or the budget is used up. Where the finer
+// program does not converge, or is not solved, the message says why. A stop leaves the termination kCancelled.
+// Contract: the spec has no manoeuvre.
 GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBudget* budget);
 
 }  // namespace rollgait

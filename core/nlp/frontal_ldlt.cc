@@ -14,8 +14,9 @@ namespace {
 constexpr int kColumnsAtOnce = 8;
 
 // Columns that a front takes up from the fronts before it, at most: so many times as many as the widest front has by
-// the plan, which then takes some twenty times its memory. A gait whose matrix was not finite had all of its 30 000
-// unknowns delayed to the last front, 24 GB.
+// the plan, which then takes some twenty times its memory. Where rows depend on each other in every stage, each front
+// leaves some pivots over: those of a planar gait on a fine mesh grew by six a stage, until the last fronts had 24 GB.
+// Of narrow plans (tests, small problems) kLeastMostDelayed is allowed, which takes half a megabyte.
 constexpr int kMostDelayed = 4, kLeastMostDelayed = 256;
 
 int WholeLines(int numbers) { return (numbers + kNumbersPerLine - 1) / kNumbersPerLine * kNumbersPerLine; }

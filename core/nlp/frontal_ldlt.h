@@ -21,7 +21,8 @@ class FrontalLdlt {
   struct Inertia {
     int positive = 0, negative = 0;
     // Pivots that could not be found: the matrix is singular to working precision. With more than a few fronts take up
-    // (many entries are zero or not numbers) the factorisation ends there, so that its memory stays bounded.
+    // (rows depend on each other in every stage, or entries are not numbers) the factorisation ends there, so that its
+    // memory stays bounded.
     int zero = 0;
   };
 

@@ -71,9 +71,9 @@ TEST(ExitCodeTest, OfCalls) {
   EXPECT_EQ(code(grpc::StatusCode::INTERNAL), ExitCode::kInternal);
 }
 
-TEST(DescribeTest, ARefusedSlopeNamesTheUnitInWhichItWasGiven) {
+TEST(DescribeTest, ARefusedAngleNamesTheUnitInWhichItWasGiven) {
   google::rpc::BadRequest refused;
-  for (const char* field : {"spec.slope_rad", "spec.starts"}) {
+  for (const char* field : {"spec.slope_rad", "spec.accuracy.max_error.angle_rad", "spec.starts"}) {
     refused.add_field_violations()->set_field(field);
     refused.mutable_field_violations()->rbegin()->set_description("2 is outside its range");
   }
@@ -84,6 +84,8 @@ TEST(DescribeTest, ARefusedSlopeNamesTheUnitInWhichItWasGiven) {
   EXPECT_THAT(text,
               testing::HasSubstr(
                   "\n  spec.slope_rad: 2 is outside its range (1 rad = 57.3 degrees, in which --slope is given)\n"));
+  EXPECT_THAT(text, testing::HasSubstr("max_error.angle_rad: 2 is outside its range (1 rad = 57.3 degrees, in which "
+                                       "--max-error angle is given)\n"));
   EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 2 is outside its range\n"));
 }
 

@@ -16,37 +16,10 @@
 #include <thread>
 
 #include "tests/faults/faults.h"
+#include "tests/server/store/small_disk.h"
 
 namespace rollgait::faults {
 namespace {
-
-// A file system of 24 MB in memory, mounted on a directory of its own.
-class SmallDisk {
- public:
-  SmallDisk() {
-    if (mount("tmpfs", directory_.path().c_str(), "tmpfs", 0, "size=24m") != 0) reason_ = std::strerror(errno);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() {
-    if (reason_.empty()) umount2(directory_.path().c_str(), MNT_DETACH);
-  }
-  const std::string& reason() const { return reason_; }  // why there is none
-  const std::string& path() const { return directory_.path(); }
-  void Fill() const {
-    const int fd = open(Filler().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-    const std::string block(4096, 'x');
-    while (write(fd, block.data(), block.size()) > 0) {
-    }
-    close(fd);
-  }
-  void Empty() const { unlink(Filler().c_str()); }
-
- private:
-  std::string Filler() const { return directory_.path() + "/filler"; }
-  server::TemporaryDirectory directory_;
-  std::string reason_;
-};
 
 // The wall clock of programs that preload the tests' clock, as seconds beside the true one.
 class WallClock {
@@ -166,7 +139,7 @@ class IdleConnections {
 FaultReport FillDisk(const FaultOptions& options) {
   FaultReport report{"disk full × " + std::to_string(options.count), "refuses new work, goes on reading, loses nothing",
                      "", false, ""};
-  const SmallDisk disk;
+  const server::SmallDisk disk(24);
   report.skipped = disk.reason().empty() ? "" : "a small file system cannot be mounted: " + disk.reason();
   if (!report.skipped.empty()) return report;
   server::Daemon::Options daemon;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,32 +11,10 @@
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/meshes.h"
-#include "core/gait/optimizing_gait_solver.h"
+#include "tests/core/gait/planar_errors.h"
 
 namespace rollgait {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-GaitRequest Planar(double slope_deg, Preset preset, int intervals) {
-  GaitRequest request;
-  request.body.model = "planar";
-  request.slope = slope_deg * kDegree;
-  request.motion.speed = 1.3;
-  request.preset = preset;
-  request.discretization.single_support_intervals = intervals;
-  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
-  request.accuracy.estimate_errors = true;
-  return request;
-}
-
-GaitSolution Solve(const GaitRequest& request) {
-  return OptimizingGaitSolver().Solve(CheckRequest(request).value(), SolveControl());
-}
-
-double Largest(const MotionDifference& difference, MotionQuantity quantity) {
-  return difference[static_cast<int>(quantity)].largest;
-}
 
 // Estimate over true error of angle, torque and objective. The reference has a quarter of the intervals' length,
 // reached in steps that stay in one minimum.

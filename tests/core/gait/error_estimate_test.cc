@@ -4,36 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "core/gait/judge_solution.h"
-#include "core/gait/optimizing_gait_solver.h"
+#include "tests/core/gait/planar_errors.h"
 
 namespace rollgait {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-GaitRequest Planar(double slope_deg, Preset preset, int intervals) {
-  GaitRequest request;
-  request.body.model = "planar";
-  request.slope = slope_deg * kDegree;
-  request.motion.speed = 1.3;
-  request.preset = preset;
-  request.discretization.single_support_intervals = intervals;
-  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
-  request.accuracy.estimate_errors = true;
-  return request;
-}
-
-GaitSolution Solve(const GaitRequest& request, const SolveControl& control = {}) {
-  return OptimizingGaitSolver().Solve(CheckRequest(request).value(), control);
-}
-
-double Largest(const MotionDifference& difference, MotionQuantity quantity) {
-  return difference[static_cast<int>(quantity)].largest;
-}
 
 // The estimate changes nothing of the answer, and its program is marked.
 TEST(ErrorEstimate, LeavesTheAnswerAsItIs) {

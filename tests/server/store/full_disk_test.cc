@@ -9,36 +9,11 @@
 #include <filesystem>
 
 #include "server/store/open_store.h"
+#include "tests/server/store/small_disk.h"
 #include "tests/server/store/store_bench.h"
 
 namespace rollgait::server {
 namespace {
-
-// A file system of 64 MB in memory.
-class SmallDisk {
- public:
-  SmallDisk() {
-    if (mount("tmpfs", directory_.path().c_str(), "tmpfs", 0, "size=64m") != 0) reason_ = std::strerror(errno);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() {
-    if (reason_.empty()) umount2(directory_.path().c_str(), MNT_DETACH);
-  }
-  const std::string& reason() const { return reason_; }  // why there is none
-  const std::string& path() const { return directory_.path(); }
-  void Fill() const {
-    const int fd = open((path() + "/filler").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-    const std::string block(4096, 'x');
-    while (write(fd, block.data(), block.size()) > 0) {
-    }
-    close(fd);
-  }
-
- private:
-  const TemporaryDirectory directory_;
-  std::string reason_;
-};
 
 class FullDiskTest : public testing::Test {
  protected:
@@ -67,7 +42,7 @@ class FullDiskTest : public testing::Test {
     ASSERT_EQ(store.AppendEvents(lease, {event}).error().code, ErrorCode::kResourceExhausted);
   }
 
-  SmallDisk disk_;
+  SmallDisk disk_{64};
   FakeClock clock_;
   StoreLocation location_;
 };
