@@ -122,7 +122,8 @@ ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global
 // Success: the server says that it serves; kUnreachable: it does not, or says otherwise.
 ExitCode RunHealth(const GlobalOptions& global, const Terminal& terminal);
 ExitCode RunServerInfo(const GlobalOptions& global, const Terminal& terminal);
-// Checks certificates, connection, versions, clocks, access, queue and disk, a line each; kUnreachable if a check fails.
+// Checks certificates, connection, versions, clocks, access, queue and disk, a line each; kUnreachable if a check
+// fails.
 ExitCode RunDoctor(const GlobalOptions& global, const Terminal& terminal);
 
 }  // namespace rollgait::client
