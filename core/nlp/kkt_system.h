@@ -36,6 +36,10 @@ class KktSystem {
 
   const FrontalLdlt& factors() const { return factors_; }
 
+  // Least size of a pivot, relative to the entries it divides; grows where solutions were too coarse.
+  double threshold() const { return threshold_; }
+  void set_threshold(double threshold) { threshold_ = threshold; }
+
  private:
   static SparsityPattern MakePattern(const NlpProblem& problem);
   static std::vector<int> MakeGroups(const NlpProblem& problem);

@@ -36,6 +36,13 @@ NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
   no_excess_.lower = no_excess_.upper = excess_.lower = excess_.upper = sigma_;
 }
 
+void NewtonSystem::Restore(const Memory& memory) {
+  last_shift_ = memory.last_shift;
+  zero_failures_ = memory.zero_failures;
+  skipped_ = memory.skipped;
+  kkt_.set_threshold(memory.threshold);
+}
+
 bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
   const int n = barrier_.variables();
   Eigen::Map<VectorX>(kkt_.hessian(), barrier_.problem().hessian_pattern().size()).setZero();
@@ -51,6 +58,17 @@ bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Mu
   for (const int row : barrier_.free_rows()) dual_diagonal_(row) = kFreeRow;
   if (kkt_.Factorise(primal_diagonal_, dual_diagonal_) != KktSystem::Outcome::kRight) return false;
   return kkt_.Solve(a_, b_, &x_, &multipliers->y);
+}
+
+bool NewtonSystem::StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
+                                       Multipliers* multipliers) {
+  constexpr double kMostMultiplier = 1000;
+  if (!barrier_.problem().Jacobian(point.w.data(), kkt_.jacobian())) return false;
+  if (!LeastSquaresMultipliers(objective_gradient, multipliers) ||
+      multipliers->y.lpNorm<Eigen::Infinity>() > kMostMultiplier) {
+    multipliers->y.setZero();
+  }
+  return true;
 }
 
 bool NewtonSystem::TryShift(double shift, double mu) {
