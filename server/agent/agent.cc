@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <random>
 #include <utility>
 
@@ -19,7 +18,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReclaim{2000};       // between looks for solves of dead agents
 constexpr milliseconds kSpawnRetry{1000};    // after a solver that did not start or died without work
 constexpr milliseconds kStartLimit{30'000};  // for a solver to say that it is ready
 
@@ -39,10 +37,6 @@ bool AtEnd(int fd) {
   char byte;
   const ssize_t count = read(fd, &byte, 1);
   return count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
-}
-
-void StoreFailed(const char* wanted, const Error& error) {
-  LogEvent(spdlog::level::warn, "store.failed", {{"wanted", wanted}, {"reason", error.message}});
 }
 
 bool Readable(int fd) {
@@ -93,6 +87,7 @@ Agent::~Agent() {
 
 void Agent::Run() {
   ReplayDead("");
+  RemoveOldJournals();
   while (Step(std::chrono::hours(1))) {
   }
 }
@@ -100,13 +95,12 @@ void Agent::Run() {
 bool Agent::Step(milliseconds at_most) {
   Wait(at_most);
   const SteadyTime now = std::chrono::steady_clock::now();
-  if (Readable(options_.stop_fd)) stopping_ = true;
+  if (Readable(options_.stop_fd)) {
+    StopAll();
+    return false;
+  }
   if (!draining_ && AtEnd(options_.lifeline_fd)) {
     Drain();
-  }
-  if (stopping_) {
-    GiveUpAll();
-    return false;
   }
   if (!hints_.Drain().empty()) poked_ = true;
   const size_t before = runs_.size();
@@ -121,6 +115,21 @@ bool Agent::Step(milliseconds at_most) {
   }
   if (!draining_) KeepIdleProcesses(now);
   return true;
+}
+
+// Solvers have a moment to keep what they have come to.
+void Agent::StopAll() {
+  stopping_ = true;
+  idle_.clear();
+  SteadyTime now = std::chrono::steady_clock::now();
+  const SteadyTime end = now + options_.kill_after + milliseconds(1000);
+  for (const auto& run : runs_) run->Stop(now);
+  while (!runs_.empty() && now < end) {
+    ServiceRuns(now);
+    if (!runs_.empty()) Wait(milliseconds(100));
+    now = std::chrono::steady_clock::now();
+  }
+  GiveUpAll();
 }
 
 void Agent::Drain() {
@@ -138,8 +147,11 @@ void Agent::Drain() {
 }
 
 void Agent::Wait(milliseconds at_most) {
-  std::vector<pollfd> entries = {{hints_.fd(), POLLIN, 0}, {options_.stop_fd, POLLIN, 0}};
-  entries.push_back({draining_ ? -1 : options_.lifeline_fd, POLLIN, 0});
+  std::vector<pollfd> entries;
+  if (!stopping_) {
+    entries = {{hints_.fd(), POLLIN, 0}, {options_.stop_fd, POLLIN, 0}};
+    entries.push_back({draining_ ? -1 : options_.lifeline_fd, POLLIN, 0});
+  }
   for (const auto& run : runs_) {
     const SolverProcess& process = run->process();
     const short writing = process.wants_to_write() ? POLLOUT : 0;
@@ -155,8 +167,8 @@ void Agent::Wait(milliseconds at_most) {
 }
 
 SteadyTime Agent::NextDue(SteadyTime now) const {
-  SteadyTime due = poked_ ? now : look_at_;
-  if (!draining_) {
+  SteadyTime due = stopping_ ? SteadyTime::max() : poked_ ? now : look_at_;
+  if (!draining_ && !stopping_) {
     due = std::min(due, reclaim_at_);
     const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
     if (idle_.size() < wanted) due = std::min(due, spawn_at_);
@@ -179,10 +191,14 @@ void Agent::StoreEvents(SteadyTime now) {
   std::vector<EventBatch> batches;
   for (const auto& run : runs_) {
     EventBatch batch = run->Events();
-    if (batch.events.empty()) continue;
+    if (batch.events.empty()) {
+      run->NoEvents(now);
+      continue;
+    }
     runs.push_back(run.get());
     batches.push_back(std::move(batch));
   }
+  if (batches.empty()) return;
   const Outcome<std::vector<Outcome<LeaseState>>> outcomes = store_.AppendAll(batches);
   for (size_t i = 0; i < runs.size(); ++i) {
     runs[i]->EventsStored(outcomes.ok() ? outcomes.value()[i] : Outcome<LeaseState>(outcomes.error()), now);
@@ -199,60 +215,6 @@ void Agent::LookForCancels() {
   const SteadyTime now = std::chrono::steady_clock::now();
   for (const auto& run : runs_) {
     if (std::find(ids.value().begin(), ids.value().end(), run->id()) != ids.value().end()) run->Cancel(now);
-  }
-}
-
-void Agent::LookAfterOthers(SteadyTime now) {
-  reclaim_at_ = now + kReclaim;
-  ReclaimDeadOwners();
-  const Outcome<std::vector<std::string>> expired = store_.ReclaimExpired();
-  if (!expired.ok()) {
-    StoreFailed("expired leases", expired.error());
-    return;
-  }
-  for (const std::string& id : expired.value()) context_.poke(id);
-  if (!expired.value().empty()) poked_ = true;
-}
-
-// Commits the ends that dead agents left in the spool.
-void Agent::ReplayDead(const std::string& known_dead) {
-  const DataDir directory{options_.work_dir};
-  const auto is_dead = [&](const std::string& owner) {
-    if (owner == owner_ || owner == known_dead) return owner == known_dead;
-    Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
-    if (!lock.ok() || !lock.value()) return false;
-    lock.value()->ReleaseAndRemove();
-    return true;
-  };
-  for (const std::string& id : ReplaySpool(spool_, store_, is_dead)) context_.poke(id);
-}
-
-bool Agent::LivesElsewhere(const std::string& owner) const {
-  return !options_.all_agents_here && access(DataDir{options_.work_dir}.AgentLock(owner).c_str(), F_OK) != 0;
-}
-
-void Agent::ReclaimDeadOwners() {
-  const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
-  if (!owners.ok()) {
-    StoreFailed("dead agents", owners.error());
-    return;
-  }
-  const DataDir directory{options_.work_dir};
-  for (const auto& [owner, running] : owners.value()) {
-    if (owner == owner_ || LivesElsewhere(owner)) continue;
-    Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
-    if (!lock.ok() || !lock.value()) continue;  // it lives
-    ReplayDead(owner);
-    const Outcome<std::vector<std::string>> ids = store_.ReclaimOwner(owner);
-    if (!ids.ok()) {
-      StoreFailed("a dead agent's solves", ids.error());
-      continue;
-    }
-    LogEvent(spdlog::level::info, "agent.found_dead", {{"owner", owner}, {"solves", ids.value().size()}});
-    for (const std::string& id : ids.value()) context_.poke(id);
-    poked_ = true;
-    unlink(directory.AgentDraining(owner).c_str());
-    lock.value()->ReleaseAndRemove();
   }
 }
 
@@ -286,23 +248,6 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
     }
     idle_.push_back({std::move(process).value(), now});
   }
-}
-
-// Solves that agents of this directory finish before they go.
-int Agent::RunByDrainingAgents() {
-  std::vector<std::string> draining;
-  std::error_code failure;
-  for (const auto& entry : std::filesystem::directory_iterator(DataDir{options_.work_dir}.AgentsDir(), failure)) {
-    if (entry.path().extension() == DataDir::kDrainingSuffix) draining.push_back(entry.path().stem().string());
-  }
-  if (draining.empty()) return 0;
-  const Outcome<std::vector<LeaseOwner>> owners = store_.LeaseOwners();
-  if (!owners.ok()) return 0;  // then nothing will be claimed either
-  int count = 0;
-  for (const auto& [owner, solves] : owners.value()) {
-    if (std::find(draining.begin(), draining.end(), owner) != draining.end()) count += solves;
-  }
-  return count;
 }
 
 void Agent::ClaimWork(SteadyTime now) {

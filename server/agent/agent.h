@@ -32,9 +32,9 @@ class Agent {
     std::string solver_fingerprint = {};  // SHA-256 of the solver; see SolveRun::Context
     std::chrono::milliseconds lease = kLeaseDuration;
     std::chrono::milliseconds look{kNotifyPollMillis};  // between looks into the store without a hint
-    int stop_fd = -1;                                   // readable: stop, give the solves back
+    int stop_fd = -1;                                   // readable: stop the solvers, give their solves back
     int lifeline_fd = -1;                               // at its end: claim nothing more, finish what runs
-    std::chrono::milliseconds kill_after{2000};         // see SolveRun::Context
+    std::chrono::milliseconds kill_after{2000};         // see SolveRun::Context; a stop takes a second more at most
     std::chrono::milliseconds wall_grace{60'000};
     size_t max_event_bytes = size_t{16} << 20;
   };
@@ -66,6 +66,9 @@ class Agent {
   void ServiceRuns(SteadyTime now);
   void StoreEvents(SteadyTime now);
   void Drain();
+  void StopAll();
+  void RemoveOldJournals();
+  static void StoreFailed(const char* wanted, const Error& error);
   bool LivesElsewhere(const std::string& owner) const;
   int RunByDrainingAgents();
   void LookAfterOthers(SteadyTime now);

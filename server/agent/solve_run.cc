@@ -40,6 +40,7 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess p
           {"solve", lease_.solve_id}, {"traceparent", claimed.record.traceparent}, {"tenant", claimed.record.tenant}},
       other_solver_(!context.solver_fingerprint.empty() && !claimed.record.solver_fingerprint.empty() &&
                     claimed.record.solver_fingerprint != context.solver_fingerprint),
+      journal_(context.spool, lease_, context.solver_fingerprint),
       process_(std::move(process)),
       next_sequence_(claimed.record.last_sequence + 1) {
   renew_at_ = now + context_.lease / 3;
@@ -49,6 +50,8 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess p
   process_.Send(claimed.record.spec);
   if (!spec.warm_start().empty()) process_.Send(claimed.warm_start);
   const LogScope scope(fields_);
+  journal_.TakeUp(context_.store, claimed.record);
+  process_.Send(journal_.records().SerializeAsString());
   LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_.pid()}});
   if (claimed.record.cancel_requested) Cancel(now);
 }
@@ -83,6 +86,13 @@ void SolveRun::Cancel(SteadyTime now) {
   KillBy(now + context_.kill_after);
 }
 
+void SolveRun::Stop(SteadyTime now) {
+  stopping_ = true;
+  if (state_ != State::kSolving) return;
+  process_.Kill(kCancelSignal);
+  KillBy(now + context_.kill_after);
+}
+
 void SolveRun::GiveUp() {
   const LogScope scope(fields_);
   process_.Kill(SIGKILL);
@@ -93,7 +103,7 @@ void SolveRun::GiveUp() {
     return;
   }
   state_ = State::kOver;
-  const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kStopping, "its agent stops");
+  const Outcome<SolveState> given = GiveBack(GiveBackReason::kStopping, "its agent stops");
   if (!given.ok()) Warn("solve.give_back_failed", given.error().message);
   context_.poke(id());
 }
@@ -117,6 +127,12 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     return;
   }
   if (message.has_ready()) return;
+  if (message.has_continuation()) return journal_.Take(message.continuation());
+  if (message.has_record()) {
+    if (!journal_.Take(std::move(*message.mutable_record()))) stream_end_ = FrameStatus::kGarbage;
+    if (!flush_at_) flush_at_ = now + context_.batch;
+    return;
+  }
   if (message.has_iteration()) {
     AddIteration(std::move(*message.mutable_iteration()), now);
     return;
@@ -126,6 +142,7 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
 }
 
 void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
+  if (journal_.HasReported(iteration)) return;
   iteration.DiscardUnknownFields();  // of any length
   if (event_bytes_ > context_.max_event_bytes) {
     ++skipped_;
@@ -145,6 +162,13 @@ void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
   sent_any_ = true;
 }
 
+void SolveRun::NoEvents(SteadyTime now) {
+  if (!events_due(now) || state_ != State::kSolving) return;
+  const LogScope scope(fields_);
+  flush_at_.reset();
+  journal_.Save();
+}
+
 void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now) {
   const LogScope scope(fields_);
   flush_at_.reset();
@@ -157,6 +181,7 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
   }
   pending_.clear();
   next_sequence_ = appended.value().last_sequence + 1;
+  journal_.Save();
   context_.poke(id());
   if (appended.value().cancel_requested) Cancel(now);
 }
@@ -221,11 +246,25 @@ void SolveRun::PutIntoSpool() {
   if (!spooled_) Warn("solve.spool_failed", put.error().message);
 }
 
+// With what the solver has come to, as far as the store takes the iterations that led there.
+Outcome<SolveState> SolveRun::GiveBack(GiveBackReason reason, const std::string& detail) {
+  if (!pending_.empty()) {
+    const Outcome<LeaseState> appended = context_.store.AppendEvents(lease_, pending_);
+    if (!appended.ok()) return appended.error();
+    pending_.clear();
+  }
+  journal_.Save();
+  const Outcome<SolveState> given = context_.store.GiveBack(lease_, reason, detail);
+  if (given.ok() && IsTerminal(given.value())) journal_.Remove();
+  return given;
+}
+
 void SolveRun::Commit(SteadyTime now) {
   std::optional<Error> failure;
   if (const Crash* crash = std::get_if<Crash>(&outcome_)) {
-    Warn("solver.died", crash->detail);
-    const Outcome<SolveState> given = context_.store.GiveBack(lease_, GiveBackReason::kCrashed, crash->detail);
+    if (!stopping_) Warn("solver.died", crash->detail);
+    const Outcome<SolveState> given = stopping_ ? GiveBack(GiveBackReason::kStopping, "its agent stops")
+                                                : GiveBack(GiveBackReason::kCrashed, crash->detail);
     if (!given.ok()) failure = given.error();
   } else {
     if (!spooled_) PutIntoSpool();
@@ -238,6 +277,7 @@ void SolveRun::Commit(SteadyTime now) {
     commit_at_ = now + kRetry;
     return;
   }
+  if (std::holds_alternative<SolveEnd>(outcome_)) journal_.Remove();
   context_.spool.Remove(lease_);
   state_ = State::kOver;
   LogEvent(spdlog::level::info, std::holds_alternative<Crash>(outcome_) ? "solve.given_back" : "solve.ended");

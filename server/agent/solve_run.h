@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/agent/run_end.h"
+#include "server/agent/run_journal.h"
 #include "server/agent/solver_process.h"
 #include "server/agent/spool.h"
 #include "server/base/clock.h"
@@ -52,6 +53,8 @@ class SolveRun {
   // Whether events have waited long enough, and those that wait; empty when there are none.
   bool events_due(SteadyTime now) const { return flush_at_ && now >= *flush_at_; }
   EventBatch Events() const { return {lease_, state_ == State::kSolving ? pending_ : std::vector<StoredEvent>()}; }
+  // No events wait: keeps the journal, if it is time.
+  void NoEvents(SteadyTime now);
   // What became of them.
   void EventsStored(const Outcome<LeaseState>& appended, SteadyTime now);
   // When Service is due again though no descriptor is ready.
@@ -60,6 +63,8 @@ class SolveRun {
   bool over() const { return state_ == State::kOver; }
   // Asks the solver to stop because a client wants that.
   void Cancel(SteadyTime now);
+  // Asks the solver to stop because the agent does. It keeps what it has come to, and the solve goes back to the queue.
+  void Stop(SteadyTime now);
   // Kills the solver and gives the solve back to the queue; an end that waits for its commit stays in the spool.
   void GiveUp();
 
@@ -77,11 +82,13 @@ class SolveRun {
   void LoseLease(const std::string& reason);
 
   void PutIntoSpool();
+  Outcome<SolveState> GiveBack(GiveBackReason reason, const std::string& detail);
 
   const Context& context_;
   Lease lease_;
   const LogFields fields_;   // of every line about this run
   const bool other_solver_;  // the key was made for another one than ours
+  RunJournal journal_;
   SolverProcess process_;
   State state_ = State::kSolving;
 
@@ -93,7 +100,7 @@ class SolveRun {
   int skipped_ = 0;         // iterations dropped: the store does not take any, or there were too many
   size_t event_bytes_ = 0;  // of all iterations so far
   bool sent_any_ = false;
-  bool cancelled_ = false;
+  bool cancelled_ = false, stopping_ = false;
   bool out_of_time_ = false;
   std::optional<SteadyTime> flush_at_, kill_at_;
   SteadyTime renew_at_, wall_end_, commit_at_;

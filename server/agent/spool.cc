@@ -6,13 +6,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "server/base/framing.h"
+#include "server/base/journal_limits.h"
 #include "server/base/logging.h"
 #include "server/base/wire.pb.h"
 
@@ -20,6 +23,7 @@ namespace rollgait::server {
 namespace {
 
 constexpr const char* kSuffix = ".end";
+constexpr const char* kJournalSuffix = ".journal";
 constexpr const char* kTemporary = ".tmp";
 
 Error Unavailable(const std::string& what) { return {ErrorCode::kUnavailable, what + ": " + std::strerror(errno)}; }
@@ -54,13 +58,25 @@ bool Decode(const std::string& bytes, PendingEnd* pending) {
   return true;
 }
 
-// Reads one file written by Put: a frame and nothing after it.
-bool ReadFile(const std::string& path, PendingEnd* pending) {
+// Reads one file written by Write: a frame and nothing after it.
+bool ReadFile(const std::string& path, std::string* payload) {
   std::ifstream file(path, std::ios::binary);
   FrameParser parser;
   parser.Append(std::string(std::istreambuf_iterator<char>(file), {}));
+  return parser.Next(payload) == FrameStatus::kOk && parser.AtBoundary();
+}
+
+bool ReadFile(const std::string& path, PendingEnd* pending) {
   std::string payload;
-  return parser.Next(&payload) == FrameStatus::kOk && parser.AtBoundary() && Decode(payload, pending);
+  return ReadFile(path, &payload) && Decode(payload, pending);
+}
+
+// A file that is too long is none of ours, and not worth its memory.
+bool ReadFile(const std::string& path, wire::SpooledJournal* journal) {
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(path, failure);
+  std::string payload;
+  return !failure && size <= kMaxJournalBytes + 65536 && ReadFile(path, &payload) && journal->ParseFromString(payload);
 }
 
 // Removes what an agent that died has left half written.
@@ -87,12 +103,16 @@ Outcome<Spool> Spool::Open(const std::string& directory) {
   return Spool(directory);
 }
 
-std::string Spool::Path(const Lease& lease) const {
-  return directory_ + "/" + lease.solve_id + "-" + std::to_string(lease.epoch) + kSuffix;
+std::string Spool::Path(const Lease& lease, const char* suffix) const {
+  return directory_ + "/" + lease.solve_id + "-" + std::to_string(lease.epoch) + suffix;
 }
 
 Outcome<Done> Spool::Put(const PendingEnd& pending) const {
-  const std::string path = Path(pending.lease), temporary = path + kTemporary;
+  return Write(Path(pending.lease, kSuffix), Encode(pending), true);
+}
+
+Outcome<Done> Spool::Write(const std::string& path, const std::string& payload, bool durable) const {
+  const std::string temporary = path + kTemporary;
   const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (fd < 0) return Unavailable("cannot make " + temporary);
   // Held while it is written: one that nobody holds was left by an agent that died (ReadAll).
@@ -101,11 +121,11 @@ Outcome<Done> Spool::Put(const PendingEnd& pending) const {
     close(fd);
     return error;
   }
-  const bool written = WriteFrame(fd, Encode(pending)) == FrameStatus::kOk && fsync(fd) == 0;
+  const bool written = WriteFrame(fd, payload) == FrameStatus::kOk && (!durable || fsync(fd) == 0);
   const int reason = errno;
   close(fd);
   errno = written ? errno : reason;
-  if (!written || rename(temporary.c_str(), path.c_str()) != 0 || !SyncDirectory(directory_)) {
+  if (!written || rename(temporary.c_str(), path.c_str()) != 0 || (durable && !SyncDirectory(directory_))) {
     const Error error = Unavailable("cannot write " + path);
     unlink(temporary.c_str());
     return error;
@@ -113,7 +133,7 @@ Outcome<Done> Spool::Put(const PendingEnd& pending) const {
   return Done{};
 }
 
-void Spool::Remove(const Lease& lease) const { unlink(Path(lease).c_str()); }
+void Spool::Remove(const Lease& lease) const { unlink(Path(lease, kSuffix).c_str()); }
 
 std::vector<PendingEnd> Spool::ReadAll() const {
   std::vector<PendingEnd> ends;
@@ -132,6 +152,63 @@ std::vector<PendingEnd> Spool::ReadAll() const {
   }
   if (failure) spdlog::error("cannot list {}: {}", directory_, failure.message());
   return ends;
+}
+
+std::vector<Spool::JournalFile> Spool::JournalFiles() const {
+  std::vector<JournalFile> files;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_, failure)) {
+    if (entry.path().extension() != kJournalSuffix) continue;
+    const std::string stem = entry.path().stem().string();
+    const size_t dash = stem.rfind('-');
+    if (dash == std::string::npos) continue;
+    JournalFile file{entry.path().string(), stem.substr(0, dash)};
+    const char* end = stem.data() + stem.size();
+    const auto parsed = std::from_chars(stem.data() + dash + 1, end, file.epoch);
+    if (parsed.ec == std::errc() && parsed.ptr == end) files.push_back(std::move(file));
+  }
+  if (failure) spdlog::error("cannot list {}: {}", directory_, failure.message());
+  return files;
+}
+
+Outcome<Done> Spool::PutJournal(const Lease& lease, const wire::SpooledJournal& journal) const {
+  const std::string path = Path(lease, kJournalSuffix);
+  const bool is_first = access(path.c_str(), F_OK) != 0;
+  Outcome<Done> written = Write(path, journal.SerializeAsString(), false);
+  if (!written.ok() || !is_first) return written;
+  for (const JournalFile& file : JournalFiles()) {
+    if (file.solve_id == lease.solve_id && file.epoch < lease.epoch) unlink(file.path.c_str());
+  }
+  return written;
+}
+
+std::optional<KeptJournal> Spool::NewestJournal(const std::string& solve_id) const {
+  std::optional<KeptJournal> newest;
+  for (const JournalFile& file : JournalFiles()) {
+    if (file.solve_id != solve_id || (newest && file.epoch < newest->epoch)) continue;
+    KeptJournal journal{file.epoch, {}};
+    if (!ReadFile(file.path, &journal.content) || journal.content.solve_id() != solve_id) {
+      LogEvent(spdlog::level::warn, "solve.journal_damaged", {{"path", file.path}});
+      unlink(file.path.c_str());
+      continue;
+    }
+    newest = std::move(journal);
+  }
+  return newest;
+}
+
+void Spool::RemoveJournals(const std::string& solve_id) const {
+  for (const JournalFile& file : JournalFiles()) {
+    if (file.solve_id == solve_id) unlink(file.path.c_str());
+  }
+}
+
+std::vector<std::string> Spool::JournalOwners() const {
+  std::vector<std::string> ids;
+  for (const JournalFile& file : JournalFiles()) {
+    if (std::find(ids.begin(), ids.end(), file.solve_id) == ids.end()) ids.push_back(file.solve_id);
+  }
+  return ids;
 }
 
 std::vector<std::string> ReplaySpool(const Spool& spool, SolveStore& store,

@@ -13,14 +13,15 @@ namespace rollgait::server {
 //   rollgaitd.sock         notifications to rollgaitd: a solve has new events (notify.h)
 //   agent.sock             notifications to the newest agent: a solve was created or is to be cancelled
 //   spool/<id>-<epoch>.end an agent's copy of how a solve ended, until the store has it
+//   spool/<id>-<epoch>.journal  what an attempt has come to, for the next one, until the solve has ended
 //   agents/<owner>.lock    flock held by a living agent; `owner` is the owner of its leases (letters, digits, '-')
 //   agents/<owner>.draining  that agent claims nothing more
 //
 // Life of an agent. rollgaitd starts `rollgait-agent --data-dir DIR --slots N [--solver PATH]` with standard input
 // being the read end of a pipe that only rollgaitd can write to (nobody ever does).
 //
-// - SIGTERM: the agent stops its solvers, gives their solves back to the queue (GiveBack, kStopping) and exits 0 within
-//   5 s; after 10 s rollgaitd kills it.
+// - SIGTERM: the agent stops its solvers, which keep what they have come to, gives their solves back to the queue
+//   (GiveBack, kStopping) and exits 0 within 5 s; after 10 s rollgaitd kills it.
 // - End of standard input: rollgaitd has died. The agent claims nothing more, finishes what runs (events and leases go
 //   on), then removes its lock file and exits. So kill -9 of rollgaitd loses no work and no agent stays behind.
 // - Next start: the new agent binds agent.sock at once (the old name is replaced) and works beside an agent that is

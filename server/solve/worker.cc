@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "core/nlp/solve_journal.h"
 #include "server/base/framing.h"
+#include "server/base/journal_limits.h"
 #include "server/base/solver_build.h"
 #include "server/base/wire.pb.h"
 #include "server/convert/gait_request_convert.h"
@@ -53,15 +55,67 @@ std::optional<wire::WarmStart> ReadWarmStart(int fd, GaitSpec* spec) {
   return sent;
 }
 
-WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, GaitSolver& solver,
-                        StopFlag& stop) {
-  SolveControl control;
-  control.stop = &stop;
-  control.observer = [&](const IterationInfo& iteration) {
+// The last frame of a request. nullopt: it is none.
+std::optional<JournalRecords> ReadJournal(int fd) {
+  std::string payload;
+  wire::Journal sent;
+  if (ReadFrame(fd, &payload) != FrameStatus::kOk || !sent.ParseFromString(payload)) {
+    SendError(fd, v1::SolveError::KIND_INTERNAL, "the request is not followed by its journal");
+    return std::nullopt;
+  }
+  JournalRecords records;
+  for (std::string& record : *sent.mutable_finished()) records.finished.push_back(std::move(record));
+  records.started = std::move(*sent.mutable_started());
+  return records;
+}
+
+// Sends what a solve does not end with. Without a reader it stops.
+class Sender {
+ public:
+  Sender(int fd, StopFlag& stop) : fd_(fd), stop_(stop) {}
+
+  void Send(const IterationInfo& iteration) {
     wire::SolverMessage message;
     *message.mutable_iteration() = EncodeIteration(iteration);
-    if (WriteFrame(fd, message.SerializeAsString()) != FrameStatus::kOk) stop.Request();
-  };
+    Send(message);
+  }
+  void Send(const Continuation& continuation) {
+    wire::SolverMessage message;
+    message.mutable_continuation()->set_programs(continuation.programs);
+    message.mutable_continuation()->set_iteration(continuation.iteration);
+    message.mutable_continuation()->set_ignored(continuation.ignored);
+    Send(message);
+  }
+  void SendRecord(int program, bool finished, std::string record) {
+    if (record.size() > kMaxRecordBytes) return;
+    wire::SolverMessage message;
+    message.mutable_record()->set_program(program);
+    *(finished ? message.mutable_record()->mutable_finished() : message.mutable_record()->mutable_started()) =
+        std::move(record);
+    Send(message);
+  }
+
+ private:
+  void Send(const wire::SolverMessage& message) {
+    if (WriteFrame(fd_, message.SerializeAsString()) != FrameStatus::kOk) stop_.Request();
+  }
+  const int fd_;
+  StopFlag& stop_;
+};
+
+WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, JournalRecords records,
+                        GaitSolver& solver, StopFlag& stop) {
+  Sender sender(fd, stop);
+  SolveJournal::Sink sink;
+  sink.finished = [&](int program, std::string record) { sender.SendRecord(program, true, std::move(record)); };
+  sink.started = [&](int program, std::string record) { sender.SendRecord(program, false, std::move(record)); };
+  const bool goes_on = !records.finished.empty() || !records.started.empty();
+  if (goes_on) sink.continued = [&](const Continuation& continuation) { sender.Send(continuation); };
+  SolveJournal journal(std::move(records), std::move(sink));
+  SolveControl control;
+  control.stop = &stop;
+  control.journal = &journal;
+  control.observer = [&](const IterationInfo& iteration) { sender.Send(iteration); };
   wire::SolverMessage message;
   const GaitSolution solution = solver.Solve(spec, control);
   *message.mutable_result() = EncodeResult(solution, spec);
@@ -134,8 +188,10 @@ WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
       if (!sent) return kWorkerNoRequest;
       start = *sent;
     }
+    std::optional<JournalRecords> records = ReadJournal(fd);
+    if (!records) return kWorkerNoRequest;
     on_request(checked);
-    return SolveAndSend(fd, checked, start.source(), solver, stop);
+    return SolveAndSend(fd, checked, start.source(), std::move(*records), solver, stop);
   } catch (const std::bad_alloc&) {
     return SendError(fd, v1::SolveError::KIND_MEMORY_LIMIT, kMemoryMessage);
   } catch (const std::exception& exception) {

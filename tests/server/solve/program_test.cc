@@ -40,6 +40,7 @@ Answer Ask(const SolverProcess::Options& options, const std::string& request, On
   EXPECT_TRUE(spawned.ok());
   SolverProcess process = std::move(spawned).value();
   process.Send(request);
+  process.Send("");  // the solve begins
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(120);
   FrameStatus status = FrameStatus::kNeedMore;
   while (std::chrono::steady_clock::now() < give_up) {

@@ -38,6 +38,7 @@ class WorkerTest : public ::testing::Test {
     spec.mutable_model()->set_name(model);
     spec.mutable_motion()->set_speed_m_s(1.1);
     ASSERT_EQ(WriteFrame(parent(), spec.SerializeAsString()), FrameStatus::kOk);
+    ASSERT_EQ(WriteFrame(parent(), journal_.SerializeAsString()), FrameStatus::kOk);
   }
   WorkerExit Serve(const ScriptedSolver::Script& script) {
     ScriptedSolver solver(script);
@@ -53,6 +54,7 @@ class WorkerTest : public ::testing::Test {
 
   std::array<int, 2> ends_ = {-1, -1};
   StopFlag stop_;
+  wire::Journal journal_;  // what follows the request
   int requests_ = 0;
 };
 
@@ -110,6 +112,7 @@ v1::SolveSpec AskingForAStart() {
 
 TEST_F(WorkerTest, AnEmptyStartIsAColdOne) {
   ASSERT_EQ(WriteFrame(parent(), AskingForAStart().SerializeAsString()), FrameStatus::kOk);
+  ASSERT_EQ(WriteFrame(parent(), ""), FrameStatus::kOk);
   ASSERT_EQ(WriteFrame(parent(), ""), FrameStatus::kOk);
   EXPECT_EQ(Serve([](const GaitSpec& spec, const SolveControl&) {
               EXPECT_FALSE(spec.warm_start);
