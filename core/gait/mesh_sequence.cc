@@ -182,8 +182,9 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     }
     if (!Converged(result.termination)) break;
     const bool is_artefact = IsArtefact(spec, solution);
+    // The multipliers of a program that stalled do not say what the sides cost.
     const bool has_new_edges =
-        !is_artefact && !spec.is_only_a_start &&
+        !is_artefact && !spec.is_only_a_start && result.termination == Termination::kOptimal &&
         AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
                          LeastCostOfASide(spec, solution.objective, nlp.typical_objective()), &added);
     if (IsDone(solution)) {

@@ -279,6 +279,51 @@ TEST(InteriorPoint, AsksForRestoration) {
   for (size_t i = 0; i < indices.size(); ++i) EXPECT_EQ(indices[i], static_cast<int>(i));
 }
 
+// Problem 71 with its equality a second time, multiplied: what elimination leaves of that row is rounding.
+class Repeated : public Hs071 {
+ public:
+  explicit Repeated(double factor) : factor_(factor) {
+    row_lower_ = Eigen::Vector3d(25, 40, 40 * factor);
+    row_upper_ = Eigen::Vector3d(kInfinity, 40, 40 * factor);
+    jacobian_ = Hs071::jacobian_pattern();
+    for (int c = 0; c < 4; ++c) jacobian_.Add(2, c);
+  }
+  int constraints() const override { return 3; }
+  const VectorX& constraint_lower() const override { return row_lower_; }
+  const VectorX& constraint_upper() const override { return row_upper_; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
+  bool Constraints(const double* x, double* g) override {
+    Hs071::Constraints(x, g);
+    g[2] = factor_ * g[1];
+    return true;
+  }
+  bool Jacobian(const double* x, double* values) override {
+    Hs071::Jacobian(x, values);
+    for (int c = 0; c < 4; ++c) values[8 + c] = factor_ * values[4 + c];
+    return true;
+  }
+  bool Hessian(const double* x, double sigma, const double* lambda, double* values) override {
+    const double folded[] = {lambda[0], lambda[1] + factor_ * lambda[2]};
+    return Hs071::Hessian(x, sigma, folded, values);
+  }
+
+ private:
+  double factor_;
+  VectorX row_lower_, row_upper_;
+  SparsityPattern jacobian_;
+};
+
+TEST(InteriorPoint, RowsThatDependOnEachOtherButForRounding) {
+  for (const double factor : {0.1, 0.3, 1 / 3.0, 0.7, 1.1, 1.7, 2.3, 7.7}) {
+    Repeated problem(factor);
+    NlpOptions options;
+    options.tolerance = 1e-9;
+    const InteriorPointResult out = SolveWithInteriorPoint(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+    EXPECT_EQ(out.result.termination, Termination::kOptimal) << factor << ": " << out.result.message;
+    EXPECT_NEAR(out.result.objective, 17.0140173, 1e-6) << factor;
+  }
+}
+
 // ½ x² whose last digits are lost, so near its minimum no step lowers it, and whose derivative is off by `error` times
 // the sign of x.
 class Coarse : public NlpProblem {
