@@ -24,7 +24,7 @@ constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
 NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
     : barrier_(barrier),
-      kkt_(barrier.problem(), barrier.fixed(), options.step_residual),
+      kkt_(barrier.problem(), barrier.fixed(), barrier.slack_rows(), options.step_residual),
       first_shift_(options.first_shift),
       tolerance_(options.tolerance),
       sigma_(VectorX::Zero(barrier.unknowns())),

@@ -1,4 +1,10 @@
-// The order in which the Newton system of a CollocationNlp is eliminated.
+// The order in which the Newton system of a CollocationNlp is eliminated. For each interval in turn
+//  * the efforts of each point but the first with the rows that hold them: leaves, which touch the two nodes, the
+//  forces
+//    of their point and, where rates are paid for, the efforts of the points beside them;
+//  * what remains of these points;
+//  * the node before the interval with the efforts and forces of the first point. Rate costs tie those to the interval
+//    before, so they would make leaves carry all that the chain of nodes carries: the next node and the first one.
 
 #include <algorithm>
 
@@ -7,23 +13,27 @@
 namespace rollgait {
 
 EliminationGroups CollocationNlp::elimination_groups() const {
-  const int n = problem_.model.size(), efforts = static_cast<int>(problem_.model.actuated().size());
-  const int per_interval = scheme_.points() + 1;
+  const int n = problem_.model.size();
+  const int points = scheme_.points(), per_interval = points + 1;
   const int last = (layout_.intervals() + 1) * per_interval;
   EliminationGroups groups;
   groups.variables.assign(variables(), last);
+  const auto assign = [&groups](int first, int end, int group) {
+    std::fill(groups.variables.begin() + first, groups.variables.begin() + end, group);
+  };
   for (int k = 0; k < layout_.intervals(); ++k) {
-    const int group = k * per_interval + scheme_.points();
-    std::fill(groups.variables.begin() + layout_.node(k), groups.variables.begin() + layout_.end_node(k), group);
+    const int first = k * per_interval, between = first + points - 1, node = first + points;
+    assign(layout_.node(k), layout_.end_node(k), node);
     // What a jump has between the two goes with the node after it.
-    std::fill(groups.variables.begin() + layout_.end_node(k), groups.variables.begin() + layout_.node(k + 1),
-              group + per_interval);
-    for (int i = 0; i < scheme_.points(); ++i) {
-      std::fill_n(groups.variables.begin() + layout_.efforts(k, i), efforts, k * per_interval + i);
+    assign(layout_.end_node(k), layout_.node(k + 1), node + per_interval);
+    const int controls = layout_.controls(layout_.phase(k));
+    for (int i = 1; i < points; ++i) {
+      assign(layout_.efforts(k, i), layout_.forces(k, i), first + i - 1);
+      assign(layout_.forces(k, i), layout_.efforts(k, i) + controls, between);
     }
   }
-  std::fill_n(groups.variables.begin() + layout_.node(layout_.intervals()), 2 * n, last - 1);
-  std::fill_n(groups.variables.begin() + layout_.node(0), 2 * n, last);
+  assign(layout_.node(layout_.intervals()), layout_.node(layout_.intervals()) + 2 * n, last - 1);
+  assign(layout_.node(0), layout_.node(0) + 2 * n, last);
   // A row goes with the earliest of its unknowns, which it determines. Linear rows tie unknowns of different intervals,
   // and go with the latest but for those that come last.
   groups.constraints.assign(constraints(), last);
