@@ -255,15 +255,17 @@ AddedConstraints EdgesOf(const AddedConstraints& all) {
   return edges;
 }
 
-// From the spec's warm start.
-GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options,
-                             int max_iterations, SolveBudget* budget) {
+// From the spec's warm start, refined by what is known of its motion, if anything is.
+GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, StartOf start_of,
+                             int max_iterations, const AccuracyReport* report, SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
   if (IsSameMesh(mesh, other)) other = mesh;
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
   Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;
+  if (report != nullptr && IsSameMesh(mesh, other)) mesh = RefineMesh(mesh, spec, trajectory, *report, false);
+  NlpOptions options = SettingsFor(start_of, spec);
   options.max_iterations = max_iterations;
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh),
@@ -297,12 +299,16 @@ GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem&
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
-  return SolveFromStored(spec, problem, SettingsFor(StartOf::kOtherRequest, spec), max_iterations, budget);
+  return SolveFromStored(spec, problem, StartOf::kOtherRequest, max_iterations, nullptr, budget);
 }
 
-GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
-                               SolveBudget* budget) {
-  return SolveFromStored(spec, problem, SettingsFor(StartOf::kNeighbour, spec), max_iterations, budget);
+GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,
+                               int max_iterations, SolveBudget* budget) {
+  // Where its motion misses a bound the next one will as well, so the mesh in between need not be solved.
+  const bool refines = IsBounded(spec) && spec.max_refinements > 0 && smoother.accuracy &&
+                       !smoother.accuracy->intervals.empty() && !IsArtefact(spec, smoother);
+  return SolveFromStored(spec, problem, refines ? StartOf::kSmoother : StartOf::kNeighbour, max_iterations,
+                         refines ? &*smoother.accuracy : nullptr, budget);
 }
 
 }  // namespace rollgait

@@ -28,7 +28,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     if (next > least) LeaveTheRest(&sharper);
     sharper.warm_start = StartFrom(spec, last);
     GaitSolution solution =
-        SolveFromSmoother(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
+        SolveFromSmoother(sharper, *BuildProblem(sharper), last, path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;
     solution.warm_started = solution.used_multipliers = false;  // not from what the request named
     PutBefore(last.meshes, &solution);
