@@ -97,6 +97,7 @@ std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
   const int halvings = Halvings(spec);
   if (halvings == 0) return std::nullopt;
   GaitSpec coarse = OnTheWay(spec);
+  coarse.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
   for (int i = 0; i < halvings; ++i) coarse = WithHalfTheIntervals(std::move(coarse));
   return coarse;
 }

@@ -180,13 +180,16 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
                result.message + ")";
       break;
     }
-    if (!Converged(result.termination)) break;
-    const bool is_artefact = IsArtefact(spec, solution);
+    // From a guess a coarse mesh takes long where it has no motion to offer.
+    const bool leads_nowhere = result.termination == Termination::kIterationLimit && !guess.near_solution &&
+                               can_refine && solution.trajectory && budget->Left();
+    if (!Converged(result.termination) && !leads_nowhere) break;
+    const bool is_artefact = leads_nowhere || IsArtefact(spec, solution);
     const bool has_new_edges =
         !is_artefact && !spec.is_only_a_start &&
         AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
                          LeastCostOfASide(spec, solution.objective, nlp.typical_objective()), &added);
-    if (IsDone(solution)) {
+    if (!leads_nowhere && IsDone(solution)) {
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;
       guess = GuessFromTrajectory(*solution.trajectory);

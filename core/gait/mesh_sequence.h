@@ -28,7 +28,7 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
-// The same where the spec's warm start is the solution of the same request with smoother powers.
+// The same where the spec's warm start is the solution of the same request with smoother powers or dearer rates.
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                SolveBudget* budget);
 
