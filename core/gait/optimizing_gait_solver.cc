@@ -10,12 +10,12 @@
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
+#include "core/gait/own_units.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/rate_continuation.h"
 #include "core/gait/request_check.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
-#include "core/gait/time_unit.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
@@ -128,17 +128,15 @@ GaitSolution SearchWithErrors(const GaitSpec& spec, SolveBudget* budget) {
                                                                  : solution;
 }
 
-// In the time unit of the walk's gravity; at 9.81 m/s² that is the second.
-GaitSolution SearchInOwnTime(const GaitSpec& spec, SolveBudget* budget) {
-  const double unit = spec.similarity.time();
-  return unit == 1 ? SearchWithErrors(spec, budget)
-                   : InSeconds(unit, spec, SearchWithErrors(InTimeUnit(unit, spec), budget));
+GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolveBudget* budget) {
+  return InSi(units, spec, SearchWithErrors(WithoutRounding(InUnits(units, spec)), budget));
 }
 
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
-  SolveBudget budget(spec, control);
+  const Units units = spec.manoeuvre ? Units{} : OwnUnits(spec);
+  SolveBudget budget(spec, control, units.objective);
   if (const auto contradiction = FindContradiction(spec)) {
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;
@@ -151,7 +149,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     return solution;
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
-  GaitSolution solution = SearchInOwnTime(spec, &budget);
+  GaitSolution solution = SearchInUnits(units, spec, &budget);
   if (solution.finer) {
     solution.errors = EstimateErrors(spec.scene, solution, *solution.finer);
     if (spec.max_error) {
