@@ -53,18 +53,30 @@ GaitSolution SearchFromAfar(const GaitSpec& spec, Otherwise otherwise, SolveBudg
   return solution;
 }
 
+// With twice the intervals, where the request leaves the mesh to its accuracy.
+GaitSpec WithFinerMesh(GaitSpec spec, int refinements) {
+  if (refinements == 0) return spec;
+  for (GaitSpec::Phase& phase : spec.phases) phase.intervals *= 2;
+  return spec;
+}
+
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
 GaitSolution SearchOnMesh(const GaitSpec& spec, Otherwise otherwise, SolveBudget* budget) {
   // Of what is only a start. human29, six requests: 469 iterations in all, 520 with 1e-3; with 0.1 they are 447, but
   // some planar gaits then end in a minimum that is 3 % dearer.
   constexpr double kCoarseTolerance = 1e-2;
+  constexpr int kMostFromTheGuess = 200;  // iterations; those that succeed take 30 to 130
   const double cold = ColdSmoothing(spec);
   if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, otherwise, budget);
   GaitSpec smooth = SmoothedBy(cold, spec);
   LeaveTheRest(&smooth);
   smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
+  smooth.max_iterations = std::min(spec.max_iterations, kMostFromTheGuess);
   GaitSolution solution = SearchFromAfar(smooth, otherwise, budget);
-  if (solution.termination == Termination::kNumericalDifficulty && spec.max_refinements > 0 && budget->Left()) {
+  const bool takes_long = solution.termination == Termination::kIterationLimit;
+  if ((takes_long || solution.termination == Termination::kNumericalDifficulty) && spec.max_refinements > 0 &&
+      budget->Left()) {
+    if (takes_long) smooth = WithFinerMesh(std::move(smooth), spec.max_refinements);
     smooth.max_refinements = spec.max_refinements;
     smooth.is_only_a_start = false;
     GaitSolution refined = SearchFromAfar(smooth, otherwise, budget);
@@ -100,7 +112,10 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
   GaitSolution direct = SearchByMeshes(impatient, Otherwise::kGiveUp, budget);
   if (Answers(direct) || !budget->Left()) return direct;
-  GaitSolution rated = SearchOnMesh(WithRates(impatient), Otherwise::kGiveUp, budget);
+  GaitSolution rated =
+      Converged(direct.termination) && !IsArtefact(spec, direct)
+          ? AddRates(impatient, direct, budget)
+          : SearchOnMesh(WithFinerMesh(WithRates(impatient), spec.max_refinements), Otherwise::kGiveUp, budget);
   PutBefore(direct.meshes, &rated);
   direct.meshes = rated.meshes;
   if (!Converged(rated.termination)) return direct;

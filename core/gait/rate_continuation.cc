@@ -15,6 +15,7 @@ namespace {
 
 // s², of the rate's weight beside the torque's, on Earth.
 constexpr double kFirstPrice = 1e-4;
+constexpr double kRoughTolerance = 1e-2;  // of what is only a start
 
 double TorqueWeight(const GaitSpec& spec) {
   double weight = 0;
@@ -30,26 +31,36 @@ GaitSpec WithRatesAt(double price, GaitSpec spec) {
   return spec;
 }
 
+GaitSpec AsAStart(GaitSpec spec) {
+  spec.kkt_tolerance = std::max(kRoughTolerance, spec.kkt_tolerance);
+  spec.is_only_a_start = true;
+  return spec;
+}
+
 }  // namespace
 
 bool LeavesRatesFree(const GaitSpec& spec) {
   return TorqueWeight(spec) > 0 && !HasRates(spec) && !LeastSmoothing(spec);
 }
 
-GaitSpec WithRates(const GaitSpec& spec) { return WithRatesAt(kFirstPrice, spec); }
+GaitSpec WithRates(const GaitSpec& spec) { return AsAStart(WithRatesAt(kFirstPrice, spec)); }
+
+GaitSolution AddRates(const GaitSpec& spec, const GaitSolution& solution, SolveBudget* budget) {
+  GaitSpec rated = WithRates(spec);
+  rated.warm_start = StartFrom(spec, solution);
+  return SolveFromSmoother(rated, *BuildProblem(rated), spec.max_iterations, budget);
+}
 
 GaitSolution ReleaseRates(const GaitSpec& spec, GaitSolution rated, SolveBudget* budget) {
   constexpr int kMostIterations = 200;
-  // From 1e-7 at once to none a request of human29 (slope 20°) took more than 200 iterations; from 1e-10 it took 27.
-  constexpr double kStep = 0.1, kLeastPrice = 3e-11, kRoughTolerance = 1e-2;
+  // human29, slope 20°: from 1e-7 at once to none takes more than 200 iterations, from 1e-10 it takes 27; from 1e-6 to
+  // 1e-8 takes 179, by tenths 37.
+  constexpr double kStep = 0.1, kLeastPrice = 3e-11;
   GaitSolution last = std::move(rated);
   for (double price = kFirstPrice; price > 0;) {
     price = kStep * price < kLeastPrice ? 0 : kStep * price;
-    GaitSpec cheaper = price > 0 ? WithRatesAt(price, spec) : spec;
-    if (price > 0) {
-      LeaveTheRest(&cheaper);
-      cheaper.kkt_tolerance = std::max(kRoughTolerance, spec.kkt_tolerance);
-    }
+    GaitSpec cheaper = price > 0 ? AsAStart(WithRatesAt(price, spec)) : spec;
+    if (price > 0) cheaper.max_refinements = 0;
     cheaper.warm_start = StartFrom(spec, last);
     GaitSolution solution = SolveFromSmoother(cheaper, *BuildProblem(cheaper), kMostIterations, budget);
     solution.note = last.note;

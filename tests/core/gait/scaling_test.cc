@@ -109,6 +109,31 @@ TEST_P(ScalingTest, SoDoTheyInSpace) {
   }
 }
 
+// Bounds of a level follow lower gravity, so meshes are refined alike; higher gravity does not make a level laxer.
+TEST_P(ScalingTest, SoDoTheyAtStandardAccuracy) {
+  const auto [preset, slope] = GetParam();
+  const auto spec = [preset = preset, slope = slope](double mass, double gravity) {
+    GaitRequest request;
+    request.body.model = "planar";
+    request.body.mass = mass;
+    request.gravity = gravity;
+    request.preset = preset;
+    request.slope = slope;
+    return CheckRequest(request).value();
+  };
+  const Solved earth = Walk(spec(75, 9.81));
+  EXPECT_GT(earth.solution.meshes.size(), 1u);
+  for (const auto& [mass, gravity] : {std::pair{50.0, 9.81}, {75.0, 1.62}, {110.0, 3.71}}) {
+    const Solved planet = Walk(spec(mass, gravity));
+    const double factor = gravity / 9.81;
+    EXPECT_NEAR(planet.spec.bounds[Criterion::kSlip], 1e-3 * std::sqrt(factor), 1e-15);
+    EXPECT_EQ(planet.solution.verdict.kind, Verdict::Kind::kWithin);
+    EXPECT_EQ(Iterations(planet.solution), Iterations(earth.solution)) << gravity;
+    ExpectSimilar(earth, planet, 1 / std::sqrt(factor), mass / 75 * factor, 1e-6);
+  }
+  EXPECT_EQ(spec(75, 14).bounds[Criterion::kSlip], 1e-3);
+}
+
 // With any preset, mass and gravity the scaled solution is a solution: started from there the solver stays.
 TEST_P(ScalingTest, ScaledSolutionsAreSolutions) {
   const auto [preset, slope] = GetParam();
