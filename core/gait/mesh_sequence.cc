@@ -180,14 +180,17 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
                result.message + ")";
       break;
     }
-    if (!Converged(result.termination)) break;
-    const bool is_artefact = IsArtefact(spec, solution);
+    // From a guess a coarse mesh takes long where it has no motion to offer.
+    const bool leads_nowhere = result.termination == Termination::kIterationLimit && !guess.near_solution &&
+                               can_refine && solution.trajectory && budget->Left();
+    if (!Converged(result.termination) && !leads_nowhere) break;
+    const bool is_artefact = leads_nowhere || IsArtefact(spec, solution);
     // The multipliers of a program that stalled do not say what the sides cost.
     const bool has_new_edges =
         !is_artefact && !spec.is_only_a_start && result.termination == Termination::kOptimal &&
         AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
                          LeastCostOfASide(spec, solution.objective, nlp.typical_objective()), &added);
-    if (IsDone(solution)) {
+    if (!leads_nowhere && IsDone(solution)) {
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;
       guess = GuessFromTrajectory(*solution.trajectory);
@@ -300,6 +303,11 @@ GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem&
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
   return SolveFromStored(spec, problem, StartOf::kOtherRequest, max_iterations, nullptr, budget);
+}
+
+GaitSolution SolveFromNeighbour(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                                SolveBudget* budget) {
+  return SolveFromStored(spec, problem, StartOf::kNeighbour, max_iterations, nullptr, budget);
 }
 
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,
