@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/nlp/solve_journal.h"
 #include "core/nlp/solve_nlp.h"
 
 namespace rollgait {
@@ -29,7 +30,8 @@ SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control, doub
       iterations_left_(spec.max_iterations) {}
 
 double SolveBudget::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  const double earlier = control_.journal != nullptr ? control_.journal->earlier_s() : 0;
+  return earlier + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 bool SolveBudget::Left() const {
@@ -41,7 +43,9 @@ NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOption
   options.mesh = programs_++;
   options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
   options.max_wall_time_s = max_wall_time_ - elapsed();
-  NlpResult result = SolveNlp(nlp, start, options, Unscaled(control_, nlp.objective_scale() / objective_unit_));
+  const SolveControl unscaled = Unscaled(control_, nlp.objective_scale() / objective_unit_);
+  NlpResult result = control_.journal != nullptr ? control_.journal->Solve(nlp, start, options, unscaled)
+                                                 : SolveNlp(nlp, start, options, unscaled);
   iterations_left_ -= result.iterations;
   return result;
 }

@@ -19,7 +19,7 @@ class SolveBudget {
 
   // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
   NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
-  double elapsed() const;  // s
+  double elapsed() const;  // s, that of earlier processes included (SolveControl::journal)
   // False once the iterations or the time are used up, or the stop flag is set: what runs then ends at once.
   bool Left() const;
 

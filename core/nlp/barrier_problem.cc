@@ -44,6 +44,7 @@ BarrierProblem::BarrierProblem(NlpProblem& problem)
     lower_(i) = Relaxed(lower, -1);
     upper_(i) = Relaxed(upper, 1);
   }
+  moved_.assign(static_cast<size_t>(size), 0);
 }
 
 double BarrierProblem::Inside(double value, int i, double push) const {
@@ -125,9 +126,37 @@ void BarrierProblem::KeepDistance(const VectorX& w, double mu) {
   for (int i = 0; i < unknowns(); ++i) {
     const double least = kEpsilon * std::min(1.0, mu);
     const double move = 1.8e-12 * std::max(1.0, std::abs(w(i)));  // ε^(3/4)
-    if (has_lower(i) && w(i) - lower_(i) < least) lower_(i) = w(i) - move;
-    if (has_upper(i) && upper_(i) - w(i) < least) upper_(i) = w(i) + move;
+    const bool at_lower = has_lower(i) && w(i) - lower_(i) < least, at_upper = has_upper(i) && upper_(i) - w(i) < least;
+    if (at_lower) lower_(i) = w(i) - move;
+    if (at_upper) upper_(i) = w(i) + move;
+    if (at_lower || at_upper) moved_[i] = 1;
   }
+}
+
+std::vector<BarrierProblem::MovedBound> BarrierProblem::MovedBounds() const {
+  std::vector<MovedBound> bounds;
+  for (int i = 0; i < unknowns(); ++i) {
+    if (moved_[i] != 0) bounds.push_back({i, lower_(i), upper_(i)});
+  }
+  return bounds;
+}
+
+bool BarrierProblem::MoveBounds(const std::vector<MovedBound>& bounds) {
+  for (const MovedBound& bound : bounds) {
+    const int i = bound.unknown;
+    if (i < 0 || i >= unknowns()) return false;
+    const bool lower_fits =
+        has_lower(i) ? std::isfinite(bound.lower) && bound.lower <= lower_(i) : bound.lower == -kInfinity;
+    const bool upper_fits =
+        has_upper(i) ? std::isfinite(bound.upper) && bound.upper >= upper_(i) : bound.upper == kInfinity;
+    if (!lower_fits || !upper_fits) return false;
+  }
+  for (const MovedBound& bound : bounds) {
+    lower_(bound.unknown) = bound.lower;
+    upper_(bound.unknown) = bound.upper;
+    moved_[bound.unknown] = 1;
+  }
+  return true;
 }
 
 }  // namespace rollgait

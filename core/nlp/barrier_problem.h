@@ -48,6 +48,14 @@ class BarrierProblem {
   void AddBarrierGradient(const Point& point, double mu, const VectorX& base, VectorX* gradient) const;
   // Moves a bound away from w where the distance has been lost to rounding.
   void KeepDistance(const VectorX& w, double mu);
+  // The bounds that KeepDistance has moved, as they are now; ±infinity: none.
+  struct MovedBound {
+    int unknown = 0;
+    double lower = 0, upper = 0;
+  };
+  std::vector<MovedBound> MovedBounds() const;
+  // Moves them there again. False, and nothing is moved, if one of them is no bound of this problem moved outwards.
+  bool MoveBounds(const std::vector<MovedBound>& bounds);
   bool Gradient(const Point& point, VectorX* gradient);
   NlpProblem& problem() { return problem_; }
 
@@ -60,6 +68,7 @@ class BarrierProblem {
   VectorX lower_, upper_, target_;
   std::vector<char> fixed_;
   std::vector<int> slack_rows_, free_rows_;
+  std::vector<char> moved_;  // unknowns(): KeepDistance has moved a bound
 };
 
 }  // namespace rollgait

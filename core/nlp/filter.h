@@ -21,6 +21,9 @@ class Filter {
     return std::none_of(corners_.begin(), corners_.end(),
                         [&](const auto& corner) { return theta >= corner.first && phi >= corner.second; });
   }
+  using Corner = std::pair<double, double>;
+  const std::vector<Corner>& corners() const { return corners_; }
+  void SetCorners(std::vector<Corner> corners) { corners_ = std::move(corners); }
   void Add(double theta, double phi) {
     std::erase_if(corners_, [&](const auto& corner) { return corner.first >= theta && corner.second >= phi; });
     corners_.emplace_back(theta, phi);
@@ -28,7 +31,7 @@ class Filter {
 
  private:
   double largest_theta_ = 0;
-  std::vector<std::pair<double, double>> corners_;
+  std::vector<Corner> corners_;
 };
 
 }  // namespace rollgait

@@ -19,27 +19,29 @@ using Point = BarrierProblem::Point;
 
 // Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
 constexpr double kTauMin = 0.99, kKappaMu = 0.2;
-constexpr double kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10, kMostMultiplier = 1000;
+constexpr double kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10;
 constexpr int kMostCorrections = 4;
 // Of recentred steps: shorter ones are worth it; how much longer they are to be, and the part of that which is enough.
 constexpr double kLongStep = 0.9, kLengthening = 0.6, kLeastGain = 0.1;
 // Share of the optimality error that a step past the filter may leave.
 constexpr double kWorthwhile = 0.9;
-constexpr double kEpsilon = 2.2e-16;
 
 class Solver {
  public:
-  Solver(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control)
+  Solver(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control,
+         const Resumption& resumption)
       : problem_(problem),
         start_(start),
         options_(options),
         control_(control),
+        resumption_(resumption),
         barrier_(problem),
         newton_(barrier_, options),
         begin_(Clock::now()) {}
 
   InteriorPointResult Run() {
-    Termination termination = Begin() ? Iterate() : Termination::kNumericalDifficulty;
+    const bool has_begun = resumption_.from != nullptr ? Resume(*resumption_.from) : Begin();
+    const Termination termination = has_begun ? Iterate() : Termination::kNumericalDifficulty;
     InteriorPointResult out;
     out.needs_restoration = needs_restoration_;
     Fill(termination, &out.result);
@@ -59,17 +61,41 @@ class Solver {
     multipliers_.y = warm ? start_.constraint_multipliers : VectorX(VectorX::Zero(barrier_.rows()));
     StartBoundMultipliers(barrier_, point_, mu_, start_, &multipliers_);
     if (!barrier_.Gradient(point_, &gradient_)) return false;
-    if (!warm) {
-      if (!problem_.Jacobian(point_.w.data(), newton_.kkt().jacobian())) return false;
-      if (!newton_.LeastSquaresMultipliers(gradient_, &multipliers_) ||
-          multipliers_.y.lpNorm<Eigen::Infinity>() > kMostMultiplier) {
-        multipliers_.y.setZero();
-      }
-    }
+    if (!warm && !newton_.StartRowMultipliers(point_, gradient_, &multipliers_)) return false;
     for (const int row : barrier_.free_rows()) multipliers_.y(row) = 0;
     if (!Linearise()) return false;
     acceptance_.Begin(point_.theta);
     return true;
+  }
+
+  bool Resume(const InteriorPointState& state) {
+    iteration_ = state.iteration;
+    before_s_ = state.elapsed_s;
+    mu_ = state.mu;
+    tau_ = std::max(kTauMin, 1 - mu_);
+    tiny_steps_ = state.tiny_steps;
+    asked_ = state.asked;
+    barrier_.MoveBounds(state.moved_bounds);
+    multipliers_ = state.multipliers;
+    acceptance_.Restore(state.acceptance);
+    newton_.Restore(state.newton);
+    point_.w = state.w;
+    point_.c.resize(barrier_.rows());
+    gradient_.resize(barrier_.variables());
+    return barrier_.Evaluate(&point_) && Linearise();
+  }
+
+  InteriorPointState State() const {
+    return {iteration_,
+            Elapsed(),
+            point_.w,
+            multipliers_,
+            mu_,
+            acceptance_.memory(),
+            newton_.memory(),
+            barrier_.MovedBounds(),
+            tiny_steps_,
+            asked_};
   }
 
   bool Linearise() {
@@ -78,21 +104,26 @@ class Solver {
                               newton_.kkt().hessian())) {
       return false;
     }
-    SetLagrangian();
+    lagrangian_ = gradient_;
+    AddConstraintGradients(barrier_, newton_.kkt(), multipliers_.y, &lagrangian_);
     return true;
   }
 
   Termination Iterate() {
-    int tiny_steps = 0;
+    const int reported = resumption_.from != nullptr ? iteration_ : -1;
     for (;; ++iteration_) {
       error_ = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, 0);
-      Report();
-      if (IsOptimalTo(options_.tolerance) || IsNotWorthFinishing()) return Termination::kOptimal;
-      if (control_.stop != nullptr && control_.stop->requested()) return Termination::kCancelled;
+      if (iteration_ > reported) Report();
+      if (IsWithin(error_, options_.tolerance) || IsNotWorthFinishing()) return Termination::kOptimal;
+      const bool is_stopped = control_.stop != nullptr && control_.stop->requested();
+      if (resumption_.keeper != nullptr && (resumption_.keeper->IsDue(iteration_) || is_stopped)) {
+        resumption_.keeper->Keep(State());
+      }
+      if (is_stopped) return Termination::kCancelled;
       if (Elapsed() > options_.max_wall_time_s) return Termination::kTimeLimit;
       if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
-      ReduceBarrier(tiny_steps > 1);
-      if (tiny_steps > 3) return Termination::kNumericalDifficulty;
+      ReduceBarrier(tiny_steps_ > 1);
+      if (tiny_steps_ > 3) return Termination::kNumericalDifficulty;
       if (!newton_.Compute(point_, multipliers_, lagrangian_, mu_, &step_)) {
         needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
@@ -102,38 +133,21 @@ class Solver {
         needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
       }
-      tiny_steps = outcome == Search::kTinyStep ? tiny_steps + 1 : 0;
+      tiny_steps_ = outcome == Search::kTinyStep ? tiny_steps_ + 1 : 0;
       barrier_.KeepDistance(point_.w, mu_);
       KeepNearCentralPath(barrier_, point_, mu_, &multipliers_);
       if (!Linearise()) return Termination::kNumericalDifficulty;
     }
   }
 
-  bool IsOptimalTo(double tolerance) const {
-    return error_.scaled <= tolerance && error_.primal <= tolerance && error_.dual <= std::max(tolerance, 1e-4) &&
-           error_.complementarity <= std::max(tolerance, 1e-6);
-  }
-
   bool IsNotWorthFinishing() {
-    if (asked_ || !options_.worth_finishing || !IsOptimalTo(options_.rough_tolerance)) return false;
+    if (asked_ || !options_.worth_finishing || !IsWithin(error_, options_.rough_tolerance)) return false;
     asked_ = true;
     rough_ = !options_.worth_finishing(point_.w.head(barrier_.variables()));
     return rough_;
   }
 
   bool HasAcceptableError() const { return error_.scaled <= AcceptableError(options_.tolerance); }
-
-  // ∇f + Aᵀ y of w = (x, s), without the multipliers of bounds.
-  void SetLagrangian() {
-    const int n = barrier_.variables();
-    lagrangian_.setZero(barrier_.unknowns());
-    transposed_ = gradient_;
-    newton_.kkt().AddTransposedProduct(multipliers_.y, &transposed_);
-    lagrangian_.head(n) = transposed_;
-    for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
-      lagrangian_(n + static_cast<int>(k)) = -multipliers_.y(barrier_.slack_rows()[k]);
-    }
-  }
 
   void ReduceBarrier(bool stuck) {
     const double least = options_.tolerance / (kKappaEnd + 1);
@@ -146,13 +160,6 @@ class Solver {
     }
   }
 
-  bool IsTiny(const VectorX& step) const {
-    for (int i = 0; i < step.size(); ++i) {
-      if (std::abs(step(i)) > 10 * kEpsilon * (1 + std::abs(point_.w(i)))) return false;
-    }
-    return point_.theta < 1e-4;
-  }
-
   Search LineSearch() {
     objective_gradient_.setZero(barrier_.unknowns());
     objective_gradient_.head(barrier_.variables()) = gradient_;
@@ -161,7 +168,7 @@ class Solver {
     double alpha = MaxPrimalStep(barrier_, point_, step_.w, tau_);
     dual_step_ = MaxDualStep(multipliers_, step_.multipliers, tau_);
     trials_ = 0;
-    if (IsTiny(step_.w)) {
+    if (IsTiny(step_.w, point_)) {
       if (!Try(alpha, step_.w)) return Search::kFailed;
       Accept(alpha, step_);
       return Search::kTinyStep;
@@ -264,7 +271,7 @@ class Solver {
     multipliers_.upper += dual_step_ * step.multipliers.upper;
   }
 
-  double Elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  double Elapsed() const { return before_s_ + std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   void Report() const {
     if (!control_.observer) return;
@@ -309,6 +316,7 @@ class Solver {
   const NlpStart& start_;
   const NlpOptions& options_;
   const SolveControl& control_;
+  const Resumption resumption_;
   BarrierProblem barrier_;
   NewtonSystem newton_;
   Clock::time_point begin_;
@@ -318,19 +326,20 @@ class Solver {
   NewtonStep step_, corrected_;
   StepAcceptance acceptance_;
   LinePoint from_;
-  VectorX gradient_, objective_gradient_, barrier_gradient_, lagrangian_, transposed_, corrected_c_;
+  VectorX gradient_, objective_gradient_, barrier_gradient_, lagrangian_, corrected_c_;
   double mu_ = 0, tau_ = 0;
   OptimalityError error_;
   double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
-  int iteration_ = 0, trials_ = 0;
+  double before_s_ = 0;  // spent before the resumption
+  int iteration_ = 0, trials_ = 0, tiny_steps_ = 0;
   bool needs_restoration_ = false, asked_ = false, rough_ = false;
 };
 
 }  // namespace
 
 InteriorPointResult SolveWithInteriorPoint(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
-                                           const SolveControl& control) {
-  return Solver(problem, start, options, control).Run();
+                                           const SolveControl& control, const Resumption& resumption) {
+  return Solver(problem, start, options, control, resumption).Run();
 }
 
 }  // namespace rollgait

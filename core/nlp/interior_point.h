@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_NLP_INTERIOR_POINT_H_
 #define ROLLGAIT_CORE_NLP_INTERIOR_POINT_H_
 
+#include "core/nlp/interior_point_state.h"
 #include "core/nlp/nlp_options.h"
 #include "core/nlp/problem.h"
 #include "core/nlp/result.h"
@@ -17,9 +18,10 @@ struct InteriorPointResult {
 // Primal-dual interior point method with a filter line search (Wächter and Biegler, Math. Program. 106, 2006: the
 // algorithm and the constants of Ipopt), on factors that follow the problem's elimination groups. Exact Hessian,
 // inertia correction, second-order corrections, monotone barrier parameter. May run in several threads at once, one
-// problem each.
+// problem each. A resumed solve counts iterations and time from its first start, and does not report the iteration it
+// goes on from again.
 InteriorPointResult SolveWithInteriorPoint(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
-                                           const SolveControl& control);
+                                           const SolveControl& control, const Resumption& resumption = {});
 
 }  // namespace rollgait
 

@@ -42,6 +42,10 @@ class KktSystem {
 
   const FrontalLdlt& factors() const { return factors_; }
 
+  // Least size of a pivot, relative to the entries it divides; grows where solutions were too coarse.
+  double threshold() const { return threshold_; }
+  void set_threshold(double threshold) { threshold_ = threshold; }
+
  private:
   // A row with a slack: entries of the Jacobian that are not of fixed variables.
   struct Condensed {

@@ -37,6 +37,13 @@ NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
   no_excess_.lower = no_excess_.upper = excess_.lower = excess_.upper = sigma_;
 }
 
+void NewtonSystem::Restore(const Memory& memory) {
+  last_shift_ = memory.last_shift;
+  zero_failures_ = memory.zero_failures;
+  skipped_ = memory.skipped;
+  kkt_.set_threshold(memory.threshold);
+}
+
 bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
   const int n = barrier_.variables();
   Eigen::Map<VectorX>(kkt_.hessian(), barrier_.problem().hessian_pattern().size()).setZero();
@@ -64,6 +71,17 @@ double NewtonSystem::HessianNorm() {
     if (pattern.rows[e] != pattern.columns[e]) a_(pattern.columns[e]) += size;
   }
   return a_.maxCoeff();
+}
+
+bool NewtonSystem::StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
+                                       Multipliers* multipliers) {
+  constexpr double kMostMultiplier = 1000;
+  if (!barrier_.problem().Jacobian(point.w.data(), kkt_.jacobian())) return false;
+  if (!LeastSquaresMultipliers(objective_gradient, multipliers) ||
+      multipliers->y.lpNorm<Eigen::Infinity>() > kMostMultiplier) {
+    multipliers->y.setZero();
+  }
+  return true;
 }
 
 bool NewtonSystem::TryShift(double shift, double mu) {

@@ -30,8 +30,21 @@ class NewtonSystem {
   // δ_w of the last factorisation.
   double regularization() const { return shift_; }
 
+  // What it has learnt from earlier systems, from which it can go on.
+  struct Memory {
+    double last_shift = 0, threshold = 0;
+    int zero_failures = 0, skipped = 0;
+  };
+  Memory memory() const { return {last_shift_, kkt_.threshold(), zero_failures_, skipped_}; }
+  void Restore(const Memory& memory);
+
   // Least-squares multipliers of the rows at a point: min ‖∇f + Jᵀ y − z_l + z_u‖. False if J has no full rank there.
   bool LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers);
+
+  // Multipliers of the rows to start from at a point: the least-squares ones, or 0 where those are large. Fills the
+  // Jacobian. False if it is not finite.
+  bool StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
+                           Multipliers* multipliers);
 
   // Factors the system at a point, whose Jacobian and Hessian are in kkt(), and solves it. False if no shift helps.
   // lagrangian: ∇f + Aᵀ y by w, without the multipliers of bounds.

@@ -30,4 +30,19 @@ OptimalityError ComputeOptimalityError(const BarrierProblem& barrier, const Barr
   return error;
 }
 
+bool IsWithin(const OptimalityError& error, double tolerance) {
+  return error.scaled <= tolerance && error.primal <= tolerance && error.dual <= std::max(tolerance, 1e-4) &&
+         error.complementarity <= std::max(tolerance, 1e-6);
+}
+
+void AddConstraintGradients(const BarrierProblem& barrier, const KktSystem& kkt, const VectorX& y,
+                            VectorX* lagrangian) {
+  const int n = barrier.variables();
+  kkt.AddTransposedProduct(y, lagrangian);
+  lagrangian->conservativeResize(barrier.unknowns());
+  for (size_t k = 0; k < barrier.slack_rows().size(); ++k) {
+    (*lagrangian)(n + static_cast<int>(k)) = -y(barrier.slack_rows()[k]);
+  }
+}
+
 }  // namespace rollgait

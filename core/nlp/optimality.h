@@ -17,6 +17,12 @@ struct OptimalityError {
 OptimalityError ComputeOptimalityError(const BarrierProblem& barrier, const BarrierProblem::Point& point,
                                        const Multipliers& multipliers, const VectorX& lagrangian, double mu);
 
+// Whether the optimality conditions hold to the tolerance, as Ipopt asks it with its default tolerances of the parts.
+bool IsWithin(const OptimalityError& error, double tolerance);
+
+// From ∇f (variables()) to ∇f + Aᵀ y by w = (x, s) (unknowns()), with the Jacobian that is in `kkt`.
+void AddConstraintGradients(const BarrierProblem& barrier, const KktSystem& kkt, const VectorX& y, VectorX* lagrangian);
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_NLP_OPTIMALITY_H_

@@ -37,10 +37,13 @@ struct IterationInfo {
   int mesh = 0;
 };
 
-// How a running solve is watched and stopped. Both may be empty. The observer is called in the solving thread.
+class SolveJournal;
+
+// How a running solve is watched, stopped and kept. All may be empty. The observer is called in the solving thread.
 struct SolveControl {
   std::function<void(const IterationInfo&)> observer;
   const StopFlag* stop = nullptr;
+  SolveJournal* journal = nullptr;  // of a search of several programs: where it goes on from (solve_journal.h)
 };
 
 // The outcome of one NLP: the last (or best feasible) iterate, scaled as the NLP was given.

@@ -9,8 +9,8 @@ namespace rollgait {
 namespace {
 
 NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
-                      const SolveControl& control) {
-  const InteriorPointResult first = SolveWithInteriorPoint(problem, start, options, control);
+                      const SolveControl& control, const Resumption& resumption) {
+  const InteriorPointResult first = SolveWithInteriorPoint(problem, start, options, control, resumption);
   if (!first.needs_restoration || first.result.iterations >= options.max_iterations) return first.result;
   NlpOptions rest = options;
   rest.max_iterations = options.max_iterations - first.result.iterations;
@@ -34,9 +34,10 @@ NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptio
 
 }  // namespace
 
-NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control) {
+NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control,
+                   const Resumption& resumption) {
   TimedProblem timed(problem);
-  NlpResult result = SolveInTurn(timed, start, options, control);
+  NlpResult result = SolveInTurn(timed, start, options, control, resumption);
   result.evaluation_time_s = timed.seconds();
   return result;
 }

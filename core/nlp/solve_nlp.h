@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_NLP_SOLVE_NLP_H_
 #define ROLLGAIT_CORE_NLP_SOLVE_NLP_H_
 
+#include "core/nlp/interior_point_state.h"
 #include "core/nlp/nlp_options.h"
 #include "core/nlp/problem.h"
 #include "core/nlp/result.h"
@@ -10,8 +11,11 @@ namespace rollgait {
 // Solves a nonlinear program: by the interior point method that follows the problem's elimination groups
 // (interior_point.h), and, from the point where that one finds no acceptable step, by Ipopt with its restoration phase.
 // Iterations are numbered through; those of Ipopt count as restoration in IterationInfo, and NlpResult::restored_from
-// says where they began.
-NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control);
+// says where they began. Only states of the interior point method are kept: a solve that is resumed after Ipopt has
+// taken over goes on from before that, and Ipopt begins again. NlpResult::evaluation_time_s is that since the
+// resumption.
+NlpResult SolveNlp(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control,
+                   const Resumption& resumption = {});
 
 }  // namespace rollgait
 

@@ -31,6 +31,13 @@ void StepAcceptance::Begin(double first_theta) {
   ForgetFilter();
 }
 
+void StepAcceptance::Restore(const Memory& memory) {
+  theta_min_ = memory.theta_min;
+  theta_max_ = memory.theta_max;
+  ForgetFilter();
+  filter_.SetCorners(memory.corners);
+}
+
 bool StepAcceptance::Accepts(const LinePoint& from, double alpha, const LinePoint& to) {
   if (!std::isfinite(to.phi) || to.theta > theta_max_) return false;
   if (Switching(from, alpha) && from.theta <= theta_min_) {

@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_CORE_NLP_STEP_ACCEPTANCE_H_
 #define ROLLGAIT_CORE_NLP_STEP_ACCEPTANCE_H_
 
+#include <vector>
+
 #include "core/nlp/filter.h"
 
 namespace rollgait {
@@ -21,6 +23,13 @@ class StepAcceptance {
   void ForgetFilter() { filter_.Reset(theta_max_); }
   // Whether the step of length α leads from one point to the other acceptably. The filter grows by what is accepted.
   bool Accepts(const LinePoint& from, double alpha, const LinePoint& to);
+  // What it knows of the steps so far, from which it can go on.
+  struct Memory {
+    double theta_min = 0, theta_max = 0;
+    std::vector<Filter::Corner> corners;
+  };
+  Memory memory() const { return {theta_min_, theta_max_, filter_.corners()}; }
+  void Restore(const Memory& memory);
   // Below this length no step is tried.
   double SmallestStep(const LinePoint& from) const;
 

@@ -1,6 +1,7 @@
 #include "core/nlp/step_length.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rollgait {
 
@@ -15,6 +16,14 @@ double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point&
     }
   }
   return alpha;
+}
+
+bool IsTiny(const VectorX& step, const BarrierProblem::Point& point) {
+  constexpr double kEpsilon = 2.2e-16;
+  for (int i = 0; i < step.size(); ++i) {
+    if (std::abs(step(i)) > 10 * kEpsilon * (1 + std::abs(point.w(i)))) return false;
+  }
+  return point.theta < 1e-4;
 }
 
 double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau) {

@@ -9,7 +9,9 @@ namespace rollgait {
 // boundary).
 double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point& point, const VectorX& step,
                      double tau);
-// The same for the multipliers of bounds.
+// Whether a step from a point that is nearly feasible is lost in the rounding of w.
+bool IsTiny(const VectorX& step, const BarrierProblem::Point& point);
+// The largest step for the multipliers of bounds, likewise.
 double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau);
 
 }  // namespace rollgait

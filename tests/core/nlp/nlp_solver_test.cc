@@ -20,6 +20,11 @@ NlpResult SolveAlone(NlpProblem& problem, const NlpStart& start, const NlpOption
   return SolveWithInteriorPoint(problem, start, options, control).result;
 }
 
+NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
+                      const SolveControl& control) {
+  return SolveNlp(problem, start, options, control);
+}
+
 class NlpSolverTest : public ::testing::TestWithParam<Solve> {
  protected:
   NlpResult SolveHs071(double sum_of_squares, const NlpOptions& options, const SolveControl& control = {}) {
@@ -209,7 +214,7 @@ TEST_P(NlpSolverTest, ARowWithoutBoundsChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(IpoptAndInteriorPointAndBoth, NlpSolverTest,
-                         ::testing::Values(SolveWithIpopt, SolveAlone, SolveNlp));
+                         ::testing::Values(SolveWithIpopt, SolveAlone, SolveInTurn));
 
 // Both methods are the same algorithm: the objectives, barrier parameters and step lengths of all iterations agree.
 TEST(InteriorPoint, TakesTheIterationsOfIpopt) {

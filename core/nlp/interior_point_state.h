@@ -1,0 +1,49 @@
+#ifndef ROLLGAIT_CORE_NLP_INTERIOR_POINT_STATE_H_
+#define ROLLGAIT_CORE_NLP_INTERIOR_POINT_STATE_H_
+
+#include <vector>
+
+#include "core/nlp/barrier_problem.h"
+#include "core/nlp/newton_step.h"
+#include "core/nlp/step_acceptance.h"
+
+namespace rollgait {
+
+// All that the interior point method carries from one iteration to the next. A solve that goes on from it takes the
+// same steps as one that was not interrupted, to the last bit where program and processor are the same.
+struct InteriorPointState {
+  int iteration = 0;     // the one at whose point this was taken; it has been reported
+  double elapsed_s = 0;  // s, from the start of the solve to there
+  VectorX w;             // variables and slacks
+  Multipliers multipliers;
+  double mu = 0;
+  StepAcceptance::Memory acceptance;
+  NewtonSystem::Memory newton;
+  std::vector<BarrierProblem::MovedBound> moved_bounds;
+  int tiny_steps = 0;  // the last steps in a row that did not move the point
+  bool asked = false;  // NlpOptions::worth_finishing has been asked
+};
+
+// Whether a solve of the problem can go on from a state: every size is right, every number finite, w within its bounds,
+// multipliers of bounds positive, and the functions have values there.
+bool Fits(const InteriorPointState& state, NlpProblem& problem);
+
+// Who keeps the states of a running solve.
+class StateKeeper {
+ public:
+  virtual ~StateKeeper() = default;
+  // Whether the state at this iteration is wanted. Asked once an iteration.
+  virtual bool IsDue(int iteration) = 0;
+  // Given when it is due, and when the solve is stopped (SolveControl::stop).
+  virtual void Keep(const InteriorPointState& state) = 0;
+};
+
+// What a solve goes on from, and who keeps its states. Both may be null. What is pointed to outlives the solve.
+struct Resumption {
+  const InteriorPointState* from = nullptr;  // contract: Fits
+  StateKeeper* keeper = nullptr;
+};
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_NLP_INTERIOR_POINT_STATE_H_
