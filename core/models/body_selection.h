@@ -43,6 +43,7 @@ struct BodySelection {
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
   std::map<std::string, double> locked_joints;   // rad, those given
   std::optional<RollingEllipsoid> rolling_body;  // if the model is one; nothing else then means anything
+  bool own = false;                              // given as data (OwnModel): only `model` and `mass` mean anything
 };
 
 // The same before it is checked; empty optionals take the defaults of rollgait.v1.ModelSelection.
