@@ -84,7 +84,7 @@ void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* cost
 
 void FillFromPreset(GaitRequest* request) {
   if (request->preset != Preset::kHuman) return;
-  if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
+  if (!request->body.feet && !request->body.own) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
   if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.02;
 }
