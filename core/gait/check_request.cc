@@ -11,7 +11,7 @@ namespace rollgait {
 namespace {
 
 std::optional<Scene> CheckBody(BodyRequest body, RequestCheck& check) {
-  body.model = Printable(body.model);  // it comes back in a message if it is unknown
+  if (!body.own) body.model = Printable(body.model);  // it comes back in a message if it is unknown
   Result<Scene> scene = BuildScene(body);
   if (scene.ok()) return std::move(scene).value();
   for (const Violation& violation : scene.violations()) check.Add("model." + violation.field, violation.message);
