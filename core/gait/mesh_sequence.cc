@@ -180,9 +180,9 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
                result.message + ")";
       break;
     }
-    // From a guess a coarse mesh takes long where it has no motion to offer.
-    const bool leads_nowhere = result.termination == Termination::kIterationLimit && !guess.near_solution &&
-                               can_refine && solution.trajectory && budget->Left();
+    // From a guess a coarse mesh takes long where it has no motion to offer. So may a finer one, but hardly twice.
+    const bool leads_nowhere = refinements == 0 && result.termination == Termination::kIterationLimit &&
+                               !guess.near_solution && can_refine && solution.trajectory && budget->Left();
     if (!Converged(result.termination) && !leads_nowhere) break;
     const bool is_artefact = leads_nowhere || IsArtefact(spec, solution);
     // The multipliers of a program that stalled do not say what the sides cost.

@@ -107,15 +107,15 @@ bool Answers(const GaitSolution& solution) {
 // by way of a price of rates.
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   if (!LeavesRatesFree(spec)) return SearchByMeshes(spec, Otherwise::kContinue, budget);
-  constexpr int kMostIterations = 150;  // of one program; those that succeed take 20 to 130
+  constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100
   GaitSpec impatient = spec;
   impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
   GaitSolution direct = SearchByMeshes(impatient, Otherwise::kGiveUp, budget);
   if (Answers(direct) || !budget->Left()) return direct;
   GaitSolution rated =
       Converged(direct.termination) && !IsArtefact(spec, direct)
-          ? AddRates(impatient, direct, budget)
-          : SearchOnMesh(WithFinerMesh(WithRates(impatient), spec.max_refinements), Otherwise::kGiveUp, budget);
+          ? AddRates(spec, direct, budget)
+          : SearchOnMesh(WithFinerMesh(WithRates(spec), spec.max_refinements), Otherwise::kGiveUp, budget);
   PutBefore(direct.meshes, &rated);
   direct.meshes = rated.meshes;
   if (!Converged(rated.termination)) return direct;
