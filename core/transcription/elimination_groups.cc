@@ -1,12 +1,12 @@
 // The order in which the Newton system of a CollocationNlp is eliminated. For each interval in turn
-//  * the efforts of each point but the first with the rows that hold them: leaves, which touch the two nodes, the
-//  forces
-//    of their point and, where rates are paid for, the efforts of the points beside them;
-//  * what remains of these points;
-//  * the node before the interval with the efforts and forces of the first point. Rate costs tie those to the interval
-//    before, so they would make leaves carry all that the chain of nodes carries: the next node and the first one.
+//  * the efforts of each point with the rows that hold them: leaves, which touch the two nodes, the forces of their
+//    point and, where rates of efforts are paid for, the efforts of the points beside them;
+//  * the forces of the points but the first, with the rows that hold them;
+//  * the node before the interval with what remains. Rate costs tie the efforts of the first point to the interval
+//    before; as leaves they would carry all that the chain of nodes carries, so they then go with the node.
 
 #include <algorithm>
+#include <variant>
 
 #include "core/transcription/collocation_nlp.h"
 
@@ -14,22 +14,25 @@ namespace rollgait {
 
 EliminationGroups CollocationNlp::elimination_groups() const {
   const int n = problem_.model.size();
-  const int points = scheme_.points(), per_interval = points + 1;
+  const int points = scheme_.points(), per_interval = points + 2;
   const int last = (layout_.intervals() + 1) * per_interval;
   EliminationGroups groups;
   groups.variables.assign(variables(), last);
   const auto assign = [&groups](int first, int end, int group) {
     std::fill(groups.variables.begin() + first, groups.variables.begin() + end, group);
   };
+  const bool tied = std::any_of(problem_.costs.begin(), problem_.costs.end(), [](const CostDescription& cost) {
+    return std::holds_alternative<EffortRateCost>(cost.term);
+  });
   for (int k = 0; k < layout_.intervals(); ++k) {
-    const int first = k * per_interval, between = first + points - 1, node = first + points;
+    const int first = k * per_interval, between = first + points, node = first + points + 1;
     assign(layout_.node(k), layout_.end_node(k), node);
     // What a jump has between the two goes with the node after it.
     assign(layout_.end_node(k), layout_.node(k + 1), node + per_interval);
     const int controls = layout_.controls(layout_.phase(k));
-    for (int i = 1; i < points; ++i) {
-      assign(layout_.efforts(k, i), layout_.forces(k, i), first + i - 1);
-      assign(layout_.forces(k, i), layout_.efforts(k, i) + controls, between);
+    for (int i = tied ? 1 : 0; i < points; ++i) {
+      assign(layout_.efforts(k, i), layout_.forces(k, i), first + i);
+      if (i > 0) assign(layout_.forces(k, i), layout_.efforts(k, i) + controls, between);
     }
   }
   assign(layout_.node(layout_.intervals()), layout_.node(layout_.intervals()) + 2 * n, last - 1);
