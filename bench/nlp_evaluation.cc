@@ -81,7 +81,7 @@ void AllThree(benchmark::State& state) {
 
 // The matrix of the last iteration: curvatures of the bounds from their multipliers and distances.
 struct NewtonMatrix {
-  explicit NewtonMatrix(Problem& p) : kkt(*p.nlp, Fixed(*p.nlp), NlpOptions().step_residual) {
+  explicit NewtonMatrix(Problem& p) : kkt(*p.nlp, Fixed(*p.nlp), Inequalities(*p.nlp), NlpOptions().step_residual) {
     const NlpResult at = SolveNlp(*p.nlp, {p.x, {}, {}, {}}, {}, {});
     p.nlp->Derivatives(at.x.data(), 1, at.constraint_multipliers.data(), kkt.jacobian(), kkt.hessian());
     primal = VectorX::Zero(p.nlp->variables());
@@ -91,9 +91,8 @@ struct NewtonMatrix {
       primal(i) = at.lower_bound_multipliers(i) / std::max(below, kLeast) +
                   at.upper_bound_multipliers(i) / std::max(above, kLeast);
     }
-    for (int r = 0; r < dual.size(); ++r) {
-      const bool inequality = p.nlp->constraint_lower()(r) < p.nlp->constraint_upper()(r);
-      if (inequality) dual(r) = 1 / std::max(1e-6, std::abs(at.constraint_multipliers(r)) / kTypical);
+    for (const int r : Inequalities(*p.nlp)) {
+      dual(r) = 1 / std::max(1e-6, std::abs(at.constraint_multipliers(r)) / kTypical);
     }
     right_x = VectorX::Ones(primal.size());
     right_g = VectorX::Ones(dual.size());
@@ -103,6 +102,13 @@ struct NewtonMatrix {
     std::vector<char> fixed;
     for (int i = 0; i < nlp.variables(); ++i) fixed.push_back(nlp.lower_bounds()(i) == nlp.upper_bounds()(i) ? 1 : 0);
     return fixed;
+  }
+  static std::vector<int> Inequalities(const NlpProblem& nlp) {
+    std::vector<int> rows;
+    for (int r = 0; r < nlp.constraints(); ++r) {
+      if (nlp.constraint_lower()(r) < nlp.constraint_upper()(r)) rows.push_back(r);
+    }
+    return rows;
   }
   static constexpr double kLeast = 1e-9, kTypical = 1e-3;  // distances to bounds
   KktSystem kkt;

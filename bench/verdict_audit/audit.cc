@@ -34,15 +34,16 @@ double Audit::Ratio(Criterion* worst) const {
   return largest;
 }
 
-Audit Judge(const DrawnRequest& drawn) {
+Audit Judge(const DrawnRequest& drawn, const SolveControl& control, std::vector<MeshStatistics>* meshes) {
   Audit audit;
   const Result<GaitSpec> spec = CheckRequest(drawn.request);
   if (!spec.ok()) {
     audit.why = "refused: " + spec.violations().front().field + " " + spec.violations().front().message;
     return audit;
   }
-  const MeasuredSolve solve = Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), SolveControl()); });
+  const MeasuredSolve solve = Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), control); });
   const GaitSolution& solution = solve.solution;
+  if (meshes != nullptr) *meshes = solution.meshes;
   audit.cpu = solve.cpu;
   audit.bounds = spec.value().bounds;
   const bool solved = solution.termination == Termination::kOptimal || solution.termination == Termination::kAcceptable;

@@ -3,8 +3,10 @@
 #define ROLLGAIT_BENCH_VERDICT_AUDIT_AUDIT_H_
 
 #include <string>
+#include <vector>
 
 #include "bench/verdict_audit/random_request.h"
+#include "core/gait/gait_solver.h"
 #include "core/validation/criteria.h"
 
 namespace rollgait::audit {
@@ -22,8 +24,8 @@ struct Audit {
   double Ratio(Criterion* worst) const;
 };
 
-// In this process.
-Audit Judge(const DrawnRequest& drawn);
+// In this process. `meshes` may be null; else it receives those that were solved.
+Audit Judge(const DrawnRequest& drawn, const SolveControl& control, std::vector<MeshStatistics>* meshes = nullptr);
 
 // Audits as text and back: what a process of its own hands over.
 std::string ToText(const Audit& audit);

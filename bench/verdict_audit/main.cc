@@ -1,6 +1,8 @@
 // Whether verdicts are true: draws requests, solves each, and judges every trajectory a second time by code of its own.
-//   verdict_audit --requests 300 --seed 1 [--level draft|standard|fine|any] [--jobs 1] [--time-limit 60]
-//   verdict_audit --seed 1 --only 17 [...]      one request, with the measures of both judges
+//   verdict_audit --requests 300 --seed 1 [--first 0] [--level draft|standard|fine|any] [--jobs 1] [--time-limit 60]
+//   verdict_audit --seed 1 --only 17 [--iterations yes] [...]   one request: its meshes, the measures of both judges,
+//                                                               the iterations on the standard error output
+// --first N leaves out the requests before N.
 // Prints a table of verdicts, what was exceeded, and for each criterion the largest measure over its bound that the
 // second judge found among the trajectories that are WITHIN. Above 1.01 is a false WITHIN: exit code 1. A request that
 // cannot be read: 2.
@@ -22,7 +24,8 @@ constexpr double kTolerance = 1.01;  // of a bound; the two judges find extrema 
 
 struct Options {
   DrawOptions draw;
-  int requests = 300, jobs = 1, only = -1;
+  int requests = 300, first = 0, jobs = 1, only = -1;
+  bool iterations = false;
 };
 
 const char* Name(Audit::End end) {
@@ -51,6 +54,22 @@ void PrintMeasures(const Audit& audit) {
     std::printf("%-26s %12.4g %12.4g %12.4g %9.3f\n", traits.field, audit.first[c], audit.second[c], audit.bounds[c],
                 audit.second[c] / audit.bounds[c]);
   }
+}
+
+void PrintMeshes(const std::vector<MeshStatistics>& meshes) {
+  for (const MeshStatistics& mesh : meshes) {
+    std::string intervals;
+    for (const int count : mesh.intervals) intervals += (intervals.empty() ? "" : "+") + std::to_string(count);
+    std::printf("  %s intervals, %.3g W: %d iterations, %.2f s, objective %.6g, KKT %.1e, gap %.1e m, slip %.1e m/s\n",
+                intervals.c_str(), mesh.smoothing, mesh.iterations, mesh.wall_time, mesh.objective, mesh.kkt_error,
+                mesh.max_gap, mesh.max_slip);
+  }
+}
+
+void PrintIteration(const IterationInfo& i) {
+  std::fprintf(stderr, "%2d %4d f %.8e pr %.2e du %.2e mu %.1e reg %.1e ap %.2e ad %.2e%s\n", i.mesh, i.index,
+               i.objective, i.primal_infeasibility, i.dual_infeasibility, i.barrier_parameter, i.regularization,
+               i.primal_step, i.dual_step, i.restoration ? " R" : "");
 }
 
 struct Row {
@@ -150,6 +169,10 @@ Options Parse(int argc, char** argv) {
       options.requests = std::stoi(value);
     else if (flag == "--seed")
       options.draw.seed = std::stoull(value);
+    else if (flag == "--first")
+      options.first = std::stoi(value);
+    else if (flag == "--iterations" && (value == "yes" || value == "no"))
+      options.iterations = value == "yes";
     else if (flag == "--jobs")
       options.jobs = std::stoi(value);
     else if (flag == "--only")
@@ -160,6 +183,7 @@ Options Parse(int argc, char** argv) {
       Refuse("cannot read " + flag + " " + value);
   }
   if (options.requests < 1 || options.jobs < 1) Refuse("--requests and --jobs are at least 1");
+  if (options.first < 0 || options.first >= options.requests) Refuse("--first is from 0 to below --requests");
   return options;
 }
 
@@ -167,17 +191,22 @@ int Main(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   Report report(options);
   if (options.only >= 0) {
-    const Audit audit = Judge(Draw(options.draw, options.only));
+    SolveControl control;
+    if (options.iterations) control.observer = PrintIteration;
+    std::vector<MeshStatistics> meshes;
+    const Audit audit = Judge(Draw(options.draw, options.only), control, &meshes);
     report.Add(options.only, audit);
+    PrintMeshes(meshes);
     PrintMeasures(audit);
     return IsFalse(audit) ? 1 : 0;
   }
   RunInChildren(
-      options.requests, options.jobs, [&](int number) { return ToText(Judge(Draw(options.draw, number))); },
-      [&](int number, const std::string& text) {
+      options.requests - options.first, options.jobs,
+      [&](int place) { return ToText(Judge(Draw(options.draw, options.first + place), SolveControl())); },
+      [&](int place, const std::string& text) {
         Audit audit;
         if (!FromText(text, &audit)) audit.why = "the process of the solver died";
-        report.Add(number, audit);
+        report.Add(options.first + place, audit);
       });
   return report.Print();
 }

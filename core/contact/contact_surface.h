@@ -5,8 +5,12 @@
 #include <vector>
 
 #include "core/geometry/surface.h"
+#include "core/multibody/joint_role.h"
 
 namespace rollgait {
+
+// Which part of a foot a surface is. A foot is one surface, or a heel and a toe (forefoot).
+enum class FootPart { kNone, kWhole, kHeel, kToe };
 
 // A surface of a model that may touch the fixed ground plane z = 0 (normal +z, world axes). See
 // rollgait.v1.ContactSurface.
@@ -20,6 +24,8 @@ struct ContactSurface {
   // World axes (0 = x, 1 = y, 2 = z) in which force is transmitted and velocity forbidden; the normal z is always the
   // last. {0, 2} in the sagittal plane, {0, 1, 2} in space.
   std::vector<int> directions = {0, 1, 2};
+  BodySide side = BodySide::kMidline;  // of the leg that it belongs to
+  FootPart part = FootPart::kNone;
 };
 
 }  // namespace rollgait

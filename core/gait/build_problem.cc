@@ -101,14 +101,6 @@ CostDenominator Denominator(GaitRequest::Normalization normalization) {
 
 Interval Scaled(double factor, const GaitRequest::Range& range) { return {factor * range.min, factor * range.max}; }
 
-// The prismatic joint along x at the root carries the walk.
-int ForwardJoint(const Model& model) {
-  for (int j = 0; j < model.size(); ++j) {
-    if (model.joint(j).name == "base_x") return j;
-  }
-  ROLLGAIT_CHECK(false);
-}
-
 // Root mean square of the couple that turns the body in the time that the request gives (1 s where it is free), and of
 // that which holds it on the slope.
 double TypicalCouple(const GaitSpec& spec) {
@@ -155,8 +147,9 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
     problem->phases.push_back({phase.contacts, {phase.min_duration, phase.max_duration}});
   }
   problem->mirrored = spec.cycle == Cycle::kHalf;
-  problem->forward_joint = ForwardJoint(problem->model);
-  problem->lateral_joint = problem->model.Find("base_y");
+  problem->forward_joint = problem->model.Find(JointRole::kBaseForward);  // carries the walk
+  ROLLGAIT_CHECK(problem->forward_joint >= 0);
+  problem->lateral_joint = problem->model.Find(JointRole::kBaseLateral);
   problem->denominator = Denominator(spec.normalization);
   problem->friction_coefficient = spec.friction_coefficient;
   problem->min_normal_force = spec.min_normal_force_bw * problem->force_size();

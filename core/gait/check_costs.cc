@@ -126,7 +126,14 @@ std::vector<GaitSpec::CostTerm> CheckCosts(const GaitRequest& request, const Sce
   }
   std::vector<GaitSpec::CostTerm> checked;
   for (auto& [cost, field] : terms) {
-    const double weight = check.Number(field + ".weight", cost.weight, 1, kWeightLimits);
+    double weight = cost.weight.value_or(1);
+    if (field != "preset") {
+      check.Number(field + ".weight", cost.weight, 1, kWeightLimits);
+    } else if (!(weight >= 0 && weight <= kMaxWeight)) {
+      check.Add(field, "its weights follow from the mass of the body and gravity, and one of them comes to " +
+                           FormatNumber(weight) + ", outside [0, " + FormatNumber(kMaxWeight) +
+                           "]; give other masses or another gravity");
+    }
     std::visit(TermCheck{field, scene, similarity, check}, cost.term);
     checked.push_back({std::move(cost.term), weight});
   }

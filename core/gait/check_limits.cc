@@ -20,7 +20,7 @@ std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, c
     check.Range(field, range, {-kMaxPosition, kMaxPosition, "rad or m"}, false);
     if (const int joint = find(field, name, false); joint >= 0) {
       constexpr double kMost = kLargestBaseRoll * std::numbers::pi / 180;
-      if (name == "base_roll" && (range.min < -kMost || range.max > kMost)) {
+      if (joints[joint].role == JointRole::kBaseRoll && (range.min < -kMost || range.max > kMost)) {
         check.Add(field, "the range " + FormatNumber(range.min) + " to " + FormatNumber(range.max) +
                              " leaves that of the chart of the floating base, " + FormatNumber(-kMost) + " to " +
                              FormatNumber(kMost) + "; stay within it");

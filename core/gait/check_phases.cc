@@ -11,22 +11,37 @@ constexpr const char* kPath = "phases.phases";
 
 std::string PhasePath(size_t index) { return Indexed(kPath, index); }
 
+// Which feet the standard phases are known for: each of one surface, or each of a heel and a toe.
+enum class FeetKind { kOther, kWhole, kHeelAndToe };
+FeetKind KindOfFeet(const Scene& scene) {
+  const auto has = [&](FootPart part) {
+    return scene.FindContact(BodySide::kLeft, part) >= 0 && scene.FindContact(BodySide::kRight, part) >= 0;
+  };
+  if (has(FootPart::kHeel) && has(FootPart::kToe)) return FeetKind::kHeelAndToe;
+  return has(FootPart::kWhole) ? FeetKind::kWhole : FeetKind::kOther;
+}
+
 // The standard phases: the left foot has just touched down, the right one is about to leave. Feet of two surfaces come
-// down on the heel and leave from the forefoot; the intervals of each support are shared by its two phases.
-std::vector<GaitRequest::Phase> StandardPhases(Cycle cycle, const Scene* scene, int single, int both) {
-  const bool two = scene != nullptr && scene->FindContact("left_heel") >= 0;
-  const auto step = [&](const std::string& stance, const std::string& other) -> std::vector<GaitRequest::Phase> {
-    if (!two) return {{{"left_foot", "right_foot"}, {}, {}, {}}, {{stance + "_foot"}, {}, {}, {}}};
-    const std::string heel = stance + "_heel", toe = stance + "_forefoot", leaving = other + "_forefoot";
+// down on the heel and leave from the forefoot; the intervals of each support are shared by its two phases. Contract:
+// the feet are known.
+std::vector<GaitRequest::Phase> StandardPhases(Cycle cycle, const Scene& scene, int single, int both) {
+  const auto name = [&](BodySide side, FootPart part) { return scene.contacts[scene.FindContact(side, part)].name; };
+  const auto step = [&](BodySide stance, BodySide other) -> std::vector<GaitRequest::Phase> {
+    if (KindOfFeet(scene) == FeetKind::kWhole) {
+      return {{{name(BodySide::kLeft, FootPart::kWhole), name(BodySide::kRight, FootPart::kWhole)}, {}, {}, {}},
+              {{name(stance, FootPart::kWhole)}, {}, {}, {}}};
+    }
+    const std::string heel = name(stance, FootPart::kHeel), toe = name(stance, FootPart::kToe),
+                      leaving = name(other, FootPart::kToe);
     const int half_both = std::max(1, (both + 1) / 2), half_single = std::max(1, (single + 1) / 2);
     return {{{heel, leaving}, half_both, {}, {}},
             {{heel, toe, leaving}, half_both, {}, {}},
             {{heel, toe}, half_single, {}, {}},
             {{toe}, half_single, {}, {}}};
   };
-  std::vector<GaitRequest::Phase> phases = step("left", "right");
+  std::vector<GaitRequest::Phase> phases = step(BodySide::kLeft, BodySide::kRight);
   if (cycle == Cycle::kHalf) return phases;
-  for (GaitRequest::Phase& phase : step("right", "left")) phases.push_back(std::move(phase));
+  for (GaitRequest::Phase& phase : step(BodySide::kRight, BodySide::kLeft)) phases.push_back(std::move(phase));
   return phases;
 }
 
@@ -117,14 +132,13 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
                          " are accepted");
     return {};
   }
-  if (!request.phases && scene != nullptr &&
-      (scene->FindContact("left_foot") < 0 || scene->FindContact("right_foot") < 0) &&
-      (scene->FindContact("left_heel") < 0 || scene->FindContact("right_forefoot") < 0)) {
+  if (!request.phases && scene == nullptr) return {};
+  if (!request.phases && KindOfFeet(*scene) == FeetKind::kOther) {
     check.Add("phases", "model " + Quoted(scene->name) + " has no standard phases; give the sequence");
     return {};
   }
   const std::vector<GaitRequest::Phase> phases =
-      request.phases ? *request.phases : StandardPhases(request.cycle, scene, single, both);
+      request.phases ? *request.phases : StandardPhases(request.cycle, *scene, single, both);
   std::vector<GaitSpec::Phase> checked;
   long total = 0;
   for (size_t i = 0; i < phases.size(); ++i) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +11,7 @@ namespace rollgait {
 namespace {
 
 std::optional<Scene> CheckBody(BodyRequest body, RequestCheck& check) {
-  body.model = Printable(body.model);  // it comes back in a message if it is unknown
+  if (!body.own) body.model = Printable(body.model);  // it comes back in a message if it is unknown
   Result<Scene> scene = BuildScene(body);
   if (scene.ok()) return std::move(scene).value();
   for (const Violation& violation : scene.violations()) check.Add("model." + violation.field, violation.message);
@@ -66,10 +67,23 @@ std::optional<MaxError> CheckMaxError(const std::optional<MaxError>& given, Requ
   return checked;
 }
 
-CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, bool allow_overlap, RequestCheck& check) {
+// Where gravity is less than the Earth's, all goes slower: velocities are then judged by the bound of the same Froude
+// number. Where it is more they are not, so that no level is laxer than it says.
+CriterionValues BoundsOfLevel(GaitRequest::AccuracyLevel level, const Similarity& similarity) {
   using Level = GaitRequest::AccuracyLevel;
-  const bool is_draft = accuracy.level == Level::kDraft;
-  CriterionValues bounds = is_draft ? NoBounds() : accuracy.level == Level::kFine ? FineBounds() : StandardBounds();
+  if (level == Level::kDraft) return NoBounds();
+  CriterionValues bounds = level == Level::kFine ? FineBounds() : StandardBounds();
+  for (const Criterion criterion :
+       {Criterion::kSlip, Criterion::kVelocityDefect, Criterion::kApproach, Criterion::kMomentum}) {
+    bounds[criterion] *= std::min(1.0, similarity.speed());
+  }
+  return bounds;
+}
+
+CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, const Similarity& similarity, bool allow_overlap,
+                              RequestCheck& check) {
+  const bool is_draft = accuracy.level == GaitRequest::AccuracyLevel::kDraft;
+  CriterionValues bounds = BoundsOfLevel(accuracy.level, similarity);
   for (const auto& [criterion, bound] : accuracy.bounds) {
     const CriterionTraits& traits = TraitsOf(criterion);
     const char* const unit = std::string(traits.unit) == "1" ? "" : traits.unit;
@@ -144,7 +158,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);
   std::vector<Joint> joints = CheckLimits(request, known, similarity, check);
-  const CheckedAccuracy accuracy = CheckAccuracy(request.accuracy, request.limits.allow_body_overlap, check);
+  const CheckedAccuracy accuracy =
+      CheckAccuracy(request.accuracy, similarity, request.limits.allow_body_overlap, check);
   const int max_iterations = check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations,
                                            once ? 5000 : 1000, 1, 100000);
   const double max_wall_time =

@@ -28,7 +28,7 @@ struct GaitSpec {
   };
   Scene scene;            // limits of the request already applied to its joints
   Similarity similarity;  // of the body and the gravity, which defaults and presets followed
-  double time_unit = 1;   // s for each that the numbers here count (InTimeUnit)
+  Units units = {};       // that the numbers here count (InUnits)
   double passive_scale;   // factor on measured passive torques: a preset takes them to the gravity of the request
   double slope;
   Vector3 gravity;                                          // world axes, m/s²

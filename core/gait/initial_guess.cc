@@ -50,28 +50,18 @@ bool Contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-// The name of a joint without its side.
-std::string WithoutSide(const std::string& name) {
-  return name.ends_with("_l") || name.ends_with("_r") ? name.substr(0, name.size() - 2) : name;
-}
-
-// The legs of a body: contacts below the same hip are one leg; a contact below none is a leg of its own.
+// The legs of a body: contacts on the same side are one leg; a contact on none is a leg of its own.
 struct Legs {
   explicit Legs(const OptimalControlProblem& problem) {
-    std::vector<int> roots;
     for (const ContactSurface& contact : problem.contacts) {
-      int root = -1 - static_cast<int>(of_contact.size());
-      for (int j = contact.joint; j >= 0; j = problem.model.parent(j)) {
-        if (WithoutSide(problem.model.joint(j).name) == "hip") root = j;
-      }
-      const auto known = std::find(roots.begin(), roots.end(), root);
-      of_contact.push_back(static_cast<int>(known - roots.begin()));
-      if (known == roots.end()) roots.push_back(root);
+      const auto known = std::find(side.begin(), side.end(), contact.side);
+      const bool is_new = contact.side == BodySide::kMidline || known == side.end();
+      of_contact.push_back(static_cast<int>(is_new ? side.size() : known - side.begin()));
+      if (is_new) side.push_back(contact.side);
     }
-    count = roots.size();
   }
   std::vector<int> of_contact;
-  size_t count = 0;
+  std::vector<BodySide> side;  // of each leg
 };
 
 // When each leg touches down and lifts off, in a full cycle of the phases.
@@ -94,9 +84,9 @@ class Footfalls {
       }
     }
     const size_t count = pieces.size();
-    touch_down_.assign(legs.count, 0);
-    stance_.assign(legs.count, kLiftOff * cycle_);
-    for (size_t l = 0; l < legs.count; ++l) {
+    touch_down_.assign(legs.side.size(), 0);
+    stance_.assign(legs.side.size(), kLiftOff * cycle_);
+    for (size_t l = 0; l < legs.side.size(); ++l) {
       const int leg = static_cast<int>(l);
       for (size_t i = 0; i < count; ++i) {
         if (!Contains(pieces[i].legs, leg) || Contains(pieces[(i + count - 1) % count].legs, leg)) continue;
@@ -158,17 +148,17 @@ class Walk {
     for (int p = 0; p < phase; ++p) time += durations_[p];
     const Model& model = problem_.model;
     VectorX q = VectorX::Zero(model.size());
-    for (size_t c = 0; c < problem_.contacts.size(); ++c) {
-      const double leg = footfalls_.LegFraction(legs_.of_contact[c], time);
-      for (int j = problem_.contacts[c].joint; j >= 0; j = model.parent(j)) {
-        const std::string joint = WithoutSide(model.joint(j).name);
-        if (joint == "hip") SwingArm(j, q(j) = style_.hip * LegAngle(leg, &LegPose::hip) * kDegree, &q);
-        if (joint == "knee") q(j) = style_.knee * LegAngle(leg, &LegPose::knee) * kDegree;
-        if (joint == "ankle") q(j) = style_.ankle * LegAngle(leg, &LegPose::ankle) * kDegree;
-      }
+    for (size_t l = 0; l < legs_.side.size(); ++l) {
+      const BodySide side = legs_.side[l];
+      if (side == BodySide::kMidline) continue;
+      const double leg = footfalls_.LegFraction(static_cast<int>(l), time);
+      const double hip = style_.hip * LegAngle(leg, &LegPose::hip) * kDegree;
+      if (Flex(JointRole::kHipFlexion, side, hip, &q)) SwingArm(side, hip, &q);
+      Flex(JointRole::kKneeFlexion, side, style_.knee * LegAngle(leg, &LegPose::knee) * kDegree, &q);
+      Flex(JointRole::kAnkleDorsiflexion, side, style_.ankle * LegAngle(leg, &LegPose::ankle) * kDegree, &q);
     }
     q(problem_.forward_joint) = displacement_ * time / total_;
-    if (const int pitch = model.Find("base_pitch"); pitch >= 0) q(pitch) = style_.lean;
+    Flex(JointRole::kBasePitch, BodySide::kMidline, style_.lean, &q);
     LowerOntoGround(&q);
     return q;
   }
@@ -202,19 +192,25 @@ class Walk {
   }
 
  private:
-  // The arm on the side of a hip at the given angle.
-  void SwingArm(int hip, double angle, VectorX* q) const {
-    const std::string side = problem_.model.joint(hip).name.substr(3);
-    const int shoulder = problem_.model.Find("shoulder" + side), elbow = problem_.model.Find("elbow" + side);
-    if (shoulder >= 0) (*q)(shoulder) = kArmSwing * (angle - kArmMean);
-    if (elbow >= 0) (*q)(elbow) = kElbow;
+  // Flexes the joint with a role by an angle (rad). False if there is none.
+  bool Flex(JointRole role, BodySide side, double angle, VectorX* q) const {
+    const int joint = problem_.model.Find(role, side);
+    if (joint < 0) return false;
+    (*q)(joint) = problem_.model.FlexionSign(joint) * angle;
+    return true;
+  }
+
+  // The arm on the side of a hip that is flexed by the given angle.
+  void SwingArm(BodySide side, double angle, VectorX* q) const {
+    Flex(JointRole::kShoulderFlexion, side, kArmSwing * (angle - kArmMean), q);
+    Flex(JointRole::kElbowFlexion, side, kElbow, q);
   }
 
   // Moves the vertical base joint so that the lowest surfaces touch the ground: the soft minimum of all gaps is zero,
   // whatever the phase, so that the body's height has no step and no kink where contacts change.
   void LowerOntoGround(VectorX* q) const {
     constexpr double kSoftness = 0.005;  // m
-    const int vertical = problem_.model.Find("base_z");
+    const int vertical = problem_.model.Find(JointRole::kBaseVertical);
     ROLLGAIT_CHECK(vertical >= 0);
     TreeDynamics tree(problem_.model);
     const VectorX zero = VectorX::Zero(problem_.model.size());

@@ -12,7 +12,9 @@
 namespace rollgait {
 namespace {
 
-constexpr int kMostFromAfar = 36;         // intervals in all
+// Intervals of a step. A full cycle has two: with as many intervals in all as a half cycle, of which phases of 2 and 4
+// remained, squared torque and slopes led to motions that exist on that mesh only.
+constexpr int kMostFromAfar = 36;
 constexpr int kOuterGroups = 6;           // of half the size, at each end of a phase
 constexpr double kRoughTolerance = 1e-2;  // of what is only a start
 constexpr int kMostOnTheWay = 200;        // iterations of what is only a start; those that succeed take 4 to 130
@@ -43,7 +45,8 @@ GaitSpec WithHalfTheIntervals(GaitSpec spec) {
 // How often the intervals of every phase are halved to be solved well from afar.
 int Halvings(const GaitSpec& spec) {
   // A phase has one interval at least, so many short phases have more in all however often they are halved.
-  const int fewest = std::max(kMostFromAfar, static_cast<int>(spec.phases.size()));
+  const int steps = spec.cycle == Cycle::kFull ? 2 : 1;
+  const int fewest = std::max(steps * kMostFromAfar, static_cast<int>(spec.phases.size()));
   int halvings = 0;
   for (GaitSpec next = spec; Intervals(next) > fewest; next = WithHalfTheIntervals(std::move(next))) ++halvings;
   return halvings;
@@ -97,6 +100,7 @@ std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
   const int halvings = Halvings(spec);
   if (halvings == 0) return std::nullopt;
   GaitSpec coarse = OnTheWay(spec);
+  coarse.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
   for (int i = 0; i < halvings; ++i) coarse = WithHalfTheIntervals(std::move(coarse));
   return coarse;
 }

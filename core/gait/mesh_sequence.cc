@@ -180,13 +180,17 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
                result.message + ")";
       break;
     }
-    if (!Converged(result.termination)) break;
-    const bool is_artefact = IsArtefact(spec, solution);
+    // From a guess a coarse mesh takes long where it has no motion to offer. So may a finer one, but hardly twice.
+    const bool leads_nowhere = refinements == 0 && result.termination == Termination::kIterationLimit &&
+                               !guess.near_solution && can_refine && solution.trajectory && budget->Left();
+    if (!Converged(result.termination) && !leads_nowhere) break;
+    const bool is_artefact = leads_nowhere || IsArtefact(spec, solution);
+    // The multipliers of a program that stalled do not say what the sides cost.
     const bool has_new_edges =
-        !is_artefact && !spec.is_only_a_start &&
+        !is_artefact && !spec.is_only_a_start && result.termination == Termination::kOptimal &&
         AddFrictionEdges(nlp.FlatSides(result.x.data(), result.constraint_multipliers),
                          LeastCostOfASide(spec, solution.objective, nlp.typical_objective()), &added);
-    if (IsDone(solution)) {
+    if (!leads_nowhere && IsDone(solution)) {
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;
       guess = GuessFromTrajectory(*solution.trajectory);
@@ -254,15 +258,17 @@ AddedConstraints EdgesOf(const AddedConstraints& all) {
   return edges;
 }
 
-// From the spec's warm start.
-GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, NlpOptions options,
-                             int max_iterations, SolveBudget* budget) {
+// From the spec's warm start, refined by what is known of its motion, if anything is.
+GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& problem, StartOf start_of,
+                             int max_iterations, const AccuracyReport* report, SolveBudget* budget) {
   const Trajectory& trajectory = spec.warm_start->trajectory;
   Mesh mesh = RequestedMesh(spec), other = MeshOf(trajectory);
   if (IsSameMesh(mesh, other)) other = mesh;
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
   Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;
+  if (report != nullptr && IsSameMesh(mesh, other)) mesh = RefineMesh(mesh, spec, trajectory, *report, false);
+  NlpOptions options = SettingsFor(start_of, spec);
   options.max_iterations = max_iterations;
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh),
@@ -296,12 +302,21 @@ GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem&
 
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
-  return SolveFromStored(spec, problem, SettingsFor(StartOf::kOtherRequest, spec), max_iterations, budget);
+  return SolveFromStored(spec, problem, StartOf::kOtherRequest, max_iterations, nullptr, budget);
 }
 
-GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
-                               SolveBudget* budget) {
-  return SolveFromStored(spec, problem, SettingsFor(StartOf::kNeighbour, spec), max_iterations, budget);
+GaitSolution SolveFromNeighbour(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                                SolveBudget* budget) {
+  return SolveFromStored(spec, problem, StartOf::kNeighbour, max_iterations, nullptr, budget);
+}
+
+GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,
+                               int max_iterations, SolveBudget* budget) {
+  // Where its motion misses a bound the next one will as well, so the mesh in between need not be solved.
+  const bool refines = IsBounded(spec) && spec.max_refinements > 0 && smoother.accuracy &&
+                       !smoother.accuracy->intervals.empty() && !IsArtefact(spec, smoother);
+  return SolveFromStored(spec, problem, refines ? StartOf::kSmoother : StartOf::kNeighbour, max_iterations,
+                         refines ? &*smoother.accuracy : nullptr, budget);
 }
 
 }  // namespace rollgait

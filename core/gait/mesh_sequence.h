@@ -28,9 +28,15 @@ GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& pr
 GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
-// The same where the spec's warm start is the solution of the same request with smoother powers.
-GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
-                               SolveBudget* budget);
+// The same where the spec's warm start is the solution of a request that differs a little, such as one with dearer
+// rates.
+GaitSolution SolveFromNeighbour(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                                SolveBudget* budget);
+
+// The same where the spec's warm start is `smoother`, the solution of the same request with smoother powers. With
+// bounds the first mesh is refined where the motion of `smoother` misses them.
+GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,
+                               int max_iterations, SolveBudget* budget);
 
 // The start that a solution is for the next program.
 WarmStart StartFrom(const GaitSpec& spec, const GaitSolution& solution);

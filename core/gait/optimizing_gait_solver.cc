@@ -10,11 +10,12 @@
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
+#include "core/gait/own_units.h"
 #include "core/gait/power_smoothing.h"
+#include "core/gait/rate_continuation.h"
 #include "core/gait/request_check.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
-#include "core/gait/time_unit.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
@@ -33,34 +34,52 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
   return UnmetConstraint{"friction on average", 0, 0, needed - spec.friction_coefficient, "1"};
 }
 
+// What follows on a slope where the starts do not converge: nothing, or continuation from level ground.
+enum class Otherwise { kGiveUp, kContinue };
+
 // From the requested starts, and on a slope that these do not reach by continuation.
-GaitSolution SearchFromAfar(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchFromAfar(const GaitSpec& spec, Otherwise otherwise, SolveBudget* budget) {
   const auto problem = BuildProblem(spec);
   GaitSolution solution =
       spec.starts > 1 ? SolveFromStarts(spec, *problem, budget)
                       : SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), budget);
-  if (Converged(solution.termination) || spec.slope == 0 || !budget->Left()) return solution;
-  std::optional<GaitSolution> continued = SolveByContinuation(spec, budget);
-  if (!continued) return solution;
-  PutBefore(solution.meshes, &*continued);
-  return std::move(*continued);
+  if (Converged(solution.termination) || otherwise == Otherwise::kGiveUp || spec.slope == 0 || !budget->Left()) {
+    return solution;
+  }
+  std::vector<MeshStatistics> meshes = std::move(solution.meshes);
+  std::optional<GaitSolution> continued = SolveByContinuation(spec, budget, &meshes);
+  if (continued) solution = std::move(*continued);
+  solution.meshes = std::move(meshes);
+  return solution;
+}
+
+// With twice the intervals, where the request leaves the mesh to its accuracy.
+GaitSpec WithFinerMesh(GaitSpec spec, int refinements) {
+  if (refinements == 0) return spec;
+  for (GaitSpec::Phase& phase : spec.phases) phase.intervals *= 2;
+  return spec;
 }
 
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
-GaitSolution SearchOnMesh(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchOnMesh(const GaitSpec& spec, Otherwise otherwise, SolveBudget* budget) {
   // Of what is only a start. human29, six requests: 469 iterations in all, 520 with 1e-3; with 0.1 they are 447, but
   // some planar gaits then end in a minimum that is 3 % dearer.
   constexpr double kCoarseTolerance = 1e-2;
+  constexpr int kMostFromTheGuess = 200;  // iterations; those that succeed take 30 to 130
   const double cold = ColdSmoothing(spec);
-  if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, budget);
+  if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, otherwise, budget);
   GaitSpec smooth = SmoothedBy(cold, spec);
   LeaveTheRest(&smooth);
   smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
-  GaitSolution solution = SearchFromAfar(smooth, budget);
-  if (solution.termination == Termination::kNumericalDifficulty && spec.max_refinements > 0 && budget->Left()) {
+  smooth.max_iterations = std::min(spec.max_iterations, kMostFromTheGuess);
+  GaitSolution solution = SearchFromAfar(smooth, otherwise, budget);
+  const bool takes_long = solution.termination == Termination::kIterationLimit;
+  if ((takes_long || solution.termination == Termination::kNumericalDifficulty) && spec.max_refinements > 0 &&
+      budget->Left()) {
+    if (takes_long) smooth = WithFinerMesh(std::move(smooth), spec.max_refinements);
     smooth.max_refinements = spec.max_refinements;
     smooth.is_only_a_start = false;
-    GaitSolution refined = SearchFromAfar(smooth, budget);
+    GaitSolution refined = SearchFromAfar(smooth, otherwise, budget);
     PutBefore(solution.meshes, &refined);
     solution = std::move(refined);
   }
@@ -69,14 +88,41 @@ GaitSolution SearchOnMesh(const GaitSpec& spec, SolveBudget* budget) {
 }
 
 // By way of coarser meshes where the requested one is fine, and without them where that fails.
-GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+GaitSolution SearchByMeshes(const GaitSpec& spec, Otherwise otherwise, SolveBudget* budget) {
   const std::optional<GaitSpec> coarse = CoarseStart(spec);
-  if (!coarse) return SearchOnMesh(spec, budget);
-  GaitSolution ascended = Ascend(spec, *BuildProblem(spec), SearchOnMesh(*coarse, budget), budget);
+  if (!coarse) return SearchOnMesh(spec, otherwise, budget);
+  GaitSolution ascended = Ascend(spec, *BuildProblem(spec), SearchOnMesh(*coarse, otherwise, budget), budget);
   if ((Converged(ascended.termination) && !IsArtefact(spec, ascended)) || !budget->Left()) return ascended;
-  GaitSolution solution = SearchOnMesh(spec, budget);
+  GaitSolution solution = SearchOnMesh(spec, otherwise, budget);
   PutBefore(ascended.meshes, &solution);
   return solution;
+}
+
+// Whether a solution is all that was asked for.
+bool Answers(const GaitSolution& solution) {
+  return Converged(solution.termination) && solution.verdict.kind != Verdict::Kind::kExceeded;
+}
+
+// Squared torque alone is solved as it is, and where that takes long or leads to motions that exist on no finer mesh,
+// by way of a price of rates.
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+  if (!LeavesRatesFree(spec)) return SearchByMeshes(spec, Otherwise::kContinue, budget);
+  constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100
+  GaitSpec impatient = spec;
+  impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
+  GaitSolution direct = SearchByMeshes(impatient, Otherwise::kGiveUp, budget);
+  if (Answers(direct) || !budget->Left()) return direct;
+  GaitSolution rated =
+      Converged(direct.termination) && !IsArtefact(spec, direct)
+          ? AddRates(spec, direct, budget)
+          : SearchOnMesh(WithFinerMesh(WithRates(spec), spec.max_refinements), Otherwise::kGiveUp, budget);
+  PutBefore(direct.meshes, &rated);
+  direct.meshes = rated.meshes;
+  if (!Converged(rated.termination)) return direct;
+  GaitSolution solution = ReleaseRates(spec, std::move(rated), budget);
+  if (Converged(solution.termination)) return solution;
+  direct.meshes = std::move(solution.meshes);
+  return direct;
 }
 
 // From the warm start, if there is one, and without it where that does not converge.
@@ -97,17 +143,15 @@ GaitSolution SearchWithErrors(const GaitSpec& spec, SolveBudget* budget) {
                                                                  : solution;
 }
 
-// In the time unit of the walk's gravity; at 9.81 m/s² that is the second.
-GaitSolution SearchInOwnTime(const GaitSpec& spec, SolveBudget* budget) {
-  const double unit = spec.similarity.time();
-  return unit == 1 ? SearchWithErrors(spec, budget)
-                   : InSeconds(unit, spec, SearchWithErrors(InTimeUnit(unit, spec), budget));
+GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolveBudget* budget) {
+  return InSi(units, spec, SearchWithErrors(WithoutRounding(InUnits(units, spec)), budget));
 }
 
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
-  SolveBudget budget(spec, control);
+  const Units units = spec.manoeuvre ? Units{} : OwnUnits(spec);
+  SolveBudget budget(spec, control, units.objective);
   if (const auto contradiction = FindContradiction(spec)) {
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;
@@ -120,7 +164,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     return solution;
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
-  GaitSolution solution = SearchInOwnTime(spec, &budget);
+  GaitSolution solution = SearchInUnits(units, spec, &budget);
   if (solution.finer) {
     solution.errors = EstimateErrors(spec.scene, solution, *solution.finer);
     if (spec.max_error) {

@@ -4,16 +4,11 @@
 #include <variant>
 
 namespace rollgait {
-namespace {
-
-// Of a term that is a power; null for others. The spec's are filled.
 std::optional<double>* SmoothingOf(GaitSpec::CostTerm* cost) {
   if (auto* work = std::get_if<GaitRequest::MechanicalWork>(&cost->term)) return &work->smoothing;
   if (auto* work = std::get_if<GaitRequest::MuscleWork>(&cost->term)) return &work->smoothing;
   return nullptr;
 }
-
-}  // namespace
 
 std::optional<double> LeastSmoothing(const GaitSpec& spec) {
   std::optional<double> least;

@@ -7,6 +7,9 @@
 
 namespace rollgait {
 
+// Of a term that is a power (W); null for others. Those of a spec are filled.
+std::optional<double>* SmoothingOf(GaitSpec::CostTerm* cost);
+
 // W: the least smoothing of a power (core/ocp/costs/power_price.h) among the costs of the spec. Nothing where none is a
 // power.
 std::optional<double> LeastSmoothing(const GaitSpec& spec);

@@ -12,22 +12,22 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s², at which weights are given, with 75 kg
 
-// The weights whose joints the body has; "hip" stands for hip_l and hip_r.
-std::map<std::string, double> OfBody(const std::map<std::string, double>& weights, const Scene& scene) {
-  std::map<std::string, double> known;
-  for (const auto& [name, weight] : weights) {
-    for (const char* suffix : {"", "_l", "_r"}) {
-      if (scene.model.Find(name + suffix) >= 0) known[name + suffix] = weight;
-    }
+// The weights by name of the joints that have these roles, on either side.
+std::map<std::string, double> OfBody(const std::map<JointRole, double>& weights, const Scene& scene) {
+  std::map<std::string, double> named;
+  for (const Joint& joint : scene.model.joints()) {
+    const auto weight = weights.find(joint.role);
+    if (weight != weights.end()) named[joint.name] = weight->second;
   }
-  return known;
+  return named;
 }
 
 // Upright trunk and pelvis.
 GaitRequest::Tracking Posture(const Scene& scene) {
   GaitRequest::Tracking posture;
-  for (const char* joint : {"base_pitch", "trunk_flexion"}) {
-    if (scene.model.Find(joint) >= 0) posture.channels.push_back({joint, {0, 0}, 1.0});
+  for (const JointRole role : {JointRole::kBasePitch, JointRole::kTrunkFlexion}) {
+    const int joint = scene.model.Find(role);
+    if (joint >= 0) posture.channels.push_back({scene.model.joint(joint).name, {0, 0}, 1.0});
   }
   return posture;
 }
@@ -62,14 +62,19 @@ struct WeightFactors {
 
 void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* costs) {
   GaitRequest::MuscleEffort effort;
-  effort.joint_weights = OfBody({{"hip", 0.5}, {"knee", 0.1}, {"ankle", 0.2}}, scene);
+  effort.joint_weights = OfBody(
+      {{JointRole::kHipFlexion, 0.5}, {JointRole::kKneeFlexion, 0.1}, {JointRole::kAnkleDorsiflexion, 0.2}}, scene);
   costs->Add(std::move(effort), factors.ratio);
   costs->Add(GaitRequest::MuscleWork{}, 5e-4 * factors.energy);
   costs->Add(GaitRequest::PassiveLoad{}, 1.2 * factors.ratio);
   costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 * factors.torque_rate);
   GaitRequest::SquaredAcceleration acceleration;
-  acceleration.joint_weights =
-      OfBody({{"hip", 0.6}, {"knee", 0.3}, {"ankle", 2.7}, {"base_pitch", 1.6}, {"base_z", 0.7}}, scene);
+  acceleration.joint_weights = OfBody({{JointRole::kHipFlexion, 0.6},
+                                       {JointRole::kKneeFlexion, 0.3},
+                                       {JointRole::kAnkleDorsiflexion, 2.7},
+                                       {JointRole::kBasePitch, 1.6},
+                                       {JointRole::kBaseVertical, 0.7}},
+                                      scene);
   costs->Add(std::move(acceleration), 2.7e-6 * factors.acceleration);
   GaitRequest::Tracking posture = Posture(scene);
   if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5 * factors.ratio);
@@ -79,7 +84,7 @@ void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* cost
 
 void FillFromPreset(GaitRequest* request) {
   if (request->preset != Preset::kHuman) return;
-  if (!request->body.feet) request->body.feet = FootShape::kTwoEllipsoids;
+  if (!request->body.feet && !request->body.own) request->body.feet = FootShape::kTwoEllipsoids;
   if (!request->phases && !request->motion.duty_factor) request->motion.duty_factor = GaitRequest::Range{0.605, 0.615};
   if (!request->ground_contact.swing_clearance) request->ground_contact.swing_clearance = 0.02;
 }

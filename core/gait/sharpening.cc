@@ -28,7 +28,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     if (next > least) LeaveTheRest(&sharper);
     sharper.warm_start = StartFrom(spec, last);
     GaitSolution solution =
-        SolveFromSmoother(sharper, *BuildProblem(sharper), path_ends ? kPatience : kMostIterations, budget);
+        SolveFromSmoother(sharper, *BuildProblem(sharper), last, path_ends ? kPatience : kMostIterations, budget);
     solution.note = last.note;
     solution.warm_started = solution.used_multipliers = false;  // not from what the request named
     PutBefore(last.meshes, &solution);
@@ -39,7 +39,7 @@ GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* bud
     }
     if (path_ends || !budget->Left()) {
       std::ostringstream note;
-      const double watt = 1 / std::pow(spec.time_unit, 3);
+      const double watt = spec.units.mass / std::pow(spec.units.time, 3);
       note << " It converged with powers smoothed by " << watt * reached << " W, not by " << watt * next << " W.";
       solution.message += note.str();
       return solution;

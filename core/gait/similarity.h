@@ -17,6 +17,13 @@ struct Similarity {
   double power() const { return mass * gravity * std::sqrt(gravity); }
 };
 
+// Of time, s, of mass, kg, and of the objective, 1 of what the request weighs.
+struct Units {
+  double time = 1;
+  double mass = 1;
+  double objective = 1;
+};
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_GAIT_SIMILARITY_H_

@@ -8,7 +8,7 @@
 namespace rollgait {
 namespace {
 
-// Observers see the objective of the problem, not that of the scaled NLP.
+// Observers see the objective of the request, not that of the scaled NLP.
 SolveControl Unscaled(const SolveControl& control, double scale) {
   SolveControl unscaled = control;
   if (control.observer) {
@@ -22,9 +22,10 @@ SolveControl Unscaled(const SolveControl& control, double scale) {
 
 }  // namespace
 
-SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control)
+SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control, double objective_unit)
     : control_(control),
       begin_(std::chrono::steady_clock::now()),
+      objective_unit_(objective_unit),
       max_wall_time_(spec.max_wall_time),
       iterations_left_(spec.max_iterations) {}
 
@@ -42,7 +43,7 @@ NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOption
   options.mesh = programs_++;
   options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
   options.max_wall_time_s = max_wall_time_ - elapsed();
-  const SolveControl unscaled = Unscaled(control_, nlp.objective_scale());
+  const SolveControl unscaled = Unscaled(control_, nlp.objective_scale() / objective_unit_);
   NlpResult result = control_.journal != nullptr ? control_.journal->Solve(nlp, start, options, unscaled)
                                                  : SolveNlp(nlp, start, options, unscaled);
   iterations_left_ -= result.iterations;

@@ -14,7 +14,8 @@ namespace rollgait {
 // numbering of the programs (IterationInfo::mesh). Starts its clock when it is made.
 class SolveBudget {
  public:
-  SolveBudget(const GaitSpec& spec, const SolveControl& control);
+  // Observers see objectives times `objective_unit`: what the specs that are solved count, of what the request weighs.
+  SolveBudget(const GaitSpec& spec, const SolveControl& control, double objective_unit = 1);
 
   // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
   NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
@@ -25,6 +26,7 @@ class SolveBudget {
  private:
   const SolveControl& control_;
   std::chrono::steady_clock::time_point begin_;
+  double objective_unit_;
   double max_wall_time_;
   int iterations_left_;
   int programs_ = 0;

@@ -10,6 +10,7 @@ namespace rollgait {
 enum class StartOf {
   kGuess,         // a guess that knows nothing of the solution
   kNeighbour,     // the solution of a problem that differs a little: smoother powers, pairs of bodies that were free
+  kSmoother,      // the solution of this problem with smoother powers, on a coarser mesh
   kOtherRequest,  // the solution of another request
   kFinerMesh,     // the solution of this problem on a coarser mesh
   kSameMesh,      // the solution of this problem on a mesh whose intervals are nowhere longer

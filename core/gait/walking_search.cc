@@ -33,6 +33,7 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
   GaitSpec trial = spec;
   trial.max_refinements = 0;
   std::optional<GaitSolution> best;
+  GaitSolution last;
   std::vector<MeshStatistics> meshes;
   int tried = 0, found = 0, best_start = 0;
   while (tried < spec.starts && budget->Left()) {
@@ -44,13 +45,21 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
       solution.meshes = std::move(meshes);
       return solution;
     }
-    if (!converged) continue;
+    if (!converged) {
+      last = std::move(solution);
+      continue;
+    }
     ++found;
     if (best && best->objective <= solution.objective) continue;
     best = std::move(solution);
     best_start = start;
   }
-  if (!best) {  // the first guess once more, with the finer meshes that it may need
+  if (!best) {
+    if (spec.max_refinements == 0) {
+      last.meshes = std::move(meshes);
+      return last;
+    }
+    // The first guess once more, with the finer meshes that it may need.
     GaitSolution solution = SolveOnMeshes(spec, problem, WalkingGuess(spec, problem), mesh, budget);
     AppendMeshes(solution, &meshes);
     solution.meshes = std::move(meshes);
@@ -76,13 +85,14 @@ GaitSolution SolveFromStarts(const GaitSpec& spec, const OptimalControlProblem& 
   return std::move(*best);
 }
 
-std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudget* budget) {
+std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudget* budget,
+                                                std::vector<MeshStatistics>* meshes) {
   constexpr double kFirstStep = 5 * std::numbers::pi / 180, kLeastStep = kFirstStep / 8;
   GaitSpec level = AtSlope(spec, 0);
   LeaveTheRest(&level);
   const auto level_problem = BuildProblem(level);
   GaitSolution last = SolveFromStarts(level, *level_problem, budget);
-  std::vector<MeshStatistics> meshes = last.meshes;
+  AppendMeshes(last, meshes);
   if (!Converged(last.termination)) return std::nullopt;
   const double direction = spec.slope > 0 ? 1 : -1, steepness = std::abs(spec.slope);
   double reached = 0, step = kFirstStep;
@@ -94,7 +104,7 @@ std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudge
     const auto problem = BuildProblem(there);
     GaitSolution solution =
         SolveOnMeshes(there, *problem, GuessFromTrajectory(*last.trajectory), RequestedMesh(spec), budget);
-    AppendMeshes(solution, &meshes);
+    AppendMeshes(solution, meshes);
     if (!Converged(solution.termination)) {
       step /= 2;
       continue;
@@ -103,7 +113,6 @@ std::optional<GaitSolution> SolveByContinuation(const GaitSpec& spec, SolveBudge
     reached = next;
   }
   if (reached < steepness) return std::nullopt;
-  last.meshes = std::move(meshes);
   last.note = " Reached by continuation from level ground, where the start converges.";
   return last;
 }

@@ -17,6 +17,11 @@ struct GaitSpec;
 struct SolutionMultipliers {
   VectorX rows;
   VectorX bounds;
+
+  void Scale(double factor) {
+    rows *= factor;
+    bounds *= factor;
+  }
 };
 
 // The solution of a request like this one, for a solve to start from.

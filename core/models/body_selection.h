@@ -2,6 +2,7 @@
 #define ROLLGAIT_CORE_MODELS_BODY_SELECTION_H_
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "core/base/types.h"
 
 namespace rollgait {
+
+struct OwnModel;
 
 enum class Sex { kFemale, kMale };
 
@@ -43,6 +46,7 @@ struct BodySelection {
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
   std::map<std::string, double> locked_joints;   // rad, those given
   std::optional<RollingEllipsoid> rolling_body;  // if the model is one; nothing else then means anything
+  bool own = false;                              // given as data (OwnModel): only `model` and `mass` mean anything
 };
 
 // The same before it is checked; empty optionals take the defaults of rollgait.v1.ModelSelection.
@@ -58,6 +62,8 @@ struct BodyRequest {
   bool sagittal = false, drop_arms = false, rigid_trunk = false;
   std::map<std::string, double> locked_joints;  // rad, within the range of the joint
   std::optional<RollingEllipsoidRequest> rolling_body;
+  // A walker given as data in place of all of the above but `model`, which is then empty or its name.
+  std::shared_ptr<const OwnModel> own;  // shared: requests are copied often, and it does not change
 };
 
 }  // namespace rollgait

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/models/human_scene.h"
+#include "core/models/own_model.h"
 #include "core/models/rolling_ellipsoid.h"
 #include "core/models/segment_table.h"
 
@@ -72,6 +73,36 @@ Result<Scene> BuildBall(const BodyRequest& request) {
   return violations;
 }
 
+Result<Scene> BuildOwn(const BodyRequest& request) {
+  Violations violations;
+  const auto refuse = [&](bool given, const char* field) {
+    if (given) violations.push_back({field, "means nothing for a model of your own; leave it out"});
+  };
+  if (!request.model.empty() && request.model != request.own->name) {
+    violations.push_back({"name", "is not own.summary.name; leave it out"});
+  }
+  refuse(request.sex != Sex::kMale, "sex");
+  refuse(request.stature.has_value(), "stature_m");
+  refuse(request.mass.has_value(), "body_mass_kg");
+  refuse(!request.segment_lengths.empty(), "segment_lengths_m");
+  refuse(request.toes, "toes");
+  refuse(request.sagittal, "sagittal");
+  refuse(request.drop_arms, "drop_arms");
+  refuse(request.rigid_trunk, "rigid_trunk");
+  refuse(!request.locked_joints.empty(), "locked_joints_rad");
+  refuse(request.ranges.has_value(), "ranges");
+  refuse(request.feet.has_value(), "feet");
+  refuse(request.rolling_body.has_value(), "rolling_body");
+  Result<Scene> scene = OwnScene(*request.own);
+  if (!scene.ok()) {
+    for (const Violation& violation : scene.violations()) {
+      violations.push_back({"own." + violation.field, violation.message});
+    }
+  }
+  if (!violations.empty()) return violations;
+  return scene;
+}
+
 }  // namespace
 
 std::vector<CatalogEntry> ListCatalog() {
@@ -90,6 +121,7 @@ std::vector<CatalogEntry> ListCatalog() {
 }
 
 Result<Scene> BuildScene(const BodyRequest& request) {
+  if (request.own) return BuildOwn(request);
   if (request.model == kBall) return BuildBall(request);
   Violations violations;
   const Entry* chosen = nullptr;

@@ -21,7 +21,7 @@ struct CatalogEntry {
 std::vector<CatalogEntry> ListCatalog();
 
 // Builds the scaled and reduced scene. Violations name fields of rollgait.v1.ModelSelection: "name", "stature_m",
-// "body_mass_kg" and those of HumanScene.
+// "body_mass_kg" those of HumanScene, and "own." with those of OwnScene.
 Result<Scene> BuildScene(const BodyRequest& request);
 
 }  // namespace rollgait

@@ -24,16 +24,18 @@ std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape
   const double radius = kRollingRadius * table.LegLength();
   if (shape == FootShape::kOneEllipsoid) {
     const double a = length / 2, c = HalfHeight(a, radius);
-    return {{"foot", Ellipsoid(Vector3(a, kHalfFootBreadth * length, c)), Vector3(a + heel, 0, c + sole), false}};
+    return {{"foot", FootPart::kWhole, Ellipsoid(Vector3(a, kHalfFootBreadth * length, c)),
+             Vector3(a + heel, 0, c + sole), false}};
   }
   const double a = kHeelHalfLength * length, c = HalfHeight(a, kHeelRadius * table.LegLength());
   const double a_front = kForefootHalfLength * length, c_front = HalfHeight(a_front, radius);
-  return {{"heel", Ellipsoid(Vector3(a, kHeelHalfBreadth * length, c)), Vector3(heel + a, 0, sole + c), false},
-          {"forefoot", Ellipsoid(Vector3(a_front, kHalfFootBreadth * length, c_front)),
+  return {{"heel", FootPart::kHeel, Ellipsoid(Vector3(a, kHeelHalfBreadth * length, c)), Vector3(heel + a, 0, sole + c),
+           false},
+          {"forefoot", FootPart::kToe, Ellipsoid(Vector3(a_front, kHalfFootBreadth * length, c_front)),
            Vector3(heel + length - a_front, 0, sole + c_front), true}};
 }
 
-FootBodies SplitFoot(const SegmentTable& table, Side side) {
+FootBodies SplitFoot(const SegmentTable& table, BodySide side) {
   const RigidBody whole = table.Body(Segment::kFoot, side);
   const Vector3 joint = table.AnkleToToes();
   const double half_length = (table.FootLength() - table.HeelToAnkle() - joint.x()) / 2;

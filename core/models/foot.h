@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/contact_surface.h"
 #include "core/geometry/ellipsoid.h"
 #include "core/models/segment_table.h"
 
@@ -12,6 +13,7 @@ namespace rollgait {
 // A surface of a foot, axes forward, left and up when the foot is level; its lowest point is then at the sole.
 struct FootSurface {
   std::string name;  // "foot", or "heel" and "forefoot"
+  FootPart part;
   Ellipsoid surface;
   Vector3 center;        // m, from the ankle joint
   bool on_toes = false;  // rides on the toes, if they are a link of their own
@@ -23,7 +25,7 @@ struct FootBodies {
   RigidBody foot;  // from the ankle joint, without the toes
   RigidBody toes;  // from the toe joint (SegmentTable::AnkleToToes)
 };
-FootBodies SplitFoot(const SegmentTable& table, Side side);
+FootBodies SplitFoot(const SegmentTable& table, BodySide side);
 
 // Where the numbers come from.
 std::vector<std::string> FootSources();

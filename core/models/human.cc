@@ -13,17 +13,46 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+// What is told of joints by their names without side.
+struct JointKind {
+  const char* name;
+  JointRole role;
+  PassiveKind passive;
+};
+constexpr JointKind kJointKinds[] = {
+    {"base_x", JointRole::kBaseForward, PassiveKind::kNone},
+    {"base_y", JointRole::kBaseLateral, PassiveKind::kNone},
+    {"base_z", JointRole::kBaseVertical, PassiveKind::kNone},
+    {"base_yaw", JointRole::kBaseYaw, PassiveKind::kNone},
+    {"base_roll", JointRole::kBaseRoll, PassiveKind::kNone},
+    {"base_pitch", JointRole::kBasePitch, PassiveKind::kNone},
+    {"hip", JointRole::kHipFlexion, PassiveKind::kHumanHip},
+    {"knee", JointRole::kKneeFlexion, PassiveKind::kHumanKnee},
+    {"ankle", JointRole::kAnkleDorsiflexion, PassiveKind::kHumanAnkle},
+    {"trunk_flexion", JointRole::kTrunkFlexion, PassiveKind::kStops},
+    {"shoulder", JointRole::kShoulderFlexion, PassiveKind::kStops},
+    {"elbow", JointRole::kElbowFlexion, PassiveKind::kStops},
+};
+constexpr JointKind kOtherJoint = {"", JointRole::kNone, PassiveKind::kStops};
+
+const JointKind& KindOf(const std::string& name) {
+  for (const JointKind& kind : kJointKinds) {
+    if (name == kind.name) return kind;
+  }
+  return kOtherJoint;
+}
+
 class HumanBuilder {
  public:
   HumanBuilder(const SegmentTable& table, const HumanOptions& options) : table_(table), options_(options) {}
 
   HumanBody Build() {
     AddBase();
-    AddLeg(Side::kLeft);
-    AddLeg(Side::kRight);
+    AddLeg(BodySide::kLeft);
+    AddLeg(BodySide::kRight);
     AddTrunk();
-    AddArm(Side::kLeft);
-    AddArm(Side::kRight);
+    AddArm(BodySide::kLeft);
+    AddArm(BodySide::kRight);
     PairJoints();
     Result<Model> model = Model::Create(std::move(joints_));
     ROLLGAIT_CHECK(model.ok());
@@ -41,19 +70,26 @@ class HumanBuilder {
   }
 
  private:
-  static const char* Suffix(Side side) { return side == Side::kLeft ? "_l" : side == Side::kRight ? "_r" : ""; }
+  static const char* Suffix(BodySide side) {
+    return side == BodySide::kLeft ? "_l" : side == BodySide::kRight ? "_r" : "";
+  }
 
-  static std::string Sided(Side side, const std::string& name) {
-    return (side == Side::kLeft ? "left_" : "right_") + name;
+  static std::string Sided(BodySide side, const std::string& name) {
+    return (side == BodySide::kLeft ? "left_" : "right_") + name;
   }
   static std::string MirrorName(const std::string& name) {
     return name.starts_with("left_") ? "right_" + name.substr(5) : "left_" + name.substr(6);
   }
 
-  // Appends a joint; returns its index. Its link has no mass yet.
-  int Add(const std::string& name, JointType type, int parent, const Vector3& origin, const Vector3& axis) {
+  // Appends a joint, by its name without side; returns its index. Its link has no mass yet.
+  int Add(const std::string& kind, BodySide side, JointType type, int parent, const Vector3& origin,
+          const Vector3& axis) {
+    const std::string name = kind + Suffix(side);
     Joint joint;
     joint.name = name;
+    joint.role = KindOf(kind).role;
+    joint.passive = KindOf(kind).passive;
+    joint.side = side;
     joint.type = type;
     joint.parent = parent;
     joint.p_PJ = origin;
@@ -72,8 +108,8 @@ class HumanBuilder {
   }
 
   // Appends an actuated joint with its limits.
-  int AddActuated(const std::string& name, Side side, int parent, const Vector3& origin, const Vector3& axis) {
-    const int index = Add(name + Suffix(side), JointType::kRevolute, parent, origin, axis);
+  int AddActuated(const std::string& name, BodySide side, int parent, const Vector3& origin, const Vector3& axis) {
+    const int index = Add(name, side, JointType::kRevolute, parent, origin, axis);
     const JointLimits& limits = SetRange(name, &joints_[index]);
     Joint& joint = joints_[index];
     joint.velocity_max = limits.velocity;
@@ -84,8 +120,8 @@ class HumanBuilder {
   }
 
   // Flexion about y, adduction about x, internal rotation about z; the last two have mirrored axes.
-  int AddBall(const std::string& name, Side side, int parent, const Vector3& origin) {
-    const double sign = side == Side::kLeft ? -1 : 1;
+  int AddBall(const std::string& name, BodySide side, int parent, const Vector3& origin) {
+    const double sign = side == BodySide::kLeft ? -1 : 1;
     const int flexion = AddActuated(name, side, parent, origin, -Vector3::UnitY());
     const int adduction = AddActuated(name + "_adduction", side, flexion, Vector3::Zero(), sign * Vector3::UnitX());
     return AddActuated(name + "_rotation", side, adduction, Vector3::Zero(), sign * Vector3::UnitZ());
@@ -100,20 +136,20 @@ class HumanBuilder {
 
   void AddBase() {
     const Vector3 zero = Vector3::Zero();
-    const int x = Add("base_x", JointType::kPrismatic, -1, zero, Vector3::UnitX());
-    const int y = Add("base_y", JointType::kPrismatic, x, zero, Vector3::UnitY());
-    const int z = Add("base_z", JointType::kPrismatic, y, zero, Vector3::UnitZ());
-    const int yaw = Add("base_yaw", JointType::kRevolute, z, zero, Vector3::UnitZ());
-    const int roll = Add("base_roll", JointType::kRevolute, yaw, zero, Vector3::UnitX());
-    pelvis_ = Add("base_pitch", JointType::kRevolute, roll, zero, Vector3::UnitY());
+    const int x = Add("base_x", BodySide::kMidline, JointType::kPrismatic, -1, zero, Vector3::UnitX());
+    const int y = Add("base_y", BodySide::kMidline, JointType::kPrismatic, x, zero, Vector3::UnitY());
+    const int z = Add("base_z", BodySide::kMidline, JointType::kPrismatic, y, zero, Vector3::UnitZ());
+    const int yaw = Add("base_yaw", BodySide::kMidline, JointType::kRevolute, z, zero, Vector3::UnitZ());
+    const int roll = Add("base_roll", BodySide::kMidline, JointType::kRevolute, yaw, zero, Vector3::UnitX());
+    pelvis_ = Add("base_pitch", BodySide::kMidline, JointType::kRevolute, roll, zero, Vector3::UnitY());
     for (int joint : {y, yaw, roll}) joints_[joint].mirror_sign = -1;
     for (int joint : {yaw, roll, pelvis_}) SetRange(joints_[joint].name, &joints_[joint]);
-    SetLink(pelvis_, "pelvis", Shifted(table_.Body(Segment::kPelvis, Side::kMidline), -table_.LumbarToHips()));
+    SetLink(pelvis_, "pelvis", Shifted(table_.Body(Segment::kPelvis, BodySide::kMidline), -table_.LumbarToHips()));
   }
 
-  void AddLeg(Side side) {
+  void AddLeg(BodySide side) {
     const std::string suffix = Suffix(side);
-    const double sign = side == Side::kLeft ? -1 : 1;
+    const double sign = side == BodySide::kLeft ? -1 : 1;
     const int thigh = AddBall("hip", side, pelvis_, Vector3(0, -sign * table_.HalfHipWidth(), 0));
     const int shank =
         AddActuated("knee", side, thigh, Vector3(0, 0, -table_.Length(Segment::kThigh)), Vector3::UnitY());
@@ -137,6 +173,8 @@ class HumanBuilder {
       contact.name = Sided(side, surface.name);
       contact.joint = on_toes ? toes : foot;
       contact.surface = surface.surface;
+      contact.side = side;
+      contact.part = surface.part;
       contact.p_LE = on_toes ? surface.center - table_.AnkleToToes() : surface.center;
       contacts_.push_back(contact);
       AddLimb(LimbPart::kFoot, side, surface.name, contact.joint, {surface.surface, contact.p_LE});
@@ -146,25 +184,26 @@ class HumanBuilder {
     AddLimb(LimbPart::kThigh, side, "thigh", thigh, ThighBody(table_));
   }
 
-  void AddLimb(LimbPart part, Side side, const std::string& name, int joint, const LimbBody& limb) {
+  void AddLimb(LimbPart part, BodySide side, const std::string& name, int joint, const LimbBody& limb) {
     const PlacedSurface placed{limb.surface, limb.center, Matrix3::Identity()};
     limbs_.push_back({part, side, {Sided(side, name), joint, placed, 0}});
   }
 
   // Torso and head on the lumbar joint; the torso's mass properties are about the cervical joint.
   void AddTrunk() {
-    const int flexion = AddActuated("trunk_flexion", Side::kMidline, pelvis_, -table_.LumbarToHips(), Vector3::UnitY());
-    const int bending = AddActuated("trunk_bending", Side::kMidline, flexion, Vector3::Zero(), Vector3::UnitX());
-    torso_ = AddActuated("trunk_rotation", Side::kMidline, bending, Vector3::Zero(), Vector3::UnitZ());
+    const int flexion =
+        AddActuated("trunk_flexion", BodySide::kMidline, pelvis_, -table_.LumbarToHips(), Vector3::UnitY());
+    const int bending = AddActuated("trunk_bending", BodySide::kMidline, flexion, Vector3::Zero(), Vector3::UnitX());
+    torso_ = AddActuated("trunk_rotation", BodySide::kMidline, bending, Vector3::Zero(), Vector3::UnitZ());
     for (int joint : {bending, torso_}) joints_[joint].mirror_sign = -1;
     cervical_ = Vector3(0, 0, table_.Length(Segment::kTorso));
     SetLink(torso_, "torso",
-            Lumped({Shifted(table_.Body(Segment::kTorso, Side::kMidline), cervical_),
-                    Shifted(table_.Body(Segment::kHeadNeck, Side::kMidline), cervical_)}));
+            Lumped({Shifted(table_.Body(Segment::kTorso, BodySide::kMidline), cervical_),
+                    Shifted(table_.Body(Segment::kHeadNeck, BodySide::kMidline), cervical_)}));
   }
 
   // The hand is one body with the forearm.
-  void AddArm(Side side) {
+  void AddArm(BodySide side) {
     const std::string suffix = Suffix(side);
     const int arm = AddBall("shoulder", side, torso_, cervical_ + table_.CervicalToShoulder(side));
     const int forearm =

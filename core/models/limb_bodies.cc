@@ -54,7 +54,7 @@ std::vector<BodyPair> LimbPairs(const std::vector<LimbSurface>& surfaces) {
   std::vector<BodyPair> pairs;
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < count; ++k) {
-      const bool ordered = surfaces[i].side == Side::kLeft || surfaces[k].side == surfaces[i].side;
+      const bool ordered = surfaces[i].side == BodySide::kLeft || surfaces[k].side == surfaces[i].side;
       if (i != k && ordered && CanMeet(surfaces[i], surfaces[k])) pairs.push_back({i, k, -1});
     }
   }

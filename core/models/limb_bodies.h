@@ -26,7 +26,7 @@ LimbBody InstepBody(const SegmentTable& table);   // from the ankle: between hee
 enum class LimbPart { kFoot, kShank, kThigh, kForearm };
 struct LimbSurface {
   LimbPart part;
-  Side side;  // kLeft or kRight
+  BodySide side;  // kLeft or kRight
   BodySurface body;
 };
 

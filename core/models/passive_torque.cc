@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 namespace {
 
@@ -51,12 +53,19 @@ ExponentialSpring Scaled(ExponentialSpring spring, double factor) {
 }  // namespace
 
 ExponentialSpring PassiveTorque(const Joint& joint, double mass) {
-  const bool sided = joint.name.ends_with("_l") || joint.name.ends_with("_r");
-  const std::string name = sided ? joint.name.substr(0, joint.name.size() - 2) : joint.name;
-  if (name == "hip") return Scaled(Hip(), mass / kMeasuredMass);
-  if (name == "knee") return Scaled(Knee(), mass / kMeasuredMass);
-  if (name == "ankle") return Scaled(Ankle(), mass / kMeasuredMass);
-  return joint.actuated ? AssumedStops(joint) : ExponentialSpring();
+  switch (joint.passive) {
+    case PassiveKind::kNone:
+      return {};
+    case PassiveKind::kHumanHip:
+      return Scaled(Hip(), mass / kMeasuredMass);
+    case PassiveKind::kHumanKnee:
+      return Scaled(Knee(), mass / kMeasuredMass);
+    case PassiveKind::kHumanAnkle:
+      return Scaled(Ankle(), mass / kMeasuredMass);
+    case PassiveKind::kStops:
+      return AssumedStops(joint);
+  }
+  ROLLGAIT_CHECK(false);
 }
 
 std::vector<std::string> PassiveTorqueSources() {

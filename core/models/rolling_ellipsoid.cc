@@ -49,11 +49,13 @@ Violations Check(const RollingEllipsoid& body) {
 }
 
 Model BuildModel(const RollingEllipsoid& body, const OrientationChart& chart) {
+  constexpr JointRole kRoles[] = {JointRole::kBaseForward, JointRole::kBaseLateral, JointRole::kBaseVertical};
   const char* const names[] = {"base_x", "base_y", "base_z", "roll_1", "roll_2", "roll_3"};
   std::vector<Joint> joints(6);
   for (int i = 0; i < 6; ++i) {
     Joint& joint = joints[i];
     joint.name = names[i];
+    if (i < 3) joint.role = kRoles[i];
     joint.link = i < 5 ? joint.name + "_link" : "body";
     joint.type = i < 3 ? JointType::kPrismatic : JointType::kRevolute;
     joint.axis = Vector3::Unit(i % 3);

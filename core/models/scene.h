@@ -27,6 +27,8 @@ struct Scene {
 
   // Index of a contact by name, -1 if there is none.
   int FindContact(const std::string& contact_name) const;
+  // The same by side and part; the first if there are several.
+  int FindContact(BodySide side, FootPart part) const;
   // "left_shank / right_heel". Contract: pair in range.
   std::string PairName(int pair) const;
 };

@@ -113,12 +113,12 @@ SegmentTable::SegmentTable(Sex sex, double stature, double mass, const SegmentSc
 
 double SegmentTable::Scaled(double length_mm) const { return length_mm * 1e-3 * length_scale_; }
 
-RigidBody SegmentTable::Body(Segment segment, Side side) const {
-  ROLLGAIT_CHECK(IsMidline(segment) == (side == Side::kMidline));
+RigidBody SegmentTable::Body(Segment segment, BodySide side) const {
+  ROLLGAIT_CHECK(IsMidline(segment) == (side == BodySide::kMidline));
   const Row& row = RowOf(sex_, segment);
   const double mass = mass_ * row.mass / MassSum(sex_);
   // Mirroring changes the sign of everything odd in Z; a body symmetric about the sagittal plane has none of it.
-  const double z_sign = side == Side::kRight ? 1 : side == Side::kLeft ? -1 : 0;
+  const double z_sign = side == BodySide::kRight ? 1 : side == BodySide::kLeft ? -1 : 0;
   const double length = Length(segment);
   const Vector3 com = Vector3(row.com[0], row.com[1], z_sign * row.com[2]) / 100 * length;
   const auto entry = [&](int i) { return mass * length * length * row.radii[i] * std::abs(row.radii[i]) / 1e4; };
@@ -143,11 +143,11 @@ Vector3 SegmentTable::LumbarToHips() const {
 
 double SegmentTable::HalfHipWidth() const { return Scaled(SampleOf(sex_).half_hip_width) * Scale(Segment::kPelvis); }
 
-Vector3 SegmentTable::CervicalToShoulder(Side side) const {
-  ROLLGAIT_CHECK(side != Side::kMidline);
+Vector3 SegmentTable::CervicalToShoulder(BodySide side) const {
+  ROLLGAIT_CHECK(side != BodySide::kMidline);
   const double cervical_height = stature_ - TableLength(Segment::kHeadNeck);
   const double down = cervical_height - kShoulderHeight * stature_;
-  return Vector3(0, (side == Side::kLeft ? 1 : -1) * kHalfShoulderWidth * stature_, -down * Scale(Segment::kTorso));
+  return Vector3(0, (side == BodySide::kLeft ? 1 : -1) * kHalfShoulderWidth * stature_, -down * Scale(Segment::kTorso));
 }
 
 double SegmentTable::AnkleHeight() const {

@@ -7,11 +7,11 @@
 
 #include "core/models/body_selection.h"
 #include "core/models/rigid_body.h"
+#include "core/multibody/joint_role.h"
 
 namespace rollgait {
 
 enum class Segment { kHeadNeck, kTorso, kPelvis, kUpperArm, kForearm, kHand, kThigh, kShank, kFoot };
-enum class Side { kMidline, kLeft, kRight };
 
 inline constexpr int kSegments = 9;
 // Name on the wire: "head_neck", "torso", "pelvis", "upper_arm", "forearm", "hand", "thigh", "shank", "foot".
@@ -35,7 +35,7 @@ class SegmentTable {
   // arm: shoulder; forearm: elbow; hand: wrist; thigh: hip; shank: knee; foot: ankle. The masses of the whole body
   // (limbs counted twice) add up to the body mass. Head, torso and pelvis are made symmetric about the sagittal plane.
   // Contract: kMidline for these three, kLeft or kRight for the others.
-  RigidBody Body(Segment segment, Side side) const;
+  RigidBody Body(Segment segment, BodySide side) const;
 
   double mass() const { return mass_; }        // kg, of the body
   double stature() const { return stature_; }  // m, by the request, whatever the segments make of it
@@ -49,7 +49,7 @@ class SegmentTable {
   // m. Half the distance of the hip joint centres.
   double HalfHipWidth() const;
   // m. From the cervical joint to the left (y > 0) or right shoulder joint.
-  Vector3 CervicalToShoulder(Side side) const;
+  Vector3 CervicalToShoulder(BodySide side) const;
   // m. Ankle joint above the sole in the reference posture: what the other lengths leave of the stature.
   double AnkleHeight() const;
   // m. Hip joint above the sole with straight leg.

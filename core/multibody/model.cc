@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 namespace {
 
@@ -27,6 +29,7 @@ class JointChecker {
     CheckRanges();
     CheckLink();
     CheckMirror();
+    CheckRole();
   }
 
  private:
@@ -139,6 +142,15 @@ class JointChecker {
     }
   }
 
+  void CheckRole() {
+    if (joint().role == JointRole::kNone) return;
+    for (int i = 0; i < index_; ++i) {
+      if (joints_[i].role != joint().role || joints_[i].side != joint().side) continue;
+      Refuse("role", "is also the role of joints[" + std::to_string(i) +
+                         "] on the same side; give each role to one joint a side");
+    }
+  }
+
   const std::vector<Joint>& joints_;
   Violations* violations_;
   int index_ = 0;
@@ -190,6 +202,32 @@ int Model::Find(const std::string& name) const {
     if (joints_[i].name == name) return i;
   }
   return -1;
+}
+
+int Model::Find(JointRole role, BodySide side) const {
+  ROLLGAIT_CHECK(role != JointRole::kNone);
+  for (int i = 0; i < size(); ++i) {
+    if (joints_[i].role == role && joints_[i].side == side) return i;
+  }
+  return -1;
+}
+
+double Model::FlexionSign(int joint) const {
+  Vector3 axis = joints_[joint].axis;
+  for (int j = joint; j >= 0; j = joints_[j].parent) axis = joints_[j].R_PJ * axis;
+  switch (joints_[joint].role) {
+    case JointRole::kHipFlexion:
+    case JointRole::kAnkleDorsiflexion:
+    case JointRole::kShoulderFlexion:
+    case JointRole::kElbowFlexion:
+      return axis.y() <= 0 ? 1 : -1;
+    case JointRole::kKneeFlexion:
+    case JointRole::kTrunkFlexion:
+    case JointRole::kBasePitch:
+      return axis.y() >= 0 ? 1 : -1;
+    default:
+      ROLLGAIT_CHECK(false);
+  }
 }
 
 }  // namespace rollgait

@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
+#include "core/multibody/joint_role.h"
 
 namespace rollgait {
 
@@ -41,6 +42,10 @@ struct Joint {
   // Whose value this joint takes in the left/right mirror image. -1: itself; Model::Create puts the own index there.
   int mirror_joint = -1;
   double mirror_sign = 1;
+
+  JointRole role = JointRole::kNone;
+  BodySide side = BodySide::kMidline;
+  PassiveKind passive = PassiveKind::kNone;
 };
 
 // An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating
@@ -52,7 +57,7 @@ class Model {
   // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
   // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a
   // joint that is not actuated, a mirror that is not an involution, a free joint that has ranges, is actuated or is
-  // mirrored. Violations name "joints[i].field".
+  // mirrored; a role that two joints have on the same side. Violations name "joints[i].field".
   static Result<Model> Create(std::vector<Joint> joints);
 
   int size() const { return static_cast<int>(joints_.size()); }
@@ -77,6 +82,12 @@ class Model {
   std::vector<int> ColumnParents() const;
   // Index of a joint by name, -1 if there is none.
   int Find(const std::string& name) const;
+  // Index of the joint that has a role, -1 if none has. Contract: role is not kNone.
+  int Find(JointRole role, BodySide side = BodySide::kMidline) const;
+  // 1 if a positive position of the joint flexes (hip, shoulder, elbow: about -y; knee: about +y; ankle: dorsiflexes,
+  // about -y; trunk and base pitch: lean forward, about +y) when all positions are zero, -1 if it does the opposite.
+  // Contract: a revolute joint with one of these roles.
+  double FlexionSign(int joint) const;
 
  private:
   explicit Model(std::vector<Joint> joints);

@@ -32,13 +32,8 @@ SparsityPattern KktSystem::MakePattern(const NlpProblem& problem) {
   return pattern;
 }
 
-std::vector<int> KktSystem::MakeGroups(const NlpProblem& problem) {
-  EliminationGroups groups = problem.elimination_groups();
-  groups.variables.insert(groups.variables.end(), groups.constraints.begin(), groups.constraints.end());
-  return groups.variables;
-}
-
-KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed, double fine_residual)
+KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed, const std::vector<int>& slack_rows,
+                     double fine_residual)
     : variables_(problem.variables()),
       rows_(problem.constraints()),
       jacobian_pattern_(problem.jacobian_pattern()),
@@ -50,15 +45,69 @@ KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed, double 
       matrix_(variables_ + rows_, MakePattern(problem)),
       fine_residual_(fine_residual),
       threshold_(kFirstThreshold),
-      factors_(variables_ + rows_, matrix_.pattern(), MakeGroups(problem)),
+      condensed_(FindCondensed(slack_rows)),
+      place_(PlacesWithout(condensed_)),
+      factors_(MakeFactors(problem)),
       right_(VectorX::Zero(variables_ + rows_)),
       solution_(right_),
-      residual_(right_) {
+      residual_(right_),
+      correction_(right_) {
   const SparsityPattern& pattern = matrix_.pattern();
   const auto is_fixed = [this](int unknown) { return unknown < variables_ && fixed_[unknown] != 0; };
   for (int e = 0; e < pattern.size(); ++e) {
     if (is_fixed(pattern.rows[e]) || is_fixed(pattern.columns[e])) fixed_entries_.push_back(e);
   }
+}
+
+std::vector<KktSystem::Condensed> KktSystem::FindCondensed(const std::vector<int>& slack_rows) const {
+  std::vector<Condensed> condensed(slack_rows.size());
+  std::vector<int> index(rows_, -1);
+  for (size_t k = 0; k < slack_rows.size(); ++k) {
+    condensed[k].row = slack_rows[k];
+    index[slack_rows[k]] = static_cast<int>(k);
+  }
+  for (int e = 0; e < jacobian_pattern_.size(); ++e) {
+    const int k = index[jacobian_pattern_.rows[e]];
+    if (k >= 0 && fixed_[jacobian_pattern_.columns[e]] == 0) condensed[k].entries.push_back(e);
+  }
+  return condensed;
+}
+
+std::vector<int> KktSystem::PlacesWithout(const std::vector<Condensed>& condensed) const {
+  std::vector<int> places(variables_ + rows_, 0);
+  for (const Condensed& row : condensed) places[variables_ + row.row] = -1;
+  int place = 0;
+  for (int& p : places) {
+    if (p == 0) p = place++;
+  }
+  return places;
+}
+
+FrontalLdlt KktSystem::MakeFactors(const NlpProblem& problem) {
+  SparsityPattern pattern;
+  const SparsityPattern& whole = matrix_.pattern();
+  for (int e = 0; e < whole.size(); ++e) {
+    const int row = place_[whole.rows[e]], column = place_[whole.columns[e]];
+    if (row < 0 || column < 0) continue;
+    pattern.Add(row, column);
+    reduced_source_.push_back(e);
+  }
+  for (const Condensed& row : condensed_) {
+    for (size_t i = 0; i < row.entries.size(); ++i) {
+      for (size_t j = 0; j <= i; ++j) {
+        pattern.Add(place_[jacobian_pattern_.columns[row.entries[i]]],
+                    place_[jacobian_pattern_.columns[row.entries[j]]]);
+      }
+    }
+  }
+  const EliminationGroups groups = problem.elimination_groups();
+  std::vector<int> kept = groups.variables;
+  for (int r = 0; r < rows_; ++r) {
+    if (place_[variables_ + r] >= 0) kept.push_back(groups.constraints[r]);
+  }
+  reduced_values_ = VectorX::Zero(pattern.size());
+  reduced_ = VectorX::Zero(static_cast<int>(kept.size()));
+  return FrontalLdlt(static_cast<int>(kept.size()), pattern, kept);
 }
 
 KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal) {
@@ -69,9 +118,45 @@ KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const Ve
   for (int i = 0; i < variables_; ++i) {
     if (fixed_[i] != 0) matrix_.value(matrix_.place(primal_start_ + i)) = 1;
   }
-  const FrontalLdlt::Inertia inertia = factors_.Factorise(matrix_.values(), threshold_);
+  AssignReduced();
+  const FrontalLdlt::Inertia inertia = factors_.Factorise(reduced_values_.data(), threshold_);
   if (inertia.zero > 0) return Outcome::kSingular;
-  return inertia.negative == rows_ ? Outcome::kRight : Outcome::kWrongInertia;
+  const int condensed = static_cast<int>(condensed_.size());
+  return inertia.negative == rows_ - condensed ? Outcome::kRight : Outcome::kWrongInertia;
+}
+
+void KktSystem::AssignReduced() {
+  double* value = reduced_values_.data();
+  for (const int e : reduced_source_) *value++ = matrix_.values()[e];
+  const double* derivative = jacobian();
+  for (const Condensed& row : condensed_) {
+    const double weight = -1 / values_(dual_start_ + row.row);
+    for (size_t i = 0; i < row.entries.size(); ++i) {
+      const double scaled = weight * derivative[row.entries[i]];
+      for (size_t j = 0; j <= i; ++j) *value++ = scaled * derivative[row.entries[j]];
+    }
+  }
+}
+
+// Solves the whole system with the factors of the reduced one.
+void KktSystem::SolveReduced(const VectorX& right, VectorX* solution) {
+  const double* derivative = jacobian();
+  for (int i = 0; i < variables_ + rows_; ++i) {
+    if (place_[i] >= 0) reduced_(place_[i]) = right(i);
+  }
+  for (const Condensed& row : condensed_) {
+    const double share = -right(variables_ + row.row) / values_(dual_start_ + row.row);
+    for (const int e : row.entries) reduced_(jacobian_pattern_.columns[e]) += derivative[e] * share;
+  }
+  factors_.Solve(reduced_.data());
+  for (int i = 0; i < variables_ + rows_; ++i) {
+    if (place_[i] >= 0) (*solution)(i) = reduced_(place_[i]);
+  }
+  for (const Condensed& row : condensed_) {
+    double sum = -right(variables_ + row.row);
+    for (const int e : row.entries) sum += derivative[e] * reduced_(jacobian_pattern_.columns[e]);
+    (*solution)(variables_ + row.row) = -sum / values_(dual_start_ + row.row);
+  }
 }
 
 bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v) {
@@ -81,8 +166,7 @@ bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v
     if (fixed_[i] != 0) right_(i) = 0;
   }
   const double size = right_.lpNorm<Eigen::Infinity>();
-  solution_ = right_;
-  factors_.Solve(solution_.data());
+  SolveReduced(right_, &solution_);
   double error = 0, last_error = kInfinity;
   for (int trial = 0; trial <= kMostRefinements; ++trial) {
     matrix_.Multiply(solution_, &residual_);
@@ -91,8 +175,8 @@ bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v
     error = scale > 0 ? residual_.lpNorm<Eigen::Infinity>() / scale : 0;
     if (!(error > fine_residual_) || trial == kMostRefinements || error > kStagnation * last_error) break;
     last_error = error;
-    factors_.Solve(residual_.data());
-    solution_ += residual_;
+    SolveReduced(residual_, &correction_);
+    solution_ += correction_;
   }
   *u = solution_.head(variables_);
   *v = solution_.tail(rows_);

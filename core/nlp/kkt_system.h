@@ -12,11 +12,16 @@ namespace rollgait {
 //   [ H + diag(p)   Jᵀ      ] [ u ]   [ a ]
 //   [ J           −diag(d)  ] [ v ] = [ b ],
 // with the patterns and elimination groups of a problem. Variables that are fixed are taken out: their u is 0.
+//
+// A row r with a slack has d_r > 0. It is eliminated before the others,
+//   v_r = (J_r u − b_r) / d_r,  which leaves  H + J_rᵀ J_r / d_r  and  a + J_rᵀ b_r / d_r,
+// so that the fronts do not see it; residuals are those of the whole system.
 class KktSystem {
  public:
-  // fixed (variables()): nonzero where the variable is no unknown. fine_residual: where the refinement of a solution
-  // ends (NlpOptions::step_residual).
-  KktSystem(const NlpProblem& problem, std::vector<char> fixed, double fine_residual);
+  // fixed (variables()): nonzero where the variable is no unknown. slack_rows: rows whose d is positive in every
+  // factorisation. fine_residual: where the refinement of a solution ends (NlpOptions::step_residual).
+  KktSystem(const NlpProblem& problem, std::vector<char> fixed, const std::vector<int>& slack_rows,
+            double fine_residual);
 
   // Where the values of H and J go, in the order of the problem's patterns; kept from one factorisation to the next.
   double* hessian() { return values_.data(); }
@@ -25,6 +30,7 @@ class KktSystem {
 
   enum class Outcome { kRight, kWrongInertia, kSingular };
   // Factors the matrix. kRight: it has as many positive eigenvalues as unknowns and as many negative ones as rows.
+  // Contract: dual_diagonal is positive in the slack rows.
   Outcome Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal);
 
   // Solves with iterative refinement. False if the residual stays above 1e-6 of the right-hand side: the factors are
@@ -41,8 +47,18 @@ class KktSystem {
   void set_threshold(double threshold) { threshold_ = threshold; }
 
  private:
+  // A row with a slack: entries of the Jacobian that are not of fixed variables.
+  struct Condensed {
+    int row = 0;
+    std::vector<int> entries;
+  };
+
   static SparsityPattern MakePattern(const NlpProblem& problem);
-  static std::vector<int> MakeGroups(const NlpProblem& problem);
+  std::vector<Condensed> FindCondensed(const std::vector<int>& slack_rows) const;
+  std::vector<int> PlacesWithout(const std::vector<Condensed>& condensed) const;
+  FrontalLdlt MakeFactors(const NlpProblem& problem);
+  void AssignReduced();
+  void SolveReduced(const VectorX& right, VectorX* solution);
 
   int variables_, rows_;
   const SparsityPattern& jacobian_pattern_;
@@ -52,8 +68,13 @@ class KktSystem {
   SymmetricMatrix matrix_;          // the same without what is fixed
   std::vector<int> fixed_entries_;  // of the matrix, with a fixed variable
   double fine_residual_, threshold_;
+  std::vector<Condensed> condensed_;
+  std::vector<int> place_;           // of an unknown among those that are factored; -1: condensed
+  std::vector<int> reduced_source_;  // entries of the matrix that are factored as they are
+  VectorX reduced_values_;           // those, then the products of the condensed rows
+  VectorX reduced_;                  // right-hand side and solution of what is factored
   FrontalLdlt factors_;
-  VectorX right_, solution_, residual_;
+  VectorX right_, solution_, residual_, correction_;
 };
 
 }  // namespace rollgait

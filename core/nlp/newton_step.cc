@@ -24,8 +24,9 @@ constexpr double kLeastProduct = 0.1, kLargestProduct = 10;
 
 NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
     : barrier_(barrier),
-      kkt_(barrier.problem(), barrier.fixed(), options.step_residual),
+      kkt_(barrier.problem(), barrier.fixed(), barrier.slack_rows(), options.step_residual),
       first_shift_(options.first_shift),
+      tolerance_(options.tolerance),
       sigma_(VectorX::Zero(barrier.unknowns())),
       right_(sigma_),
       primal_diagonal_(VectorX::Zero(barrier.variables())),
@@ -60,6 +61,18 @@ bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Mu
   return kkt_.Solve(a_, b_, &x_, &multipliers->y);
 }
 
+// Of the largest row of |H|: H plus a larger shift is positive definite.
+double NewtonSystem::HessianNorm() {
+  const SparsityPattern& pattern = barrier_.problem().hessian_pattern();
+  a_.setZero();
+  for (int e = 0; e < pattern.size(); ++e) {
+    const double size = std::abs(kkt_.hessian()[e]);
+    a_(pattern.rows[e]) += size;
+    if (pattern.rows[e] != pattern.columns[e]) a_(pattern.columns[e]) += size;
+  }
+  return a_.maxCoeff();
+}
+
 bool NewtonSystem::StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
                                        Multipliers* multipliers) {
   constexpr double kMostMultiplier = 1000;
@@ -89,7 +102,7 @@ bool NewtonSystem::TryShift(double shift, double mu) {
   return false;
 }
 
-bool NewtonSystem::Factorise(double mu) {
+bool NewtonSystem::Factorise(bool feasible, double mu) {
   degenerate_ = false;
   if (skipped_ < std::min(zero_failures_, kMostSkips)) {
     ++skipped_;
@@ -100,13 +113,32 @@ bool NewtonSystem::Factorise(double mu) {
     ++zero_failures_;
     skipped_ = 0;
   }
-  double shift = last_shift_ == 0 ? first_shift_ : std::max(kLeastShift, kShiftDecrease * last_shift_);
+  if (feasible && !degenerate_) {
+    if (TryDualShift(mu)) return true;
+    degenerate_ = false;
+  }
+  const double first = last_shift_ == 0 ? first_shift_ : std::max(kLeastShift, kShiftDecrease * last_shift_);
+  const double increase = last_shift_ == 0 ? kFirstShiftIncrease : kShiftIncrease;
+  double shift = first;
   while (!TryShift(shift, mu)) {
-    shift *= last_shift_ == 0 ? kFirstShiftIncrease : kShiftIncrease;
+    if (!degenerate_ && shift > HessianNorm()) {
+      if (TryDualShift(mu)) return true;
+      shift = first;
+      continue;
+    }
+    shift *= increase;
     if (shift > kLargestShift) return false;
   }
   last_shift_ = shift;
   return true;
+}
+
+// Rows that depend on each other, but for rounding, leave eigenvalues whose sign is chance, and no shift of the Hessian
+// mends that. They are to blame where the shifted Hessian is positive definite; and likely so at a feasible point,
+// since the Newton system of a regular minimum has the right inertia near it.
+bool NewtonSystem::TryDualShift(double mu) {
+  degenerate_ = true;
+  return TryShift(0, mu);
 }
 
 bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers& multipliers,
@@ -120,7 +152,7 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
   }
   constexpr int kMostTrials = 5;
   for (int trial = 0; trial < kMostTrials; ++trial) {
-    if (!Factorise(mu)) return false;
+    if (!Factorise(point.theta <= tolerance_, mu)) return false;
     if (Solve(point, multipliers, point.c, mu, step)) return true;
     // The factors were too coarse; KktSystem pivots more carefully next time.
   }

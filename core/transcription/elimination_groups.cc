@@ -1,29 +1,42 @@
-// The order in which the Newton system of a CollocationNlp is eliminated.
+// The order in which the Newton system of a CollocationNlp is eliminated. For each interval in turn
+//  * the efforts of each point with the rows that hold them: leaves, which touch the two nodes, the forces of their
+//    point and, where rates of efforts are paid for, the efforts of the points beside them;
+//  * the forces of the points but the first, with the rows that hold them;
+//  * the node before the interval with what remains. Rate costs tie the efforts of the first point to the interval
+//    before; as leaves they would carry all that the chain of nodes carries, so they then go with the node.
 
 #include <algorithm>
+#include <variant>
 
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
 
 EliminationGroups CollocationNlp::elimination_groups() const {
-  const int n = problem_.model.size(), efforts = static_cast<int>(problem_.model.actuated().size());
-  const int per_interval = scheme_.points() + 1;
+  const int n = problem_.model.size();
+  const int points = scheme_.points(), per_interval = points + 2;
   const int last = (layout_.intervals() + 1) * per_interval;
   EliminationGroups groups;
   groups.variables.assign(variables(), last);
+  const auto assign = [&groups](int first, int end, int group) {
+    std::fill(groups.variables.begin() + first, groups.variables.begin() + end, group);
+  };
+  const bool tied = std::any_of(problem_.costs.begin(), problem_.costs.end(), [](const CostDescription& cost) {
+    return std::holds_alternative<EffortRateCost>(cost.term);
+  });
   for (int k = 0; k < layout_.intervals(); ++k) {
-    const int group = k * per_interval + scheme_.points();
-    std::fill(groups.variables.begin() + layout_.node(k), groups.variables.begin() + layout_.end_node(k), group);
+    const int first = k * per_interval, between = first + points, node = first + points + 1;
+    assign(layout_.node(k), layout_.end_node(k), node);
     // What a jump has between the two goes with the node after it.
-    std::fill(groups.variables.begin() + layout_.end_node(k), groups.variables.begin() + layout_.node(k + 1),
-              group + per_interval);
-    for (int i = 0; i < scheme_.points(); ++i) {
-      std::fill_n(groups.variables.begin() + layout_.efforts(k, i), efforts, k * per_interval + i);
+    assign(layout_.end_node(k), layout_.node(k + 1), node + per_interval);
+    const int controls = layout_.controls(layout_.phase(k));
+    for (int i = tied ? 1 : 0; i < points; ++i) {
+      assign(layout_.efforts(k, i), layout_.forces(k, i), first + i);
+      if (i > 0) assign(layout_.forces(k, i), layout_.efforts(k, i) + controls, between);
     }
   }
-  std::fill_n(groups.variables.begin() + layout_.node(layout_.intervals()), 2 * n, last - 1);
-  std::fill_n(groups.variables.begin() + layout_.node(0), 2 * n, last);
+  assign(layout_.node(layout_.intervals()), layout_.node(layout_.intervals()) + 2 * n, last - 1);
+  assign(layout_.node(0), layout_.node(0) + 2 * n, last);
   // A row goes with the earliest of its unknowns, which it determines. Linear rows tie unknowns of different intervals,
   // and go with the latest but for those that come last.
   groups.constraints.assign(constraints(), last);

@@ -8,37 +8,24 @@
 namespace rollgait {
 namespace {
 
-// The joint of a leg that is closest to the pelvis, -1 if there is none.
-int LegRoot(const Model& model, const std::string& suffix) {
-  for (const char* name : {"hip", "knee", "ankle"}) {
-    const int joint = model.Find(name + suffix);
-    if (joint >= 0) return joint;
-  }
-  return -1;
-}
-
-// Which contacts hang on a joint.
-std::vector<bool> ContactsBeyond(const Scene& scene, int joint) {
-  std::vector<bool> beyond;
-  for (const ContactSurface& contact : scene.contacts) {
-    beyond.push_back(joint >= 0 && scene.model.IsAncestor(joint, contact.joint));
-  }
-  return beyond;
+// Which contacts belong to the leg of a side.
+std::vector<bool> ContactsOn(const Scene& scene, BodySide side) {
+  std::vector<bool> on;
+  for (const ContactSurface& contact : scene.contacts) on.push_back(contact.side == side);
+  return on;
 }
 
 double Length(const TrajectoryPhase& phase) { return phase.node_times.back() - phase.node_times.front(); }
 
 }  // namespace
 
-int RightJoint(const Model& model, const std::string& name) { return model.Find(name + "_r"); }
-
 std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& trajectory) {
-  const int root = LegRoot(scene.model, "_r");
-  if (root < 0) return std::nullopt;
+  const std::vector<bool> right = ContactsOn(scene, BodySide::kRight);
+  if (std::find(right.begin(), right.end(), true) == right.end()) return std::nullopt;
   ROLLGAIT_CHECK(scene.symmetric || trajectory.cycle == Cycle::kFull);
   GaitCycle cycle(scene, trajectory);
-  cycle.right_ = ContactsBeyond(scene, root);
-  cycle.left_ = ContactsBeyond(scene, LegRoot(scene.model, "_l"));
+  cycle.right_ = right;
+  cycle.left_ = ContactsOn(scene, BodySide::kLeft);
 
   std::vector<Piece> pieces;
   std::vector<double> starts;  // s, from the start of the trajectory
@@ -136,8 +123,8 @@ MotionSample GaitCycle::At(double percent) const {
   }
   sample.forces = forces;
   if (piece.mirrored) sample = Mirrored(sample);
-  const int base_x = scene_->model.Find("base_x");
-  if (base_x >= 0) sample.position[base_x] += piece.shift;
+  const int forward = scene_->model.Find(JointRole::kBaseForward);
+  if (forward >= 0) sample.position[forward] += piece.shift;
   return sample;
 }
 

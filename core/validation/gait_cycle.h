@@ -14,8 +14,8 @@ namespace rollgait {
 // mirror image. Refers to the scene and the trajectory it is made of, which must outlive it.
 class GaitCycle {
  public:
-  // Empty if the model has no right leg (a joint hip_r, knee_r or ankle_r), or if that leg is never off the ground or
-  // never on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene is not symmetric.
+  // Empty if no contact of the scene is on the right side, or if those of that side are never off the ground or never
+  // on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene is not symmetric.
   static std::optional<GaitCycle> Of(const Scene& scene, const Trajectory& trajectory);
 
   double start() const { return start_; }  // s, of the heel strike after the start of the trajectory, < duration()
@@ -32,8 +32,8 @@ class GaitCycle {
   const std::vector<Span>& spans() const { return spans_; }
 
   // The motion at `percent` ∈ [0, 100] of the cycle; at a border of phases (to rounding) that of the later one, at 100
-  // the limit from the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. base_x
-  // goes on through the cycle.
+  // the limit from the left. Forces: 3 · all contacts of the scene in its order, zero where there is no contact. The
+  // forward joint of the base goes on through the cycle.
   MotionSample At(double percent) const;
 
   // True if the contact belongs to the right (left) leg.
@@ -46,7 +46,7 @@ class GaitCycle {
     double start;  // s after the heel strike
     int phase;
     bool mirrored;
-    double shift;  // m, added to base_x
+    double shift;  // m, added to the forward joint of the base
   };
   GaitCycle(const Scene& scene, const Trajectory& trajectory) : scene_(&scene), trajectory_(&trajectory) {}
   MotionSample Mirrored(const MotionSample& sample) const;
@@ -62,9 +62,6 @@ class GaitCycle {
   std::vector<Piece> pieces_;  // in order, the first starts at 0
   std::vector<Span> spans_;
 };
-
-// Index of the joint of the right leg by its name without side ("hip", "knee", "ankle"), -1 if there is none.
-int RightJoint(const Model& model, const std::string& name);
 
 }  // namespace rollgait
 

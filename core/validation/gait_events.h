@@ -40,8 +40,8 @@ struct FootOnGround {
   double stance = 0;          // share of the cycle with a contact on the ground, 0 … 1; the rest is swing
   MatrixX force;  // 3 × instants, N, of the ground on the foot: sum over its contacts, world axes (fixed to the ground)
   MatrixX level_force;  // the same force in axes that gravity gives: forward horizontal, left, up
-  // 2 × instants, m, centre of pressure on the ground plane, world axes x and y; base_x goes on through the cycle. NaN
-  // where the normal force on the foot is below kLeastLoad of body weight.
+  // 2 × instants, m, centre of pressure on the ground plane, world axes x and y; the body goes on through the cycle.
+  // NaN where the normal force on the foot is below kLeastLoad of body weight.
   MatrixX center_of_pressure;
 };
 inline constexpr double kLeastLoad = 0.01;

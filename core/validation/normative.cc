@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/validation/gait_cycle.h"
@@ -41,10 +42,12 @@ class LegCurves {
   }
 
  private:
-  // Flexion and dorsiflexion are positive in our joints; moments of the data extend and plantarflex.
+  // Flexion and dorsiflexion are positive; moments of the data extend and plantarflex.
   std::vector<double> Angle(int joint) const {
     std::vector<double> values;
-    for (size_t i = 0; joint >= 0 && i < samples_.size(); ++i) values.push_back(samples_[i].position[joint] / kDegree);
+    if (joint < 0) return values;
+    const double sign = scene_.model.FlexionSign(joint);
+    for (const MotionSample& sample : samples_) values.push_back(sign * sample.position[joint] / kDegree);
     return values;
   }
   std::vector<double> Moment(int joint) const {
@@ -53,7 +56,10 @@ class LegCurves {
     std::vector<double> values;
     if (place == actuated.end()) return values;
     const auto effort = place - actuated.begin();
-    for (const MotionSample& sample : samples_) values.push_back(-sample.efforts[effort] / scene_.model.total_mass());
+    const double sign = scene_.model.FlexionSign(joint);
+    for (const MotionSample& sample : samples_) {
+      values.push_back(-sign * sample.efforts[effort] / scene_.model.total_mass());
+    }
     return values;
   }
   std::vector<double> Force(int axis) const {
@@ -121,7 +127,7 @@ std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle
   }
   for (const int j : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(j);
-    if (joint.name.ends_with("_l")) continue;
+    if (joint.side == BodySide::kLeft) continue;
     const double count = static_cast<double>(positions.size());
     const auto share = [&](auto rests) { return std::count_if(positions.begin(), positions.end(), rests) / count; };
     const double low = share([&](const VectorX& q) { return q[j] <= joint.position_min + kNearLimit; });
@@ -141,6 +147,15 @@ std::vector<double> StanceForce(const LegCurves& curves, double stance) {
 }
 
 }  // namespace
+
+int RightJoint(const Model& model, const std::string& name) {
+  constexpr std::pair<const char*, JointRole> kRoles[] = {
+      {"hip", JointRole::kHipFlexion}, {"knee", JointRole::kKneeFlexion}, {"ankle", JointRole::kAnkleDorsiflexion}};
+  for (const auto& [joint, role] : kRoles) {
+    if (name == joint) return model.Find(role, BodySide::kRight);
+  }
+  return -1;
+}
 
 CurveDistance MeasureDistance(const std::vector<double>& ours, const std::vector<double>& mean,
                               const std::vector<double>& deviation) {

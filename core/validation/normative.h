@@ -12,6 +12,10 @@
 
 namespace rollgait {
 
+// Index of the joint of the right leg that the data calls "hip", "knee" or "ankle" (by its role); -1 if the model has
+// none.
+int RightJoint(const Model& model, const std::string& name);
+
 // How far a curve is from what people do, over equal steps of the cycle.
 struct CurveDistance {
   double rms;             // root mean square of the difference, unit of the curves

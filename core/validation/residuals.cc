@@ -43,8 +43,8 @@ EndState PeriodicEnd(const Model& model, const Trajectory& trajectory) {
       end.velocity[j] = joint.mirror_sign * v[source];
     }
   }
-  const int base_x = model.Find("base_x");
-  if (base_x >= 0) end.position[base_x] += trajectory.displacement;
+  const int forward = model.Find(JointRole::kBaseForward);
+  if (forward >= 0) end.position[forward] += trajectory.displacement;
   return end;
 }
 

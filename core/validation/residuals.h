@@ -15,8 +15,8 @@ struct EndState {
 };
 
 // The state in which the trajectory must end to be periodic: its first node, mirrored (joint j takes mirror_sign times
-// the value of mirror_joint) if it spans half a cycle, with the joint "base_x", if there is one, moved on by the
-// displacement.
+// the value of mirror_joint) if it spans half a cycle, with the forward joint of the base, if there is one, moved on by
+// the displacement.
 EndState PeriodicEnd(const Model& model, const Trajectory& trajectory);
 
 // Largest difference between the last node and PeriodicEnd over positions and velocities: rad, m, rad/s, m/s; over

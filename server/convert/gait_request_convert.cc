@@ -4,6 +4,7 @@
 
 #include "server/convert/cost_convert.h"
 #include "server/convert/field_decoding.h"
+#include "server/convert/own_model_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -137,6 +138,7 @@ BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1:
   body.drop_arms = selection.drop_arms();
   body.rigid_trunk = selection.rigid_trunk();
   body.locked_joints = DecodeNumbers(selection.locked_joints_rad());
+  if (selection.has_own()) body.own = DecodeOwnModel(prefix + "own.", selection.own(), &violations);
   if (selection.has_rolling_body()) body.rolling_body = DecodeRollingBody(selection.rolling_body());
   return body;
 }

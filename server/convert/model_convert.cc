@@ -33,6 +33,18 @@ v1::Joint::Type EncodeType(JointType type) {
   ROLLGAIT_CHECK(false);
 }
 
+v1::BodySide EncodeSide(BodySide side) {
+  switch (side) {
+    case BodySide::kMidline:
+      return v1::BODY_SIDE_UNSPECIFIED;
+    case BodySide::kLeft:
+      return v1::BODY_SIDE_LEFT;
+    case BodySide::kRight:
+      return v1::BODY_SIDE_RIGHT;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
 void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_name(joint.name);
   encoded->set_type(EncodeType(joint.type));
@@ -56,6 +68,10 @@ void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   }
   encoded->set_mirror_joint(joint.mirror_joint < 0 ? index : joint.mirror_joint);
   encoded->set_mirror_sign(joint.mirror_sign);
+  // The numbers are the same; tests hold every one.
+  encoded->set_role(static_cast<v1::Joint::Role>(joint.role));
+  encoded->set_side(EncodeSide(joint.side));
+  encoded->set_passive(static_cast<v1::Joint::Passive>(joint.passive));
 }
 
 void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
@@ -74,6 +90,8 @@ void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::Contac
   for (const int direction : contact.directions) {
     EncodeVector(Vector3::Unit(direction), encoded->add_directions());
   }
+  encoded->set_side(EncodeSide(contact.side));
+  encoded->set_part(static_cast<v1::ContactSurface::FootPart>(contact.part));
 }
 
 void EncodeBody(const BodySurface& body, const Scene& scene, v1::BodySurface* encoded) {
@@ -127,7 +145,8 @@ v1::Model EncodeModel(const Scene& scene, double gravity) {
       scene.name, scene.description, scene.model.size(), static_cast<int>(scene.model.actuated().size()), {}};
   for (const ContactSurface& contact : scene.contacts) entry.contacts.push_back(contact.name);
   *model.mutable_summary() = EncodeSummary(entry);
-  EncodeSelection(scene.selection, model.mutable_selection());
+  const bool own = scene.selection.own;
+  if (!own) EncodeSelection(scene.selection, model.mutable_selection());
   for (int i = 0; i < scene.model.size(); ++i) EncodeJoint(scene.model.joint(i), i, model.add_joints());
   for (const ContactSurface& contact : scene.contacts) EncodeContact(contact, scene, model.add_contacts());
   for (const BodySurface& body : scene.bodies) EncodeBody(body, scene, model.add_bodies());
@@ -135,10 +154,11 @@ v1::Model EncodeModel(const Scene& scene, double gravity) {
     v1::BodyPair& encoded = *model.add_body_pairs();
     encoded.set_first(scene.bodies[pair.first].name);
     encoded.set_second(scene.bodies[pair.second].name);
+    encoded.set_usual(pair.usual);
   }
   model.set_gravity_m_s2(gravity);
   model.set_total_mass_kg(scene.model.total_mass());
-  if (!scene.selection.rolling_body) model.set_stature_m(scene.selection.stature);
+  if (!scene.selection.rolling_body && !own) model.set_stature_m(scene.selection.stature);
   model.set_leg_length_m(scene.leg_length);
   for (const std::string& source : scene.sources) model.add_sources(source);
   return model;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "rollgait/v1/model.pb.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -81,6 +83,7 @@ class Walker {
     const Reflection& reflection = *message.GetReflection();
     switch (field.cpp_type()) {
       case FieldDescriptor::CPPTYPE_DOUBLE:
+        if (MayBeInfinite(field) && std::isinf(reflection.GetDouble(message, &field))) break;
         CheckFinite(
             index < 0 ? reflection.GetDouble(message, &field) : reflection.GetRepeatedDouble(message, &field, index),
             place);
@@ -104,6 +107,16 @@ class Walker {
       default:
         break;
     }
+  }
+
+  // Limits of joints of an own model, which the base has not.
+  static bool MayBeInfinite(const FieldDescriptor& field) {
+    if (field.containing_type() != v1::Joint::descriptor()) return false;
+    for (const int number :
+         {v1::Joint::kPositionMinFieldNumber, v1::Joint::kPositionMaxFieldNumber, v1::Joint::kVelocityMaxFieldNumber}) {
+      if (field.number() == number) return true;
+    }
+    return false;
   }
 
   void CheckFinite(double value, const Place& place) {

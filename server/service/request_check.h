@@ -15,9 +15,9 @@ namespace rollgait::server {
 // Largest request in bytes that is looked at.
 inline constexpr int64_t kMaxRequestBytes = 4 << 20;
 
-// What no message of any type may hold: numbers that are not finite, enum values and fields that this server does not
-// know (a request is never understood in part). `prefix` is put before every path: "spec." gives
-// "spec.motion.speed_m_s".
+// What no message of any type may hold: numbers that are not finite (but infinite limits of a Joint), enum values and
+// fields that this server does not know (a request is never understood in part). `prefix` is put before every path:
+// "spec." gives "spec.motion.speed_m_s".
 Violations CheckWellFormed(const google::protobuf::Message& message, const std::string& prefix);
 
 // Refuses a request of more than kMaxRequestBytes; names its largest field.

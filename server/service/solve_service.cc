@@ -188,7 +188,7 @@ Outcome<v1::Model> SolveService::GetModel(const Caller&, const v1::GetModelReque
     known = known || summary.name() == request.model().name();
     names += (names.empty() ? "" : ", ") + summary.name();
   }
-  if (!known) {
+  if (!known && !request.model().has_own()) {
     return Error{ErrorCode::kNotFound,
                  "there is no model \"" + request.model().name().substr(0, 100) + "\"; there are: " + names};
   }

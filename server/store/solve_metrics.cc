@@ -60,7 +60,7 @@ void SolveMetrics::Created(bool from_cache) {
 void SolveMetrics::Claimed(const ClaimedSolve& claimed) {
   v1::SolveSpec spec;
   const bool readable = spec.ParseFromString(claimed.record.spec) && !spec.model().name().empty();
-  const std::string model = models_.Of(readable ? spec.model().name() : "unknown");
+  const std::string model = spec.model().has_own() ? "own" : models_.Of(readable ? spec.model().name() : "unknown");
   const std::lock_guard<std::mutex> lock(mutex_);
   runs_[claimed.lease.solve_id] = {model, Clock::now()};
   leases_.Set(static_cast<double>(runs_.size()));

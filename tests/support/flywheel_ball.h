@@ -62,6 +62,8 @@ struct FlywheelBall {
       joints[i].axis = axes[i];
       joints[i].parent = i - 1;
     }
+    joints[0].role = JointRole::kBaseForward;
+    joints[1].role = JointRole::kBaseVertical;
     joints[2].mass = kBallMass;
     joints[2].inertia = kBallInertia * Matrix3::Identity();
     joints[3].mass = kWheelMass;

@@ -39,8 +39,8 @@ std::unique_ptr<PointConstraint> MakeForceShares(const std::vector<ContactSurfac
 }
 
 void ForceSharesConstraint::Bounds(double, double* lower, double* upper) const {
-  std::fill_n(lower, rows(), 0.0);
-  std::fill_n(upper, rows(), 0.0);
+  std::fill_n(lower, rows(), -kWidth * Size(0));
+  std::fill_n(upper, rows(), kWidth * Size(0));
 }
 Entries ForceSharesConstraint::JacobianPattern() const {
   Entries entries;

@@ -8,14 +8,18 @@
 namespace rollgait {
 
 // Active contacts of one rigid link share the force along x in proportion to their normal forces:
-//   f_x,k Σ f_n − f_n,k Σ f_x = 0,   N², one row for every contact of a link but the first.
+//   |f_x,k Σ f_n − f_n,k Σ f_x| ≤ kWidth (m g)²,   N², one row for every contact of a link but the first.
 // Without it the forces along the line that joins two contacts were free, since the motion does not depend on them.
-// This division is unique, and it is continuous where a contact is taken up or given up without force. In the plane it
-// is within the friction cones wherever any division is. In space so it is if the contacts have the same ratio of
-// lateral to normal force; else it may leave a cone while another division does not, and the problem admits somewhat
-// less than the ground does. Source: docs/explanation/contact_changes.md.
+// But for the width this division is unique, and it is continuous where a contact is taken up or given up without
+// force. In the plane it is within the friction cones wherever any division is. In space so it is if the contacts have
+// the same ratio of lateral to normal force; else it may leave a cone while another division does not, and the problem
+// admits somewhat less than the ground does. The width is for where one contact bears nothing while another is at the
+// edge of its cone: an equation would then depend on the rows of the cone, and its multiplier had no limit. Source:
+// docs/explanation/contact_changes.md.
 class ForceSharesConstraint : public PointConstraint {
  public:
+  static constexpr double kWidth = 1e-5;
+
   // One contact's share among all of its link: offsets of f_x and f_n relative to PointLayout::force().
   struct Share {
     int own;  // index in the group

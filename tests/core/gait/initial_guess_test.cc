@@ -94,6 +94,58 @@ TEST_P(WalkingGuessTest, EveryContactCarriesAndTogetherTheyCarryTheWeight) {
   }
 }
 
+// The same body with joints of other names, half of which turn the other way.
+std::vector<Joint> RenamedAndTurned(const std::vector<Joint>& joints) {
+  std::vector<Joint> others = joints;
+  for (size_t j = 0; j < others.size(); ++j) {
+    Joint& joint = others[j];
+    joint.name = "j" + std::to_string(j);
+    if (joint.type != JointType::kRevolute || j % 2 == 0) continue;
+    joint.axis = -joint.axis;
+    joint.position_min = -joints[j].position_max;
+    joint.position_max = -joints[j].position_min;
+    joint.mirror_joint = static_cast<int>(j);  // its image may turn the first way; the guess does not ask
+  }
+  for (size_t j = 0; j < others.size(); ++j) {
+    if (others[others[j].mirror_joint].mirror_joint != static_cast<int>(j))
+      others[j].mirror_joint = static_cast<int>(j);
+  }
+  return others;
+}
+
+TEST_P(WalkingGuessTest, NeedsRolesAndNoNames) {
+  const MotionGuess guess = WalkingGuess(*spec_, *problem_, 1);
+  const int phases = static_cast<int>(problem_->phases.size());
+  std::vector<VectorX> positions;  // now: the motion refers to the problem, which changes
+  for (int p = 0; p < phases; ++p) positions.push_back(guess.motion(p, 0.4).position);
+  const std::vector<Joint> joints = spec_->scene.model.joints();
+  spec_->scene.model = Model::Create(RenamedAndTurned(joints)).value();
+  problem_->model = spec_->scene.model;
+  const MotionGuess other = WalkingGuess(*spec_, *problem_, 1);
+  ASSERT_EQ(other.durations, guess.durations);
+  int turned = 0;
+  for (int p = 0; p < phases; ++p) {
+    const VectorX &q = positions[p], q_other = other.motion(p, 0.4).position;
+    for (int j = 0; j < q.size(); ++j) {
+      const double sign = problem_->model.joint(j).axis == joints[j].axis ? 1 : -1;
+      turned += sign < 0 && q(j) != 0;
+      EXPECT_NEAR(q_other(j), sign * q(j), 1e-15) << joints[j].name;
+    }
+  }
+  EXPECT_GT(turned, 0);
+  // Without roles nothing moves but the base.
+  std::vector<Joint> plain = joints;
+  for (Joint& joint : plain) {
+    if (joint.side != BodySide::kMidline) joint.role = JointRole::kNone;
+  }
+  problem_->model = Model::Create(std::move(plain)).value();
+  const VectorX still = WalkingGuess(*spec_, *problem_).motion(0, 0.4).position;
+  for (int j = 0; j < still.size(); ++j) {
+    if (joints[j].side == BodySide::kMidline) continue;
+    EXPECT_EQ(still(j), 0) << joints[j].name;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Bodies, WalkingGuessTest,
                          ::testing::Values(Case{"planar", FootShape::kOneEllipsoid, Cycle::kHalf},
                                            Case{"planar", FootShape::kTwoEllipsoids, Cycle::kFull},

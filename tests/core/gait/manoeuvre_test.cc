@@ -77,10 +77,14 @@ TEST(ClosedForm, FreeDurationIsTheOneOfLeastCost) {
   EXPECT_NEAR(solution.trajectory->duration, duration, 1e-4 * duration);
 }
 
+// At rest the rows of rolling depend on each other, and the sign of what rounding leaves of them is chance; so for
+// several durations.
 TEST(ClosedForm, StayingWhereItIsCostsNothing) {
-  const GaitSolution solution = Solve(RollTo(0, 0, 1, Vector3::Zero()));
-  CheckMotion(solution);
-  EXPECT_LT(solution.objective, 1e-10);
+  for (const double duration : {1.0, 1 + 2e-6, 1 - 25e-6, 0.7}) {
+    const GaitSolution solution = Solve(RollTo(0, 0, duration, Vector3::Zero()));
+    CheckMotion(solution);
+    EXPECT_LT(solution.objective, 1e-10);
+  }
 }
 
 // A tilt by 90° at the place where it started: the nonholonomic manoeuvre. The second derivation has no mesh. 24 starts

@@ -30,6 +30,10 @@ constexpr const char* kSprung[] = {"hip",
 Joint Named(const std::string& name) {
   Joint joint;
   joint.name = name + "_l";
+  joint.passive = name == "hip"     ? PassiveKind::kHumanHip
+                  : name == "knee"  ? PassiveKind::kHumanKnee
+                  : name == "ankle" ? PassiveKind::kHumanAnkle
+                                    : PassiveKind::kStops;
   joint.position_min = LimitsOf(name).position_min * kRadiansPerDegree;
   joint.actuated = true;
   joint.effort_max = LimitsOf(name).effort_per_mass * 75;

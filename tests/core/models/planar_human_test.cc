@@ -186,24 +186,24 @@ TEST(PlanarHumanTest, WholeBodyEqualsTheSumOfItsSegments) {
   const double cervical_z = hip_z + 0.075 + 0.477, shoulder_z = 0.818 * 1.774;
   struct Part {
     Segment segment;
-    Side side;
+    BodySide side;
     double x, z;
   };
   const Part parts[] = {
-      {Segment::kPelvis, Side::kMidline, lumbar_x, hip_z + 0.075},
-      {Segment::kTorso, Side::kMidline, lumbar_x, cervical_z},
-      {Segment::kHeadNeck, Side::kMidline, lumbar_x, cervical_z},
-      {Segment::kUpperArm, Side::kRight, lumbar_x, shoulder_z},
-      {Segment::kForearm, Side::kRight, lumbar_x, shoulder_z - 0.271},
-      {Segment::kHand, Side::kRight, lumbar_x, shoulder_z - 0.271 - 0.283},
-      {Segment::kThigh, Side::kRight, 0, hip_z},
-      {Segment::kShank, Side::kRight, 0, hip_z - 0.432},
-      {Segment::kFoot, Side::kRight, 0, hip_z - 0.432 - 0.433},
+      {Segment::kPelvis, BodySide::kMidline, lumbar_x, hip_z + 0.075},
+      {Segment::kTorso, BodySide::kMidline, lumbar_x, cervical_z},
+      {Segment::kHeadNeck, BodySide::kMidline, lumbar_x, cervical_z},
+      {Segment::kUpperArm, BodySide::kRight, lumbar_x, shoulder_z},
+      {Segment::kForearm, BodySide::kRight, lumbar_x, shoulder_z - 0.271},
+      {Segment::kHand, BodySide::kRight, lumbar_x, shoulder_z - 0.271 - 0.283},
+      {Segment::kThigh, BodySide::kRight, 0, hip_z},
+      {Segment::kShank, BodySide::kRight, 0, hip_z - 0.432},
+      {Segment::kFoot, BodySide::kRight, 0, hip_z - 0.432 - 0.433},
   };
   double moment_x = 0, moment_z = 0;
   for (const Part& part : parts) {
     const RigidBody body = table.Body(part.segment, part.side);
-    const double mass = body.mass * (part.side == Side::kMidline ? 1 : 2);
+    const double mass = body.mass * (part.side == BodySide::kMidline ? 1 : 2);
     moment_x += mass * (part.x + body.center_of_mass.x());
     moment_z += mass * (part.z - hip_z + body.center_of_mass.z());
   }

@@ -18,10 +18,10 @@ constexpr std::pair<Sex, double> kSamples[] = {{Sex::kFemale, 1.610}, {Sex::kMal
 
 std::vector<RigidBody> AllBodies(const SegmentTable& table) {
   std::vector<RigidBody> bodies;
-  for (const Segment segment : kMidline) bodies.push_back(table.Body(segment, Side::kMidline));
+  for (const Segment segment : kMidline) bodies.push_back(table.Body(segment, BodySide::kMidline));
   for (const Segment segment : kLimb) {
-    bodies.push_back(table.Body(segment, Side::kLeft));
-    bodies.push_back(table.Body(segment, Side::kRight));
+    bodies.push_back(table.Body(segment, BodySide::kLeft));
+    bodies.push_back(table.Body(segment, BodySide::kRight));
   }
   return bodies;
 }
@@ -50,7 +50,7 @@ TEST(SegmentTableTest, EverySegmentIsARigidBody) {
 TEST(SegmentTableTest, FemaleTorsoIsProjectedAndTheMaleIsNot) {
   const SegmentTable female(Sex::kFemale, 1.610, 62), male(Sex::kMale, 1.774, 75);
   const auto moments_over_ml2 = [](const SegmentTable& table) {
-    const RigidBody torso = table.Body(Segment::kTorso, Side::kMidline);
+    const RigidBody torso = table.Body(Segment::kTorso, BodySide::kMidline);
     const double ml2 = torso.mass * std::pow(table.Length(Segment::kTorso), 2);
     return Vector3(Eigen::SelfAdjointEigenSolver<Matrix3>(torso.inertia).eigenvalues() / ml2);
   };
@@ -64,7 +64,7 @@ TEST(SegmentTableTest, FemaleTorsoIsProjectedAndTheMaleIsNot) {
 // Right thigh of the default male, by hand from the printed row: 432 mm, 12.3 of 100.2 %, (−4.1, −42.9, 3.3) %.
 TEST(SegmentTableTest, ConvertsTheAxesOfTheTable) {
   const SegmentTable table(Sex::kMale, 1.774, 100.2);
-  const RigidBody thigh = table.Body(Segment::kThigh, Side::kRight);
+  const RigidBody thigh = table.Body(Segment::kThigh, BodySide::kRight);
   EXPECT_NEAR(thigh.mass, 12.3, 1e-12);
   EXPECT_TRUE(MatrixNear(thigh.center_of_mass, Vector3(-0.041, -0.033, -0.429) * 0.432, 1e-12));
   const double ml2 = 12.3 * 0.432 * 0.432;
@@ -81,18 +81,18 @@ TEST(SegmentTableTest, LeftMirrorsRight) {
   for (const auto& [sex, stature] : kSamples) {
     const SegmentTable table(sex, stature, 70);
     for (const Segment segment : kLimb) {
-      const RigidBody left = table.Body(segment, Side::kLeft), right = table.Body(segment, Side::kRight);
+      const RigidBody left = table.Body(segment, BodySide::kLeft), right = table.Body(segment, BodySide::kRight);
       EXPECT_EQ(left.mass, right.mass);
       EXPECT_TRUE(MatrixNear(left.center_of_mass, mirror * right.center_of_mass, 0));
       EXPECT_TRUE(MatrixNear(left.inertia, mirror * right.inertia * mirror, 0));
       EXPECT_NE(right.center_of_mass.y(), 0);
     }
     for (const Segment segment : kMidline) {
-      const RigidBody body = table.Body(segment, Side::kMidline);
+      const RigidBody body = table.Body(segment, BodySide::kMidline);
       EXPECT_EQ(body.center_of_mass.y(), 0);
       EXPECT_TRUE(MatrixNear(body.inertia, mirror * body.inertia * mirror, 1e-15));
     }
-    EXPECT_EQ(table.CervicalToShoulder(Side::kLeft), mirror * table.CervicalToShoulder(Side::kRight));
+    EXPECT_EQ(table.CervicalToShoulder(BodySide::kLeft), mirror * table.CervicalToShoulder(BodySide::kRight));
   }
 }
 
@@ -113,9 +113,9 @@ TEST(SegmentTableTest, LengthsStackUpToTheStature) {
 }
 
 TEST(SegmentTableTest, InertiaScalesWithMassAndWithTheSquareOfStature) {
-  const RigidBody one = SegmentTable(Sex::kMale, 1.5, 60).Body(Segment::kShank, Side::kLeft);
-  const RigidBody heavy = SegmentTable(Sex::kMale, 1.5, 120).Body(Segment::kShank, Side::kLeft);
-  const RigidBody tall = SegmentTable(Sex::kMale, 1.8, 60).Body(Segment::kShank, Side::kLeft);
+  const RigidBody one = SegmentTable(Sex::kMale, 1.5, 60).Body(Segment::kShank, BodySide::kLeft);
+  const RigidBody heavy = SegmentTable(Sex::kMale, 1.5, 120).Body(Segment::kShank, BodySide::kLeft);
+  const RigidBody tall = SegmentTable(Sex::kMale, 1.8, 60).Body(Segment::kShank, BodySide::kLeft);
   EXPECT_NEAR(heavy.mass, 2 * one.mass, 1e-14);
   EXPECT_EQ(heavy.center_of_mass, one.center_of_mass);
   EXPECT_TRUE(MatrixNear(heavy.inertia, 2 * one.inertia, 1e-15));

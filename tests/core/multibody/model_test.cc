@@ -130,8 +130,47 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MirrorTypes", [](Joints j) { (*j)[2].type = JointType::kPrismatic; }, "joints[2].mirror_joint",
                 "type"},
         Refusal{"MirrorSigns", [](Joints j) { (*j)[2].mirror_sign = 1; }, "joints[2].mirror_sign", "same"},
+        Refusal{"RoleTwice",
+                [](Joints j) {
+                  (*j)[2].role = (*j)[3].role = JointRole::kKneeFlexion;
+                  (*j)[2].side = (*j)[3].side = BodySide::kLeft;
+                },
+                "joints[3].role", "joints[2]"},
         Refusal{"MirrorSignSize", [](Joints j) { (*j)[1].mirror_sign = 0.5; }, "joints[1].mirror_sign", "1 or -1"}),
     [](const ::testing::TestParamInfo<Refusal>& refusal) { return std::string(refusal.param.name); });
+
+TEST(ModelTest, FindsJointsByRoleAndSide) {
+  std::vector<Joint> joints = ValidJoints();
+  joints[2].role = joints[3].role = JointRole::kKneeFlexion;
+  joints[2].side = BodySide::kLeft;
+  joints[3].side = BodySide::kRight;
+  const Model model = Model::Create(joints).value();
+  EXPECT_EQ(model.Find(JointRole::kKneeFlexion, BodySide::kLeft), 2);
+  EXPECT_EQ(model.Find(JointRole::kKneeFlexion, BodySide::kRight), 3);
+  EXPECT_EQ(model.Find(JointRole::kKneeFlexion), -1);
+  EXPECT_EQ(model.Find(JointRole::kHipFlexion, BodySide::kLeft), -1);
+}
+
+// A knee flexes about +y, a hip about -y, as the axis lies in the world and not in the joint's own frame.
+TEST(ModelTest, SenseOfFlexionFollowsTheAxisInTheWorld) {
+  std::vector<Joint> joints(2);
+  for (int i = 0; i < 2; ++i) {
+    joints[i].name = joints[i].link = std::string(1, static_cast<char>('a' + i));
+    joints[i].parent = i - 1;
+    joints[i].mass = 1;
+    joints[i].axis = Vector3::UnitY();
+    joints[i].side = BodySide::kLeft;
+  }
+  joints[0].role = JointRole::kHipFlexion;
+  joints[1].role = JointRole::kKneeFlexion;
+  const Model straight = Model::Create(joints).value();
+  EXPECT_EQ(straight.FlexionSign(0), -1);
+  EXPECT_EQ(straight.FlexionSign(1), 1);
+  joints[0].R_PJ = Vector3(1, -1, -1).asDiagonal();  // half a turn about x
+  const Model turned = Model::Create(joints).value();
+  EXPECT_EQ(turned.FlexionSign(0), 1);
+  EXPECT_EQ(turned.FlexionSign(1), -1);
+}
 
 TEST(ModelTest, ReportsEverythingThatIsWrong) {
   std::vector<Joint> joints = ValidJoints();

@@ -12,12 +12,12 @@
 namespace rollgait {
 namespace {
 
-// The matrix of a problem of four variables and two rows, of which `fixed` are taken out, beside the same in dense
-// algebra.
+// The matrix of a problem of four variables and two rows, of which `fixed` are taken out and the first may have a
+// slack, beside the same in dense algebra.
 class KktSystemTest : public ::testing::Test {
  protected:
-  void Fill(const std::vector<char>& fixed) {
-    kkt_ = std::make_unique<KktSystem>(problem_, fixed, NlpOptions().step_residual);
+  void Fill(const std::vector<char>& fixed, const std::vector<int>& slack_rows = {}) {
+    kkt_ = std::make_unique<KktSystem>(problem_, fixed, slack_rows, NlpOptions().step_residual);
     const Eigen::Vector4d x(1.5, 4, 3, 2);
     const Eigen::Vector2d multipliers(0.7, -0.3);
     ASSERT_TRUE(problem_.Derivatives(x.data(), 1, multipliers.data(), kkt_->jacobian(), kkt_->hessian()));
@@ -54,7 +54,8 @@ class KktSystemTest : public ::testing::Test {
 
   Hs071 problem_;
   std::unique_ptr<KktSystem> kkt_;
-  const VectorX primal_ = Eigen::Vector4d(30, 40, 50, 60), dual_ = Eigen::Vector2d(0.5, 0);
+  const VectorX primal_ = Eigen::Vector4d(30, 40, 50, 60);
+  VectorX dual_ = Eigen::Vector2d(0.5, 0);
   MatrixX dense_;
   VectorX right_;
 };
@@ -73,9 +74,22 @@ TEST_F(KktSystemTest, TakesFixedVariablesOut) {
   }
 }
 
+// From a row that is far from its bounds to one that is at them.
+TEST_F(KktSystemTest, EliminatesRowsWithSlacks) {
+  for (const double d : {1e6, 0.5, 1e-6, 1e-12}) {
+    dual_(0) = d;
+    Fill({0, 0, 0, 0}, {0});
+    ExpectDenseSolution();
+    Fill({0, 0, 1, 0}, {0});
+    ExpectDenseSolution();
+  }
+}
+
 TEST_F(KktSystemTest, SeesAWrongInertia) {
-  Fill({0, 0, 0, 0});
-  EXPECT_EQ(kkt_->Factorise(VectorX::Constant(4, -100), dual_), KktSystem::Outcome::kWrongInertia);
+  for (const std::vector<int>& slack_rows : {std::vector<int>{}, {0}}) {
+    Fill({0, 0, 0, 0}, slack_rows);
+    EXPECT_EQ(kkt_->Factorise(VectorX::Constant(4, -100), dual_), KktSystem::Outcome::kWrongInertia);
+  }
 }
 
 TEST_F(KktSystemTest, MultipliesByTheJacobianOfFixedVariablesToo) {

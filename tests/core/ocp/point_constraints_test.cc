@@ -226,6 +226,11 @@ TEST_P(PointConstraintsTest, SurfacesOfOneLinkShareTheForceAlongXByTheirNormalFo
   EXPECT_NEAR(value(22.5, 60, 7.5, 20), 0, 1e-12);
   EXPECT_NEAR(value(0, 0, 30, 80), 0, 1e-12);
   EXPECT_NEAR(value(30, 60, 0, 20), -600, 1e-12);
+  // To 1e-5 of the square of the weight, so that rows of the cones may touch it.
+  double lower, upper;
+  MakeForceShares(contacts, active, layout, 800)->Bounds(0, &lower, &upper);
+  EXPECT_DOUBLE_EQ(lower, -6.4);
+  EXPECT_DOUBLE_EQ(upper, 6.4);
   contacts[1].joint = 1;
   EXPECT_FALSE(MakeForceShares(contacts, active, layout, 1));
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/models/planar_human.h"
+#include "core/validation/normative.h"
 #include "tests/support/prescribed_walk.h"
 
 namespace rollgait {

@@ -1,0 +1,75 @@
+#include "core/gait/rate_continuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/mesh_sequence.h"
+#include "core/gait/power_smoothing.h"
+#include "core/gait/rate_costs.h"
+
+namespace rollgait {
+namespace {
+
+// s², of the rate's weight beside the torque's, on Earth.
+constexpr double kFirstPrice = 1e-4;
+constexpr double kRoughTolerance = 1e-2;  // of what is only a start
+
+double TorqueWeight(const GaitSpec& spec) {
+  double weight = 0;
+  for (const GaitSpec::CostTerm& cost : spec.costs) {
+    if (std::holds_alternative<GaitRequest::SquaredTorque>(cost.term)) weight += cost.weight;
+  }
+  return weight;
+}
+
+GaitSpec WithRatesAt(double price, GaitSpec spec) {
+  spec.costs.push_back(
+      {GaitRequest::SquaredTorqueRate{}, price * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec)});
+  return spec;
+}
+
+GaitSpec AsAStart(GaitSpec spec) {
+  spec.kkt_tolerance = std::max(kRoughTolerance, spec.kkt_tolerance);
+  spec.is_only_a_start = true;
+  return spec;
+}
+
+}  // namespace
+
+bool LeavesRatesFree(const GaitSpec& spec) {
+  return TorqueWeight(spec) > 0 && !HasRates(spec) && !LeastSmoothing(spec);
+}
+
+GaitSpec WithRates(const GaitSpec& spec) { return AsAStart(WithRatesAt(kFirstPrice, spec)); }
+
+GaitSolution AddRates(const GaitSpec& spec, const GaitSolution& solution, SolveBudget* budget) {
+  GaitSpec rated = WithRates(spec);
+  rated.warm_start = StartFrom(spec, solution);
+  return SolveFromNeighbour(rated, *BuildProblem(rated), spec.max_iterations, budget);
+}
+
+GaitSolution ReleaseRates(const GaitSpec& spec, GaitSolution rated, SolveBudget* budget) {
+  constexpr int kMostIterations = 200;
+  // human29, slope 20°: from 1e-7 at once to none takes more than 200 iterations, from 1e-10 it takes 27; from 1e-6 to
+  // 1e-8 takes 179, by tenths 37.
+  constexpr double kStep = 0.1, kLeastPrice = 3e-11;
+  GaitSolution last = std::move(rated);
+  for (double price = kFirstPrice; price > 0;) {
+    price = kStep * price < kLeastPrice ? 0 : kStep * price;
+    GaitSpec cheaper = price > 0 ? AsAStart(WithRatesAt(price, spec)) : spec;
+    if (price > 0) cheaper.max_refinements = 0;
+    cheaper.warm_start = StartFrom(spec, last);
+    GaitSolution solution = SolveFromNeighbour(cheaper, *BuildProblem(cheaper), kMostIterations, budget);
+    solution.note = last.note;
+    solution.warm_started = solution.used_multipliers = false;  // not from what the request named
+    PutBefore(last.meshes, &solution);
+    last = std::move(solution);
+    if (!Converged(last.termination)) break;
+  }
+  return last;
+}
+
+}  // namespace rollgait
