@@ -119,7 +119,8 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
       ->required();
 
   CLI::App* const models = app.add_subcommand("models", "Models of the server, or one of them whole");
-  models->add_option("NAME", arguments.models.flags.model, "Print this model: joints, links, limits, contact surfaces");
+  models->add_option("NAME", arguments.models.flags.model,
+                     "Print this model: joints, links, limits, contact surfaces; or check the one in FILE.json");
   AddBodyFlags(*models, arguments.models.flags);
   models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
   models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");

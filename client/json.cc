@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "client/failure.h"
 
@@ -34,10 +33,18 @@ void ReadJsonFile(const std::string& given, google::protobuf::Message& message) 
   const bool is_input = given == "-";
   const std::string path = is_input ? "standard input" : given;
   std::ifstream file(is_input ? "/dev/stdin" : given, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));
-  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &message);
+  // Larger than any message that a server takes, and small beside the memory of a machine.
+  constexpr size_t kMostBytes = size_t{64} << 20;
+  std::string text(1 << 16, '\0');
+  size_t size = 0;
+  while (file.read(text.data() + size, static_cast<std::streamsize>(text.size() - size)).gcount() > 0) {
+    size += static_cast<size_t>(file.gcount());
+    if (size > kMostBytes) throw Failure(ExitCode::kUsage, path + ": has more than 64 MiB, which no request has");
+    text.resize(2 * size);
+  }
+  if (!file.eof()) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));
+  text.resize(size);
+  const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
   if (!status.ok()) {
     throw Failure(ExitCode::kUsage, path + ": not a proto3 JSON " + message.GetDescriptor()->full_name() + ": " +
                                         std::string(status.message()));

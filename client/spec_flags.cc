@@ -158,7 +158,9 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--spec", flags.file,
                      "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it; "
                      "`rollgait spec` writes it");
-  command.add_option("--model", flags.model, "Model name, see `rollgait models`")->group("Body");
+  command
+      .add_option("--model", flags.model, "Model name, see `rollgait models`, or FILE.json with a model of your own")
+      ->group("Body");
   AddBodyFlags(command, flags);
   const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {
     return command.add_option(name, value, help)->group(group);
@@ -212,8 +214,15 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
 }
 
+// No model of a server is called so.
+bool IsModelFile(const std::string& model) { return model.ends_with(".json"); }
+
 void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
-  if (flags.model) selection.set_name(*flags.model);
+  if (flags.model && IsModelFile(*flags.model)) {
+    ReadJsonFile(*flags.model, *selection.mutable_own());
+  } else if (flags.model) {
+    selection.set_name(*flags.model);
+  }
   if (flags.sex) {
     selection.set_sex(Lookup("--sex", *flags.sex, SexWords()));
   }

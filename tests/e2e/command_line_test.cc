@@ -23,16 +23,17 @@ class CommandLineTest : public testing::Test {
 
   struct Ended {
     int code;
-    std::string out;
+    std::string out, err;
   };
   Ended Run(const std::string& arguments) const {
     const std::string file = directory_.path() + "/out";
     const int status = std::system(("ROLLGAIT_CONFIG= " ROLLGAIT_PROGRAM " --server " + daemon_.address() + " " +
-                                    arguments + " > " + file + " 2> /dev/null")
+                                    arguments + " > " + file + " 2> " + file + ".err")
                                        .c_str());
-    std::ostringstream out;
+    std::ostringstream out, err;
     out << std::ifstream(file).rdbuf();
-    return {WEXITSTATUS(status), out.str()};
+    err << std::ifstream(file + ".err").rdbuf();
+    return {WEXITSTATUS(status), out.str(), err.str()};
   }
   v1::Solve Solve(const std::string& arguments) const {
     const Ended ended = Run("solve -q -o - " + arguments);
@@ -63,6 +64,36 @@ TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {
   const Ended explained = Run("explain " + flags.name());
   EXPECT_THAT(explained.out, HasSubstr("The solver found a local optimum"));
   EXPECT_THAT(explained.out, HasSubstr("iterations on "));
+}
+
+// What `models NAME --json` writes is a model of one's own, and the gait it gives is that of the name.
+TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string file = directory_.path() + "/walker.json";
+  const Ended written = Run("models human29 --json");
+  std::ofstream(file) << written.out;
+  const std::string rest = " --preset torque --intervals 8 --accuracy draft --slope 2";
+  const v1::Solve named = Solve("--model human29" + rest), own = Solve("--model " + file + rest);
+  ASSERT_EQ(named.result().termination(), v1::TERMINATION_OPTIMAL) << named.result().message();
+  EXPECT_TRUE(own.spec().model().has_own());
+  EXPECT_FALSE(own.from_cache());
+  EXPECT_NEAR(own.result().objective(), named.result().objective(), 1e-9 * named.result().objective());
+
+  v1::Model model;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(written.out, &model).ok());
+  EXPECT_THAT(Run("models " + file).out, HasSubstr("ankle_l"));
+  model.mutable_joints(7)->set_mass_kg(-1);
+  std::string text;
+  ASSERT_TRUE(google::protobuf::util::MessageToJsonString(model, &text).ok());
+  std::ofstream(file) << text;
+  for (const std::string& command : {"models " + file, "solve --model " + file}) {
+    const Ended refused = Run(command);
+    EXPECT_NE(refused.code, 0);
+    EXPECT_THAT(refused.err, HasSubstr("model.own.joints[7].mass_kg"));
+    EXPECT_THAT(refused.err, HasSubstr("is -1; must be finite and at least 0 kg"));
+  }
+  std::ofstream(file) << "{\"joints\": 3}";
+  EXPECT_THAT(Run("models " + file).err, HasSubstr("not a proto3 JSON rollgait.v1.Model"));
 }
 
 TEST_F(CommandLineTest, TheDoctorFindsAFreshServerWell) {
