@@ -87,6 +87,12 @@ NlpResult SolveJournal::Solve(NlpProblem& problem, const NlpStart& start, const 
   if (std::optional<NlpResult> known = FromRecord(program, fingerprint)) return std::move(*known);
   const std::optional<InteriorPointState> state = StateFor(program, fingerprint, problem);
   past_ = {};
+  if (control.stop != nullptr && control.stop->requested()) {
+    // What a search asks for on its way out is no part of it: nothing is reported or recorded.
+    SolveControl silent = control;
+    silent.observer = nullptr;
+    return SolveNlp(problem, start, options, silent);
+  }
   if (!std::exchange(continued_, true) && sink_.continued) sink_.continued(continuation_);
   Keeper keeper(*this, program, fingerprint, state ? state->iteration : 0);
   NlpResult result = SolveNlp(problem, start, options, control, {state ? &*state : nullptr, &keeper});

@@ -51,7 +51,8 @@ class SolveJournal {
   SolveJournal(JournalRecords past, Sink sink, const Pace& pace);
   SolveJournal(JournalRecords past, Sink sink) : SolveJournal(std::move(past), std::move(sink), Pace()) {}
 
-  // SolveNlp, for the next program of the search.
+  // SolveNlp, for the next program of the search. Once the search is stopped, programs that it still asks for are
+  // neither reported nor recorded.
   NlpResult Solve(NlpProblem& problem, const NlpStart& start, const NlpOptions& options, const SolveControl& control);
 
   // Time, s, that earlier processes have spent on what was answered from their records so far.

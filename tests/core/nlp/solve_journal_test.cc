@@ -157,6 +157,28 @@ TEST(SolveJournalTest, DamagedRecordsAreLeft) {
   expect_whole(other_kind, 0);
 }
 
+// A search may ask for one more program before it looks at the stop flag.
+TEST(SolveJournalTest, AStoppedSearchLeavesNothingMore) {
+  StopFlag stop;
+  SolveControl control;
+  control.stop = &stop;
+  int reported = 0, kept = 0;
+  control.observer = [&](const IterationInfo&) {
+    if (++reported == 3) stop.Request();
+  };
+  SolveJournal::Sink sink;
+  sink.started = [&](int, const std::string&) { ++kept; };
+  sink.finished = [&](int, const std::string&) { ADD_FAILURE() << "none is finished"; };
+  SolveJournal journal({}, sink, {1, 1e9});
+  Hs071 problem;
+  const NlpStart start{Hs071::Start(), {}, {}, {}};
+  EXPECT_EQ(journal.Solve(problem, start, {}, control).termination, Termination::kCancelled);
+  EXPECT_EQ(kept, 2);  // at iterations 1 and 2
+  EXPECT_EQ(journal.Solve(problem, start, {}, control).termination, Termination::kCancelled);
+  EXPECT_EQ(reported, 3);
+  EXPECT_EQ(kept, 2);
+}
+
 // With a checksum that is right, since whoever forges records computes it.
 TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   Hs071 problem;
