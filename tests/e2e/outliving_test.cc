@@ -191,7 +191,7 @@ void ExpectToOutliveFaults(const v1::SolveSpec& spec) {
   }
 }
 
-TEST(OutlivingTest, ADraftGoesOnAfterEveryFault) { ExpectToOutliveFaults(Request(v1::Accuracy::LEVEL_DRAFT)); }
+TEST(OutlivingTest, ASolveGoesOnAfterEveryFault) { ExpectToOutliveFaults(Request(v1::Accuracy::LEVEL_STANDARD)); }
 
 // For the table of docs/explanation/life_of_a_request.md: takes minutes.
 TEST(OutlivingTest, DISABLED_ALongSolveGoesOnAfterEveryFault) {
