@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.h"
 #include "core/ocp/constraints/approach.h"
 #include "core/ocp/constraints/contact_point.h"
 #include "core/ocp/constraints/dynamics.h"
@@ -126,8 +127,13 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
   const PointLayout layout = Layout(phase);
   const auto active = ActiveContacts(phase);
   const std::vector<ContactSurface> seen = PhaseContacts(phase);
-  constraints.push_back(
-      std::make_unique<DynamicsConstraint>(model, contacts, active, layout, force_size(), effort_size()));
+  if (equations_of_motion) {
+    ROLLGAIT_CHECK(contacts.empty());
+    constraints.push_back(equations_of_motion(layout));
+  } else {
+    constraints.push_back(
+        std::make_unique<DynamicsConstraint>(model, contacts, active, layout, force_size(), effort_size()));
+  }
   for (const ActiveContact& contact : active) {
     if (at_node) {
       constraints.push_back(std::make_unique<RollingAccelerationConstraint>(model, seen, contact.contact, layout));

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_OCP_PROBLEM_H_
 #define ROLLGAIT_CORE_OCP_PROBLEM_H_
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,6 +52,12 @@ struct OptimalControlProblem {
   // and velocity of a body in contact) must be left free here, and `displacement` is prescribed if they prescribe the
   // forward joint's.
   std::optional<Ends> ends;
+
+  // If set, it makes the n rows of motion at one instant of a phase, g(q, v, a, τ) = 0, in place of those of the tree:
+  // of a system that is not one of rigid bodies. The model's joints are then coordinates, with their names, limits and
+  // efforts; a state x that has a first derivative only is a velocity, whose position is ∫ x dt. What the rows must say
+  // is in point_function.h; second derivatives by accelerations are with positions only. Contract: no contacts.
+  std::function<std::unique_ptr<PointConstraint>(const PointLayout&)> equations_of_motion;
 
   std::vector<CostDescription> costs;
   CostDenominator denominator = CostDenominator::kDistance;
