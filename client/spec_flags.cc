@@ -88,6 +88,9 @@ void ApplyManoeuvre(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.duration_s) spec.mutable_manoeuvre()->set_duration_s(*flags.duration_s);
 }
 
+// No model of a server is called so.
+bool IsModelFile(const std::string& model) { return model.ends_with(".json"); }
+
 bool HasBodyFlags(const SpecFlags& flags) {
   return flags.model || flags.sex || flags.stature_m || flags.mass_kg || flags.feet || flags.ranges || flags.toes ||
          flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes || !flags.locks.empty() ||
@@ -214,13 +217,13 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
 }
 
-// No model of a server is called so.
-bool IsModelFile(const std::string& model) { return model.ends_with(".json"); }
-
 void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
+  // One or the other, whatever a file of the whole request says.
   if (flags.model && IsModelFile(*flags.model)) {
+    selection.Clear();
     ReadJsonFile(*flags.model, *selection.mutable_own());
   } else if (flags.model) {
+    selection.clear_own();
     selection.set_name(*flags.model);
   }
   if (flags.sex) {

@@ -79,6 +79,13 @@ TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
   EXPECT_FALSE(own.from_cache());
   EXPECT_NEAR(own.result().objective(), named.result().objective(), 1e-9 * named.result().objective());
 
+  // --model takes the place of what a request has, either way.
+  const std::string request = directory_.path() + "/request.json";
+  ASSERT_EQ(Run("spec --model planar --stature 1.7" + rest + " -o " + request).code, 0);
+  EXPECT_EQ(Solve("--spec " + request + " --model " + file).result().objective(), own.result().objective());
+  ASSERT_EQ(Run("spec --model " + file + rest + " -o " + request).code, 0);
+  EXPECT_EQ(Solve("--spec " + request + " --model human29").result().objective(), named.result().objective());
+
   v1::Model model;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(written.out, &model).ok());
   EXPECT_THAT(Run("models " + file).out, HasSubstr("ankle_l"));
@@ -94,6 +101,8 @@ TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
   }
   std::ofstream(file) << "{\"joints\": 3}";
   EXPECT_THAT(Run("models " + file).err, HasSubstr("not a proto3 JSON rollgait.v1.Model"));
+  EXPECT_EQ(std::system(("truncate -s 65M " + file).c_str()), 0);
+  EXPECT_THAT(Run("models " + file).err, HasSubstr("has more than 64 MiB"));
 }
 
 TEST_F(CommandLineTest, TheDoctorFindsAFreshServerWell) {
