@@ -104,7 +104,7 @@ bool Answers(const GaitSolution& solution) {
 }
 
 // Squared torque alone is solved as it is, and where that takes long or leads to motions that exist on no finer mesh,
-// by way of a price of rates.
+// by continuation in the weight of torque rates.
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   if (!LeavesRatesFree(spec)) return SearchByMeshes(spec, Otherwise::kContinue, budget);
   constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100

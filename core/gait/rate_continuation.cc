@@ -14,7 +14,7 @@ namespace rollgait {
 namespace {
 
 // s², of the rate's weight beside the torque's, on Earth.
-constexpr double kFirstPrice = 1e-4;
+constexpr double kFirstWeight = 1e-4;
 constexpr double kRoughTolerance = 1e-2;  // of what is only a start
 
 double TorqueWeight(const GaitSpec& spec) {
@@ -25,9 +25,9 @@ double TorqueWeight(const GaitSpec& spec) {
   return weight;
 }
 
-GaitSpec WithRatesAt(double price, GaitSpec spec) {
+GaitSpec WithRatesAt(double rate_weight, GaitSpec spec) {
   spec.costs.push_back(
-      {GaitRequest::SquaredTorqueRate{}, price * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec)});
+      {GaitRequest::SquaredTorqueRate{}, rate_weight * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec)});
   return spec;
 }
 
@@ -43,7 +43,7 @@ bool LeavesRatesFree(const GaitSpec& spec) {
   return TorqueWeight(spec) > 0 && !HasRates(spec) && !LeastSmoothing(spec);
 }
 
-GaitSpec WithRates(const GaitSpec& spec) { return AsAStart(WithRatesAt(kFirstPrice, spec)); }
+GaitSpec WithRates(const GaitSpec& spec) { return AsAStart(WithRatesAt(kFirstWeight, spec)); }
 
 GaitSolution AddRates(const GaitSpec& spec, const GaitSolution& solution, SolveBudget* budget) {
   GaitSpec rated = WithRates(spec);
@@ -55,12 +55,12 @@ GaitSolution ReleaseRates(const GaitSpec& spec, GaitSolution rated, SolveBudget*
   constexpr int kMostIterations = 200;
   // human29, slope 20°: from 1e-7 at once to none takes more than 200 iterations, from 1e-10 it takes 27; from 1e-6 to
   // 1e-8 takes 179, by tenths 37.
-  constexpr double kStep = 0.1, kLeastPrice = 3e-11;
+  constexpr double kStep = 0.1, kLeastWeight = 3e-11;
   GaitSolution last = std::move(rated);
-  for (double price = kFirstPrice; price > 0;) {
-    price = kStep * price < kLeastPrice ? 0 : kStep * price;
-    GaitSpec cheaper = price > 0 ? AsAStart(WithRatesAt(price, spec)) : spec;
-    if (price > 0) cheaper.max_refinements = 0;
+  for (double rate_weight = kFirstWeight; rate_weight > 0;) {
+    rate_weight = kStep * rate_weight < kLeastWeight ? 0 : kStep * rate_weight;
+    GaitSpec cheaper = rate_weight > 0 ? AsAStart(WithRatesAt(rate_weight, spec)) : spec;
+    if (rate_weight > 0) cheaper.max_refinements = 0;
     cheaper.warm_start = StartFrom(spec, last);
     GaitSolution solution = SolveFromNeighbour(cheaper, *BuildProblem(cheaper), kMostIterations, budget);
     solution.note = last.note;

@@ -52,10 +52,11 @@ std::string UnknownModel(const std::string& name) {
 }
 
 // What only a human has, of what was asked of a ball.
-Result<Scene> BuildBall(const BodyRequest& request) {
+// What describes a human and was given for something else.
+Violations RefuseHumanFields(const BodyRequest& request, const std::string& what) {
   Violations violations;
   const auto refuse = [&](bool given, const char* field) {
-    if (given) violations.push_back({field, std::string("means nothing for model \"") + kBall + "\"; leave it out"});
+    if (given) violations.push_back({field, "means nothing for " + what + "; leave it out"});
   };
   refuse(request.stature.has_value(), "stature_m");
   refuse(request.mass.has_value(), "body_mass_kg");
@@ -67,6 +68,11 @@ Result<Scene> BuildBall(const BodyRequest& request) {
   refuse(request.rigid_trunk, "rigid_trunk");
   refuse(!request.locked_joints.empty(), "locked_joints_rad");
   refuse(request.ranges.has_value(), "ranges");
+  return violations;
+}
+
+Result<Scene> BuildBall(const BodyRequest& request) {
+  Violations violations = RefuseHumanFields(request, std::string("model \"") + kBall + "\"");
   Result<Scene> scene = RollingEllipsoidScene(request.rolling_body.value_or(RollingEllipsoidRequest()), {});
   if (violations.empty()) return scene;
   if (!scene.ok()) violations.insert(violations.end(), scene.violations().begin(), scene.violations().end());
@@ -74,25 +80,14 @@ Result<Scene> BuildBall(const BodyRequest& request) {
 }
 
 Result<Scene> BuildOwn(const BodyRequest& request) {
-  Violations violations;
-  const auto refuse = [&](bool given, const char* field) {
-    if (given) violations.push_back({field, "means nothing for a model of your own; leave it out"});
-  };
+  Violations violations = RefuseHumanFields(request, "a model of your own");
   if (!request.model.empty() && request.model != request.own->name) {
     violations.push_back({"name", "is not own.summary.name; leave it out"});
   }
-  refuse(request.sex != Sex::kMale, "sex");
-  refuse(request.stature.has_value(), "stature_m");
-  refuse(request.mass.has_value(), "body_mass_kg");
-  refuse(!request.segment_lengths.empty(), "segment_lengths_m");
-  refuse(request.toes, "toes");
-  refuse(request.sagittal, "sagittal");
-  refuse(request.drop_arms, "drop_arms");
-  refuse(request.rigid_trunk, "rigid_trunk");
-  refuse(!request.locked_joints.empty(), "locked_joints_rad");
-  refuse(request.ranges.has_value(), "ranges");
-  refuse(request.feet.has_value(), "feet");
-  refuse(request.rolling_body.has_value(), "rolling_body");
+  if (request.sex != Sex::kMale) violations.push_back({"sex", "means nothing for a model of your own; leave it out"});
+  if (request.rolling_body) {
+    violations.push_back({"rolling_body", "means nothing for a model of your own; leave it out"});
+  }
   Result<Scene> scene = OwnScene(*request.own);
   if (!scene.ok()) {
     for (const Violation& violation : scene.violations()) {

@@ -5,10 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "server/store/open_store.h"
 #include "tests/faults/faults.h"
 
 extern char** environ;
@@ -67,12 +69,22 @@ bool HoldsWriterLock(pid_t pid, const std::string& data_dir) {
   return false;
 }
 
-// Stops the agent between two of its transactions. In one it would hold the store's one writer's lock for as long as it
-// stands still: SQLite cannot take a lock from a living process (PostgreSQL can: that is what it is for).
-void Freeze(pid_t agent, const std::string& data_dir) {
-  Await("a moment between two transactions", [&] {
+// True if the agent has solves that only its lease keeps from others.
+bool HoldsLease(pid_t agent, server::SolveStore& store) {
+  const auto owners = store.LeaseOwners();
+  if (!owners.ok()) throw std::runtime_error(owners.error().message);
+  const std::string prefix = "agent-" + std::to_string(agent) + "-";
+  return std::any_of(owners.value().begin(), owners.value().end(),
+                     [&](const server::LeaseOwner& owner) { return owner.owner.starts_with(prefix); });
+}
+
+// Stops the agent while it holds solves, between two of its transactions. In one it would hold the store's one writer's
+// lock for as long as it stands still: SQLite cannot take a lock from a living process (PostgreSQL can: that is what it
+// is for).
+void Freeze(pid_t agent, const std::string& data_dir, server::SolveStore& store) {
+  Await("a moment between two transactions with solves at work", [&] {
     kill(agent, SIGSTOP);
-    if (!HoldsWriterLock(agent, data_dir)) return true;
+    if (!HoldsWriterLock(agent, data_dir) && HoldsLease(agent, store)) return true;
     kill(agent, SIGCONT);
     return false;
   });
@@ -86,9 +98,12 @@ FaultReport FreezeAgent(const FaultOptions& options) {
   load.AwaitRound();  // the server's own agent is at work on all of them
   const std::vector<pid_t> agents = server::AgentsOf(server.data_dir());
   if (agents.size() != 1) throw std::runtime_error("the server has not one agent");
+  const server::SystemClock clock;
+  const auto store = server::OpenStore({.sqlite_path = server.data_dir() + "/rollgait.db"}, clock);
+  if (!store.ok()) throw std::runtime_error(store.error().message);
   std::unique_ptr<SecondAgent> second;
   for (int i = 0; i < options.count; ++i) {
-    Freeze(agents[0], server.data_dir());
+    Freeze(agents[0], server.data_dir(), *store.value());
     if (second == nullptr) second = std::make_unique<SecondAgent>(server.data_dir());
     load.AwaitRound();  // also those whose agent stands still
     kill(agents[0], SIGCONT);

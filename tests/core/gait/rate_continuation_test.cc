@@ -1,4 +1,4 @@
-// Squared torque by way of a price of rates.
+// Squared torque by continuation in the weight of torque rates.
 #include "core/gait/rate_continuation.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(RateContinuation, IsForSquaredTorqueAlone) {
   EXPECT_FALSE(LeavesRatesFree(CheckRequest(request).value()));
 }
 
-// Uphill, where one gait is cheapest, both ways end in it; the rates have no price left.
+// Uphill, where one gait is cheapest, both ways end in it; the rates have no weight left.
 TEST(RateContinuation, EndsWhereTheDirectWayEnds) {
   const GaitSpec spec = Planar(10);
   const SolveControl control;

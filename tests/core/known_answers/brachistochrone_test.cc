@@ -20,7 +20,13 @@ TEST(BrachistochroneTest, HasItsKnownObjective) {
   time.term = std::make_unique<TimeCost>();
   known.problem->costs.push_back(std::move(time));
   known.guess = StraightGuess({2}, {0, 0, 0, 0, 10, 0}, {10, 15, 10, 10, 5, 9}, {1});
-  ExpectKnownAnswer(known, Scheme::kRadau3, Mesh::Uniform({20}));
+  const Computed computed = ExpectKnownAnswer(known, Scheme::kRadau3, Mesh::Uniform({20}));
+  // Energy is kept, ½ s² = g (10 − y), to what 20 intervals of order 5 leave.
+  const TrajectoryPhase& phase = computed.trajectory.phases[0];
+  for (int k = 0; k < phase.node_velocities.cols(); ++k) {
+    const double y = phase.node_velocities(1, k), speed = phase.node_velocities(2, k);
+    EXPECT_NEAR(speed * speed / 2, 9.80665 * (10 - y), 1e-6) << k;
+  }
 }
 
 }  // namespace

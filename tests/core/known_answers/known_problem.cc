@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/gait/initial_guess.h"
+#include "core/gait/mesh_refinement.h"
 #include "core/nlp/interior_point.h"
 
 namespace rollgait {
@@ -103,25 +105,6 @@ MotionGuess StraightGuess(std::vector<double> durations, std::vector<double> sta
   return guess;
 }
 
-MotionGuess GuessFrom(const Trajectory& trajectory) {
-  MotionGuess guess;
-  for (const TrajectoryPhase& phase : trajectory.phases) {
-    guess.durations.push_back(phase.duration);
-    guess.impulses.push_back(phase.impulses);
-  }
-  guess.displacement = trajectory.displacement;
-  guess.motion = [trajectory](int p, double fraction) {
-    const TrajectoryPhase& phase = trajectory.phases[static_cast<size_t>(p)];
-    const double time = phase.start + fraction * phase.duration;
-    const int intervals = static_cast<int>(phase.node_times.size()) - 1;
-    int k = 0;
-    while (k + 1 < intervals && phase.node_times[static_cast<size_t>(k) + 1] <= time) ++k;
-    const double from = phase.node_times[static_cast<size_t>(k)], to = phase.node_times[static_cast<size_t>(k) + 1];
-    return Sample(trajectory, p, k, (time - from) / (to - from));
-  };
-  return guess;
-}
-
 Computed SolveOnce(const KnownProblem& known, Scheme scheme, const Mesh& mesh, const MotionGuess& guess) {
   CollocationNlp nlp(*known.problem, scheme, mesh);
   NlpOptions options;
@@ -139,19 +122,10 @@ Computed SolveOnce(const KnownProblem& known, Scheme scheme, const Mesh& mesh, c
   return {objective, result.iterations, result.wall_time_s, nlp.Extract(result.x.data())};
 }
 
-Mesh Halved(const Mesh& mesh) {
-  Mesh halved;
-  for (const auto& phase : mesh.fractions) {
-    halved.fractions.emplace_back();
-    for (double length : phase) halved.fractions.back().insert(halved.fractions.back().end(), 2, length / 2);
-  }
-  return halved;
-}
-
 Computed ExpectKnownAnswer(const KnownProblem& known, Scheme scheme, const Mesh& mesh) {
   const KnownAnswer& answer = known.answer;
   Computed coarse = SolveOnce(known, scheme, mesh, known.guess);
-  const Computed fine = SolveOnce(known, scheme, Halved(mesh), GuessFrom(coarse.trajectory));
+  const Computed fine = SolveOnce(known, scheme, Halved(mesh), GuessFromTrajectory(coarse.trajectory));
   const double size = std::abs(answer.objective), error = std::abs(coarse.objective - answer.objective);
   const double powers = std::pow(2, OrderOf(scheme));
   const double bar = std::abs(coarse.objective - fine.objective) * powers / (powers - 1) + kRounding * size;

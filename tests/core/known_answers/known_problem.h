@@ -47,11 +47,6 @@ struct Computed {
   Trajectory trajectory;
 };
 Computed SolveOnce(const KnownProblem& known, Scheme scheme, const Mesh& mesh, const MotionGuess& guess);
-// As a guess for the same problem on another mesh or with another scheme.
-MotionGuess GuessFrom(const Trajectory& trajectory);
-
-// The mesh with every interval divided into two.
-Mesh Halved(const Mesh& mesh);
 
 // Solves on a mesh and on the halved one. The error bar is what the two differ by, times 2^p / (2^p − 1) for the order
 // p of the scheme, and the share of rounding. Expects the error against the known answer to be as asked and within the
