@@ -26,7 +26,6 @@ NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
     : barrier_(barrier),
       kkt_(barrier.problem(), barrier.fixed(), barrier.slack_rows(), options.step_residual),
       first_shift_(options.first_shift),
-      tolerance_(options.tolerance),
       sigma_(VectorX::Zero(barrier.unknowns())),
       right_(sigma_),
       primal_diagonal_(VectorX::Zero(barrier.variables())),
@@ -102,7 +101,7 @@ bool NewtonSystem::TryShift(double shift, double mu) {
   return false;
 }
 
-bool NewtonSystem::Factorise(bool feasible, double mu) {
+bool NewtonSystem::Factorise(double mu) {
   degenerate_ = false;
   if (skipped_ < std::min(zero_failures_, kMostSkips)) {
     ++skipped_;
@@ -113,16 +112,15 @@ bool NewtonSystem::Factorise(bool feasible, double mu) {
     ++zero_failures_;
     skipped_ = 0;
   }
-  if (feasible && !degenerate_) {
-    if (TryDualShift(mu)) return true;
-    degenerate_ = false;
-  }
   const double first = last_shift_ == 0 ? first_shift_ : std::max(kLeastShift, kShiftDecrease * last_shift_);
   const double increase = last_shift_ == 0 ? kFirstShiftIncrease : kShiftIncrease;
   double shift = first;
   while (!TryShift(shift, mu)) {
     if (!degenerate_ && shift > HessianNorm()) {
-      if (TryDualShift(mu)) return true;
+      // The shifted Hessian is positive definite. What is left to blame are rows that depend on each other: rounding
+      // leaves eigenvalues whose sign is chance, which a shift of the multipliers makes negative.
+      degenerate_ = true;
+      if (TryShift(0, mu)) return true;
       shift = first;
       continue;
     }
@@ -131,14 +129,6 @@ bool NewtonSystem::Factorise(bool feasible, double mu) {
   }
   last_shift_ = shift;
   return true;
-}
-
-// Rows that depend on each other, but for rounding, leave eigenvalues whose sign is chance, and no shift of the Hessian
-// mends that. They are to blame where the shifted Hessian is positive definite; and likely so at a feasible point,
-// since the Newton system of a regular minimum has the right inertia near it.
-bool NewtonSystem::TryDualShift(double mu) {
-  degenerate_ = true;
-  return TryShift(0, mu);
 }
 
 bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers& multipliers,
@@ -152,7 +142,7 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
   }
   constexpr int kMostTrials = 5;
   for (int trial = 0; trial < kMostTrials; ++trial) {
-    if (!Factorise(point.theta <= tolerance_, mu)) return false;
+    if (!Factorise(mu)) return false;
     if (Solve(point, multipliers, point.c, mu, step)) return true;
     // The factors were too coarse; KktSystem pivots more carefully next time.
   }

@@ -23,7 +23,7 @@ struct NewtonStep {
 // correction of Wächter and Biegler, section 3.1).
 class NewtonSystem {
  public:
-  // Of the options: step_residual, first_shift and tolerance.
+  // Of the options: step_residual and first_shift.
   NewtonSystem(BarrierProblem& barrier, const NlpOptions& options);
 
   KktSystem& kkt() { return kkt_; }
@@ -64,14 +64,13 @@ class NewtonSystem {
   // right: that of the gradients; excess: what the targets of the products differ from μ, divided by the distances.
   bool Solve(const BarrierProblem::Point& point, const Multipliers& multipliers, const VectorX& c, double mu,
              const VectorX& right, const Multipliers& excess, NewtonStep* step);
-  bool Factorise(bool feasible, double mu);
-  bool TryDualShift(double mu);
+  bool Factorise(double mu);
   double HessianNorm();
   bool TryShift(double shift, double mu);
 
   BarrierProblem& barrier_;
   KktSystem kkt_;
-  const double first_shift_, tolerance_;
+  const double first_shift_;
   double shift_ = 0, last_shift_ = 0;
   int zero_failures_ = 0, skipped_ = 0;  // of the unshifted matrix: failures in a row; iterations since the last trial
   bool degenerate_ = false;              // the present matrix is singular without a dual shift

@@ -77,10 +77,10 @@ TEST(ClosedForm, FreeDurationIsTheOneOfLeastCost) {
   EXPECT_NEAR(solution.trajectory->duration, duration, 1e-4 * duration);
 }
 
-// At rest the rows of rolling depend on each other, and the sign of what rounding leaves of them is chance; so for
-// several durations.
+// At rest the rows of rolling depend on each other, and the sign of what rounding leaves of them is chance, so for
+// several durations: without a shift of the multipliers all but the first stalled (x86-64, Release).
 TEST(ClosedForm, StayingWhereItIsCostsNothing) {
-  for (const double duration : {1.0, 1 + 2e-6, 1 - 25e-6, 0.7}) {
+  for (const double duration : {1.0, 1 - 100e-6, 1 + 133e-6, 1 + 147e-6}) {
     const GaitSolution solution = Solve(RollTo(0, 0, duration, Vector3::Zero()));
     CheckMotion(solution);
     EXPECT_LT(solution.objective, 1e-10);
