@@ -40,6 +40,9 @@ void SetLimits(grpc::ServerBuilder& builder) {
   // The transport takes four times what is looked at, so that a request over the limit is refused with a reason of
   // ours.
   builder.SetMaxReceiveMessageSize(static_cast<int>(4 * kMaxRequestBytes));
+  // 8 KB unfold into 8 MB before anybody is asked for a token; who compresses is refused, UNIMPLEMENTED.
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_GZIP, false);
+  builder.SetCompressionAlgorithmSupportStatus(GRPC_COMPRESS_DEFLATE, false);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 20'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);

@@ -140,25 +140,29 @@ def ask(channel, metadata=(), method="GetServerInfo", message=b""):
     return call(message, metadata=metadata, timeout=30, wait_for_ready=True)
 
 
+LONG_MESSAGE = b"\xfa\x7f\x80\x80\x08" + b"x" * (128 << 10)  # GetServerInfoRequest with a field that nobody knows
+
+
 class GoodCaller(threading.Thread):
-    """One who calls again and again, now and then over a new connection."""
+    """One who calls again and again, now and then over a new connection and with a message longer than a buffer of the door."""
 
     def __init__(self, server, token):
         super().__init__()
         self.server, self.metadata, self.times, self.failures = server, (("authorization", "Bearer " + token),), [], []
-        self.stopping = threading.Event()
+        self.attack, self.stopping = "no attack", threading.Event()
 
     def run(self):
         tls = grpc.ssl_channel_credentials(self.server.certificates.read("ca.crt"))
         while not self.stopping.is_set():
             options = (("grpc.use_local_subchannel_pool", 1), ("grpc.ssl_target_name_override", "localhost"))
             with grpc.secure_channel(self.server.address, tls, options) as channel:
-                for _ in range(20):
+                for number in range(20):
                     start = time.monotonic()
                     try:
-                        ask(channel, self.metadata)
+                        ask(channel, self.metadata, message=LONG_MESSAGE if number == 10 else b"")
                     except grpc.RpcError as error:
-                        self.failures.append(str(error.code()) + " " + str(error.details()))
+                        self.failures.append(f"during {self.attack}: {error.code()} {error.details()} "
+                                             f"{error.debug_error_string()}")
                     self.times.append(time.monotonic() - start)
                     if self.stopping.wait(0.02):
                         break
@@ -201,13 +205,14 @@ class DoorTest(unittest.TestCase):
         caller = GoodCaller(server, server.token())  # from 127.0.0.1, another tenant
         caller.start()
         attacks = ["continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections",
-                   "half_handshakes", "half_calls", "half_bodies", "unread_refusals", "unread_answers",
+                   "half_handshakes", "half_calls", "half_bodies", "compressed_bodies", "unread_refusals", "unread_answers",
                    "unread_results", "unread_watches"]
         print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB |")
         try:
             for number, name in enumerate(attacks):
                 legal = name.startswith("unread_") and name != "unread_refusals"
                 more = ("--token", server.directory + "/token", "--solve", solve) if legal else ()
+                caller.attack = name
                 caller.times.clear()
                 made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
                                    *more)

