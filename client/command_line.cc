@@ -67,6 +67,12 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
 
 void AddListFilters(CLI::App& command, ListFilter& filter) {
   command.add_option("--state", filter.state, "Only queued, running, succeeded, failed or cancelled");
+  CLI::Option* const tenant =
+      command.add_option("--tenant", filter.tenant, "Only of this tenant; another than your own takes the scope admin");
+  command
+      .add_flag_callback(
+          "--all-tenants", [&filter] { filter.tenant = "-"; }, "Of all tenants; takes the scope admin")
+      ->excludes(tenant);
   command.add_option("--verdict", filter.verdict, "Only this accuracy verdict: within, exceeded, not-judged or none");
   command.add_option("--termination", filter.termination,
                      "Only solves that ended so, for example optimal; none: not yet");

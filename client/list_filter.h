@@ -13,6 +13,7 @@ namespace rollgait::client {
 // As given on the command line; empty: any.
 struct ListFilter {
   std::string state = {};        // the server filters by it
+  std::string tenant = {};       // the server filters by it; empty: the caller's own, "-": of all
   std::string verdict = {};      // within, exceeded, not-judged, none
   std::string termination = {};  // optimal, time-limit … or none
   std::string model = {};

@@ -16,24 +16,27 @@ namespace {
 
 constexpr int kLargestPage = 1000;
 
-std::vector<std::string> ListRow(const v1::Solve& solve) {
+std::vector<std::string> ListRow(const v1::Solve& solve, bool with_tenant) {
   const auto seconds = [](const google::protobuf::Timestamp& time) {
     return static_cast<double>(time.seconds()) + 1e-9 * time.nanos();
   };
   const bool timed = solve.has_start_time() && solve.has_end_time();
   const auto& motion = solve.spec().motion();
   const v1::SolveOutcome& outcome = solve.outcome();
-  return {solve.name(),
-          StateName(solve.state()),
-          outcome.termination() == v1::TERMINATION_UNSPECIFIED ? "-" : TerminationName(outcome.termination()),
-          solve.has_outcome() ? VerdictName(outcome.verdict()) : "-",
-          solve.spec().model().name(),
-          FormatNumber(solve.spec().slope_rad() * 180 / kPi) + "°",
-          motion.has_speed_m_s() ? FormatNumber(motion.speed_m_s()) + " m/s"
-          : motion.free_speed()  ? "free"
-                                 : "-",
-          FormatTime(solve.create_time()),
-          timed ? FormatDuration(seconds(solve.end_time()) - seconds(solve.start_time())) : "-"};
+  std::vector<std::string> row = {
+      solve.name(),
+      StateName(solve.state()),
+      outcome.termination() == v1::TERMINATION_UNSPECIFIED ? "-" : TerminationName(outcome.termination()),
+      solve.has_outcome() ? VerdictName(outcome.verdict()) : "-",
+      solve.spec().model().name(),
+      FormatNumber(solve.spec().slope_rad() * 180 / kPi) + "°",
+      motion.has_speed_m_s() ? FormatNumber(motion.speed_m_s()) + " m/s"
+      : motion.free_speed()  ? "free"
+                             : "-",
+      FormatTime(solve.create_time()),
+      timed ? FormatDuration(seconds(solve.end_time()) - seconds(solve.start_time())) : "-"};
+  if (with_tenant) row.push_back(solve.tenant().empty() ? "-" : solve.tenant());
+  return row;
 }
 
 // Calls `act` for each name; prints failures and goes on.
@@ -74,6 +77,8 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
   Connection connection(global);
   v1::ListSolvesRequest request;
   request.set_state(matcher.state());
+  request.set_tenant(options.filter.tenant);
+  const bool with_tenant = !options.filter.tenant.empty();
   std::vector<std::vector<std::string>> rows;
   bool more = true, limited = false;
   while (more && !limited) {
@@ -92,12 +97,13 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
       limited = static_cast<int>(rows.size()) == options.limit;
       if (limited) break;
       if (global.json) terminal.out << ToJsonLine(solve) << "\n";
-      rows.push_back(ListRow(solve));
+      rows.push_back(ListRow(solve, with_tenant));
     }
     limited = limited || (more && static_cast<int>(rows.size()) == options.limit);
   }
   if (!global.json && !rows.empty()) {
     rows.insert(rows.begin(), {"NAME", "STATE", "ENDED", "ACCURACY", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
+    if (with_tenant) rows.front().push_back("TENANT");
     terminal.out << FormatTable(rows, "lllllrr");
   }
   terminal.out << std::flush;

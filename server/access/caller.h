@@ -13,7 +13,7 @@ namespace rollgait::server {
 enum Scope : unsigned {
   kScopeRead = 1,   // look at what there is
   kScopeSolve = 2,  // make work, cancel, delete
-  kScopeAdmin = 4,  // see the load of the whole server
+  kScopeAdmin = 4,  // see, cancel and delete the solves of every tenant; see the load of the whole server
   kAllScopes = 7,
 };
 
@@ -43,10 +43,13 @@ struct Caller {
   unsigned scopes = kAllScopes;
   TenantLimits limits = {};
 
-  // Whose solves the caller sees; nullopt: everyone's.
+  // Whose solves the caller's own are; nullopt: everyone's.
   std::optional<std::string> sees() const {
     return authentication == Authentication::kOff ? std::nullopt : std::optional(tenant);
   }
+  bool administers() const { return (scopes & kScopeAdmin) != 0; }
+  // Whether the caller may see and change a solve of this tenant.
+  bool reaches(const std::string& other) const { return administers() || sees().value_or(other) == other; }
   Actor actor() const { return {tenant, identity, peer}; }
 };
 

@@ -157,7 +157,7 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::Callb
   const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
     Outcome<std::string> id = SolveId(request->name());
     if (!id.ok()) return id.error();
-    const Outcome<SolveExtent> extent = service_.ExtentOfOwn(caller, id.value());
+    const Outcome<SolveExtent> extent = service_.ExtentFor(caller, id.value());
     if (!extent.ok()) return extent.error();
     return WatchStream::Target{std::move(id).value(), request->after_sequence(), extent.value().bytes};
   };

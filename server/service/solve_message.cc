@@ -51,6 +51,7 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
   solve.set_attempts(record.attempts);
   solve.set_from_cache(record.from_cache);
   solve.set_last_sequence(record.last_sequence);
+  solve.set_tenant(record.tenant);
   return solve;
 }
 

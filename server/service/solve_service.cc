@@ -41,6 +41,18 @@ v1::Caller Describe(const Caller& caller) {
   return described;
 }
 
+// Whose solves ListSolves shows; nullopt: everyone's.
+Outcome<std::optional<std::string>> TenantToList(const Caller& caller, const std::string& asked) {
+  if (asked.empty()) return caller.sees();
+  const bool all = asked == "-";
+  if (all ? !caller.administers() : !caller.reaches(asked)) {
+    return Error{ErrorCode::kPermissionDenied, "tenant is \"" + asked.substr(0, 100) + "\", yours is \"" +
+                                                   caller.tenant +
+                                                   "\"; to list the solves of others a token needs the scope admin"};
+  }
+  return all ? std::nullopt : std::optional(asked);
+}
+
 void AddPrefix(const std::string& prefix, Violations& violations) {
   for (Violation& violation : violations) violation.field.insert(0, prefix);
 }
@@ -119,7 +131,7 @@ Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSo
                                            const std::function<Outcome<Done>(int64_t bytes)>& hold) {
   const Outcome<std::string> id = SolveId(request.name());
   if (!id.ok()) return id.error();
-  const Outcome<SolveExtent> extent = ExtentOfOwn(caller, id.value());
+  const Outcome<SolveExtent> extent = ExtentFor(caller, id.value());
   if (!extent.ok()) return extent.error();
   const Outcome<Done> held = hold(extent.value().bytes);
   if (!held.ok()) return held.error();
@@ -136,8 +148,10 @@ Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, c
                                            std::to_string(kMaxPage) + " (0: " + std::to_string(kDefaultPage) + ")"});
   }
   if (!violations.empty()) return InvalidArgument(std::move(violations));
+  const Outcome<std::optional<std::string>> tenant = TenantToList(caller, request.tenant());
+  if (!tenant.ok()) return tenant.error();
   ListQuery query{request.page_size() == 0 ? kDefaultPage : request.page_size(), request.page_token(), std::nullopt,
-                  caller.sees()};
+                  tenant.value()};
   if (request.state() != v1::SOLVE_STATE_UNSPECIFIED) query.state = static_cast<SolveState>(request.state());
   const Outcome<SolvePage> page = store_.List(query);
   if (!page.ok()) return page.error();
@@ -152,7 +166,7 @@ Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, c
 }
 
 Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request) {
-  const Outcome<std::string> id = FindOwn(caller, request.name());
+  const Outcome<std::string> id = FindFor(caller, request.name());
   if (!id.ok()) return id.error();
   const Outcome<SolveRecord> record = store_.RequestCancel(id.value(), caller.actor());
   if (!record.ok()) return record.error();
@@ -166,7 +180,7 @@ Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::Can
 
 Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller,
                                                            const v1::DeleteSolveRequest& request) {
-  const Outcome<std::string> id = FindOwn(caller, request.name());
+  const Outcome<std::string> id = FindFor(caller, request.name());
   if (!id.ok()) return id.error();
   const Outcome<Done> done = store_.Delete(id.value(), caller.actor());
   if (!done.ok()) return done.error();
@@ -201,7 +215,7 @@ Outcome<v1::Model> SolveService::GetModel(const Caller&, const v1::GetModelReque
 
 Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest&) {
   // How busy others are is the administrator's to know.
-  const Outcome<SolveCounts> counts = store_.Counts((caller.scopes & kScopeAdmin) != 0 ? std::nullopt : caller.sees());
+  const Outcome<SolveCounts> counts = store_.Counts(caller.administers() ? std::nullopt : caller.sees());
   if (!counts.ok()) return counts.error();
   v1::ServerInfo info;
   info.set_version(options_.version);
@@ -217,25 +231,24 @@ Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const 
       std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
   info.set_max_queued(options_.max_queued);
   // The machine is the administrator's, too.
-  const std::optional<int64_t> free =
-      (caller.scopes & kScopeAdmin) != 0 ? options_.store_disk.FreeBytes() : std::nullopt;
+  const std::optional<int64_t> free = caller.administers() ? options_.store_disk.FreeBytes() : std::nullopt;
   if (free) info.set_store_free_bytes(*free);
   *info.mutable_caller() = Describe(caller);
   return info;
 }
 
-Outcome<std::string> SolveService::FindOwn(const Caller& caller, const std::string& name) {
+Outcome<std::string> SolveService::FindFor(const Caller& caller, const std::string& name) {
   Outcome<std::string> id = SolveId(name);
-  if (!id.ok() || !caller.sees()) return id;
-  const Outcome<SolveExtent> extent = ExtentOfOwn(caller, id.value());
+  if (!id.ok() || !caller.sees() || caller.administers()) return id;
+  const Outcome<SolveExtent> extent = ExtentFor(caller, id.value());
   if (!extent.ok()) return extent.error();
   return id;
 }
 
-Outcome<SolveExtent> SolveService::ExtentOfOwn(const Caller& caller, const std::string& id) {
+Outcome<SolveExtent> SolveService::ExtentFor(const Caller& caller, const std::string& id) {
   Outcome<SolveExtent> extent = store_.Extent(id);
   if (!extent.ok()) return extent;
-  if (caller.sees().value_or(extent.value().tenant) != extent.value().tenant) return NoSuchSolve(id);
+  if (!caller.reaches(extent.value().tenant)) return NoSuchSolve(id);
   return extent;
 }
 

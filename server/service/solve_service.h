@@ -50,10 +50,10 @@ class SolveService {
   Outcome<v1::ListModelsResponse> ListModels(const Caller& caller, const v1::ListModelsRequest& request);
   Outcome<v1::Model> GetModel(const Caller& caller, const v1::GetModelRequest& request);
   Outcome<v1::ServerInfo> GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest& request);
-  // How long a solve is that the caller may see; kNotFound, also for another tenant's.
-  Outcome<SolveExtent> ExtentOfOwn(const Caller& caller, const std::string& id);
+  // How long a solve is that the caller may see; kNotFound, also for another tenant's unless the caller administers.
+  Outcome<SolveExtent> ExtentFor(const Caller& caller, const std::string& id);
   // The id in the name of such a solve.
-  Outcome<std::string> FindOwn(const Caller& caller, const std::string& name);
+  Outcome<std::string> FindFor(const Caller& caller, const std::string& name);
 
  private:
   // What a good spec starts from, and its key, which is empty if results are not reused.

@@ -14,6 +14,11 @@ Error NoSuchSolve(const std::string& id) {
   return {ErrorCode::kNotFound, "there is no solve \"solves/" + id + "\"; ListSolves lists those that are"};
 }
 
+// For the audit of what an administrator does: whose solve it is, unless it is the actor's own.
+std::string OwnerUnless(const Actor& actor, const SolveRecord& record) {
+  return actor.tenant == record.tenant ? "" : "of tenant " + record.tenant;
+}
+
 // The record with its result.
 SolveRecord FullRecord(SqlConnection& connection, SolveRow row) {
   if (row.result_id != 0) {
@@ -156,7 +161,7 @@ Outcome<Done> SqlStore::Delete(const std::string& id, const Actor& actor) {
     }
     RemoveSolve(connection, *row);
     storage_use_.Forget();
-    AddAudit(connection, {actor, "delete", id, "deleted"}, clock_.WallMicros());
+    AddAudit(connection, {actor, "delete", id, "deleted", OwnerUnless(actor, row->record)}, clock_.WallMicros());
     return Done{};
   });
 }
@@ -169,7 +174,8 @@ Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor&
     if (!IsTerminal(row->record.state) && !row->record.cancel_requested) {
       row->record.cancel_requested = true;
       const bool at_once = row->record.state == SolveState::kQueued;
-      AddAudit(connection, {actor, "cancel", id, at_once ? "queued" : "running"}, now_us);
+      AddAudit(connection, {actor, "cancel", id, at_once ? "queued" : "running", OwnerUnless(actor, row->record)},
+               now_us);
       if (at_once) EndSolve(connection, *row, SolveState::kCancelled, 0, CancelledError(), now_us);
       if (!at_once) SaveSolve(connection, *row);
     }

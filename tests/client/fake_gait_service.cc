@@ -178,6 +178,7 @@ grpc::Status FakeGaitService::ListSolves(grpc::ServerContext*, const v1::ListSol
   for (auto& [name, record] : records_) {
     if (name < request->page_token()) continue;
     if (request->state() != v1::SOLVE_STATE_UNSPECIFIED && record.solve.state() != request->state()) continue;
+    if (!request->tenant().empty() && request->tenant() != "-" && record.solve.tenant() != request->tenant()) continue;
     if (response->solves_size() == 1) {
       response->set_next_page_token(name);
       break;

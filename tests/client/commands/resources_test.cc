@@ -46,6 +46,16 @@ TEST_F(ResourceCommandTest, ListTurnsPages) {
   EXPECT_EQ(Run({"list", "--state", "walking"}).code, 2);
 }
 
+TEST_F(ResourceCommandTest, ListAsksForOtherTenants) {
+  MakeSolves();
+  EXPECT_THAT(Run({"list"}).out, Not(HasSubstr("TENANT")));
+  const Ended all = Run({"list", "--all-tenants"});
+  EXPECT_THAT(all.out, HasSubstr("TENANT"));
+  EXPECT_THAT(all.out, HasSubstr("solves/planar"));
+  EXPECT_THAT(Run({"list", "--tenant", "lab"}).err, HasSubstr("no solves"));
+  EXPECT_EQ(Run({"list", "--tenant", "lab", "--all-tenants"}).code, 2);
+}
+
 TEST_F(ResourceCommandTest, GetByNameOrId) {
   MakeSolves();
   EXPECT_THAT(Run({"get", "planar"}).out, HasSubstr("solves/planar  optimal"));

@@ -51,6 +51,10 @@ inline GaitKnowledge SmallKnowledge() {
   return knowledge;
 }
 
+// Of the answers' budget: all of it, or nothing.
+inline const auto kHoldAll = [](int64_t) -> Outcome<Done> { return Done{}; };
+inline const auto kHoldNone = [](int64_t) -> Outcome<Done> { return Error{ErrorCode::kResourceExhausted, "no room"}; };
+
 inline v1::SolveSpec PlanarSpec(double slope = 0.1) {
   v1::SolveSpec spec;
   spec.mutable_model()->set_name("planar");

@@ -19,10 +19,6 @@ v1::CreateSolveRequest CreateRequest(const v1::SolveSpec& spec, const std::strin
   return request;
 }
 
-// Of the answers' budget: all of it, or nothing.
-const auto kHoldAll = [](int64_t) -> Outcome<Done> { return Done{}; };
-const auto kHoldNone = [](int64_t) -> Outcome<Done> { return Error{ErrorCode::kResourceExhausted, "no room"}; };
-
 template <typename Request>
 Request Named(const std::string& id) {
   Request request;
@@ -204,79 +200,6 @@ TEST(SolveServiceTest, ModelsAndServerInfo) {
   EXPECT_EQ(info.queued(), 1);
   EXPECT_EQ(info.max_request_bytes(), 4 << 20);
   EXPECT_EQ(info.store(), "sqlite");
-}
-
-Caller Of(const std::string& tenant) {
-  Caller caller;
-  caller.authentication = Authentication::kToken;
-  caller.tenant = tenant;
-  caller.scopes = kScopeRead | kScopeSolve;
-  return caller;
-}
-
-TEST(SolveServiceTest, ASolveOfAnotherTenantDoesNotExist) {
-  ServiceBench bench;
-  SolveService& service = bench.service();
-  v1::CreateSolveRequest create;
-  *create.mutable_spec() = PlanarSpec();
-  const std::string name = service.CreateSolve(Of("acme"), create).value().name();
-  const std::string id = SolveId(name).value();
-  v1::GetSolveRequest get;
-  get.set_name(name);
-  v1::CancelSolveRequest cancel;
-  cancel.set_name(name);
-  v1::DeleteSolveRequest remove;
-  remove.set_name(name);
-  ASSERT_TRUE(service.GetSolve(Of("acme"), get, kHoldAll).ok());
-  EXPECT_EQ(service.FindOwn(Of("acme"), name).value(), id);
-  const Error none = service.GetSolve(Of("rival"), get, kHoldNone).error();
-  EXPECT_EQ(none.code, ErrorCode::kNotFound);
-  EXPECT_EQ(service.CancelSolve(Of("rival"), cancel).error().message, none.message);
-  EXPECT_EQ(service.DeleteSolve(Of("rival"), remove).error().message, none.message);
-  EXPECT_EQ(service.FindOwn(Of("rival"), name).error().message, none.message);
-  EXPECT_EQ(service.ListSolves(Of("rival"), {}).value().solves_size(), 0);
-  EXPECT_EQ(service.ListSolves(Of("acme"), {}).value().solves_size(), 1);
-  EXPECT_EQ(service.GetServerInfo(Of("rival"), {}).value().queued(), 0);
-  EXPECT_EQ(service.GetServerInfo(Of("acme"), {}).value().queued(), 1);
-  // In the store's own words for what is not there.
-  ASSERT_TRUE(service.CancelSolve(Of("acme"), cancel).ok());
-  ASSERT_TRUE(service.DeleteSolve(Of("acme"), remove).ok());
-  EXPECT_EQ(service.GetSolve(Of("acme"), get, kHoldAll).error().message, none.message);
-}
-
-TEST(SolveServiceTest, ResultsAndRequestIdsAreOfOneTenant) {
-  ServiceBench bench;
-  v1::CreateSolveRequest create;
-  *create.mutable_spec() = PlanarSpec();
-  create.set_request_id("mine");
-  const std::string first = bench.service().CreateSolve(Of("acme"), create).value().name();
-  bench.Finish(bench.Claim());
-  const v1::Solve rival = bench.service().CreateSolve(Of("rival"), create).value();
-  EXPECT_NE(rival.name(), first);
-  EXPECT_FALSE(rival.from_cache());
-  EXPECT_EQ(bench.service().CreateSolve(Of("acme"), create).value().name(), first);
-  create.set_request_id("mine too");
-  EXPECT_TRUE(bench.service().CreateSolve(Of("acme"), create).value().from_cache());
-  v1::CreateSolveRequest warm;
-  *warm.mutable_spec() = PlanarSpec();
-  warm.mutable_spec()->set_warm_start(first);
-  EXPECT_EQ(bench.service().CreateSolve(Of("rival"), warm).error().violations[0].field, "spec.warm_start");
-}
-
-TEST(SolveServiceTest, TheQuotaOfATenantIsHisOwn) {
-  ServiceBench bench;
-  Caller acme = Of("acme");
-  acme.limits.max_queued = 1;
-  v1::CreateSolveRequest create;
-  *create.mutable_spec() = PlanarSpec(0.1);
-  ASSERT_TRUE(bench.service().CreateSolve(acme, create).ok());
-  *create.mutable_spec() = PlanarSpec(0.2);
-  const Error full = bench.service().CreateSolve(acme, create).error();
-  EXPECT_EQ(full.code, ErrorCode::kResourceExhausted);
-  ASSERT_TRUE(full.quota.has_value());
-  EXPECT_EQ(full.quota->subject, "tenant:acme");
-  EXPECT_TRUE(full.retry_after.has_value());
-  EXPECT_TRUE(bench.service().CreateSolve(Of("rival"), create).ok());
 }
 
 TEST(SolveServiceTest, AFullQueueRefusesOnlyWhatNeedsAPlaceInIt) {
