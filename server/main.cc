@@ -16,6 +16,7 @@
 #include "server/access/access_store.h"
 #include "server/access/gatekeeper.h"
 #include "server/access_main.h"
+#include "server/backup_main.h"
 #include "server/base/clock.h"
 #include "server/base/data_dir.h"
 #include "server/base/digest.h"
@@ -318,8 +319,11 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
 int Main(int argc, char** argv) {
   Flags flags;
   if (const std::optional<int> code = RunAccessCommand(argc, argv)) return *code;
-  CLI::App app("Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help.",
-               "rollgaitd");
+  if (const std::optional<int> code = RunBackupCommand(argc, argv)) return *code;
+  CLI::App app(
+      "Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help; "
+      "copies of the store: rollgaitd backup|restore --help.",
+      "rollgaitd");
   AddFlags(app, flags);
   AddStorageFlags(app, flags.storage);
   CLI11_PARSE(app, argc, argv);

@@ -36,7 +36,7 @@ Outcome<std::unique_ptr<SqlStore>> OpenStore(const StoreLocation& location, cons
   if (!location.is_postgres() && IsEmptied(location.sqlite_path)) {
     return Error{ErrorCode::kFailedPrecondition, "the store " + location.sqlite_path +
                                                      " is an empty file: its solves are lost; put a backup in its " +
-                                                     "place, or remove it to begin anew"};
+                                                     "place (rollgaitd restore), or remove it to begin anew"};
   }
   Database::Options options;
   options.name = location.Name();

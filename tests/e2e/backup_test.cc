@@ -1,0 +1,79 @@
+// Copies of the store, by the commands of the real rollgaitd.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "tests/e2e/daemon.h"
+#include "tests/server/store/temporary_directory.h"
+
+namespace rollgait::server {
+namespace {
+
+Daemon::Options OptionsFor(const std::string& data_dir) {
+  Daemon::Options options;
+  options.data_dir = data_dir;
+  options.solver = SLOW_SOLVER;
+  return options;
+}
+
+v1::Solve Get(const Daemon& daemon, const std::string& name) {
+  grpc::ClientContext context;
+  v1::GetSolveRequest request;
+  request.set_name(name);
+  v1::Solve solve;
+  EXPECT_TRUE(daemon.NewStub()->GetSolve(&context, request, &solve).ok());
+  return solve;
+}
+
+std::string Create(const Daemon& daemon, int iterations) {
+  grpc::ClientContext context;
+  v1::CreateSolveRequest request;
+  request.mutable_spec()->mutable_model()->set_name("planar");
+  request.mutable_spec()->mutable_solver_limits()->set_max_iterations(iterations);
+  v1::Solve solve;
+  EXPECT_TRUE(daemon.NewStub()->CreateSolve(&context, request, &solve).ok());
+  return solve.name();
+}
+
+bool Ends(const Daemon& daemon, const std::string& name) {
+  for (int i = 0; i < 600; ++i) {
+    if (Get(daemon, name).state() == v1::SOLVE_STATE_SUCCEEDED) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+TEST(BackupTest, AServerOnTheCopyHasWhatWasThereAndGoesOnWithWhatRan) {
+  const TemporaryDirectory directory;
+  const std::string first = directory.path() + "/first", second = directory.path() + "/second";
+  const std::string copy = directory.path() + "/copy.db";
+  std::string done, running;
+  v1::Solve before;
+  {
+    Daemon daemon(OptionsFor(first));
+    ASSERT_NE(daemon.address(), "");
+    done = Create(daemon, 3);
+    ASSERT_TRUE(Ends(daemon, done));
+    before = Get(daemon, done);
+    running = Create(daemon, 40);
+    const std::string report = OutputOfRollgaitd("backup --data-dir " + first + " --to " + copy);
+    EXPECT_NE(report.find("2 solves, 1 results"), std::string::npos) << report;
+    EXPECT_EQ(std::filesystem::status(copy).permissions() & std::filesystem::perms::group_all,
+              std::filesystem::perms::none);
+    EXPECT_THROW(OutputOfRollgaitd("backup --data-dir " + first + " --to " + copy), std::runtime_error);
+    EXPECT_THROW(OutputOfRollgaitd("restore --data-dir " + first + " --from " + copy), std::runtime_error);
+    EXPECT_TRUE(Ends(daemon, running));
+  }
+  EXPECT_NE(OutputOfRollgaitd("restore --data-dir " + second + " --from " + copy).find("2 solves"), std::string::npos);
+  const Daemon daemon(OptionsFor(second));
+  ASSERT_NE(daemon.address(), "");
+  EXPECT_EQ(Get(daemon, done).SerializeAsString(), before.SerializeAsString());
+  EXPECT_TRUE(Ends(daemon, running));
+}
+
+}  // namespace
+}  // namespace rollgait::server
