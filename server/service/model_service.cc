@@ -82,7 +82,8 @@ std::optional<Error> ModelService::Resolve(const Caller& caller, const std::stri
                                            v1::ModelSelection* selection) {
   Outcome<v1::Model> model = GetStored(caller, *selection);
   if (!model.ok() && model.error().code == ErrorCode::kNotFound) {
-    return InvalidArgument({{path + "name", model.error().message}});
+    return InvalidArgument({{path + "name", "is \"" + selection->name().substr(0, 100) +
+                                                "\", which is no stored model of yours; ListModels lists them"}});
   }
   if (!model.ok()) return model.error();
   selection->clear_name();
