@@ -102,6 +102,30 @@ void AddExport(CLI::App& app, ExportOptions& options) {
   command->footer("Formats: `rollgait help formats`. Example: rollgait export solves/ID --format opensim -o walk");
 }
 
+void AddModels(CLI::App& app, Arguments& arguments) {
+  CLI::App* const models = app.add_subcommand(
+      "models", "Models of the server and your own, or one of them whole; store and delete your own");
+  models->add_option(
+      "NAME", arguments.models.flags.model,
+      "Print this model: joints, links, limits, contact surfaces; models/ID is one of your own, models/ID@2 "
+      "its second version; or check the one in FILE.json");
+  AddBodyFlags(*models, arguments.models.flags);
+  models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
+  models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");
+  models->add_option("--slope", arguments.models.slope_deg, "With --format: of the ground, degrees; uphill is positive")
+      ->check(CLI::Range(-45.0, 45.0));
+  models->footer("Example: rollgait models create robot.json, then rollgait solve --model models/robot");
+
+  CLI::App* const create = models->add_subcommand("create", "Store a model of your own on the server; print its name");
+  create->add_option("FILE", arguments.created_model.file, "The model, rollgait.v1.Model as JSON")->required();
+  create->add_option(
+      "--id", arguments.created_model.id,
+      "The ID in models/ID; default: the name in the file. Other content under an ID is its next version");
+  models->add_subcommand("delete", "Delete models of your own, all versions; solves keep theirs")
+      ->add_option("MODEL", arguments.removed_models, "models/ID or ID")
+      ->required();
+}
+
 void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const get = app.add_subcommand("get", "Print a solve as it stands");
   get->add_option("SOLVE", arguments.get.name, "solves/ID or ID")->required();
@@ -124,15 +148,7 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
       ->add_option("SOLVE", arguments.remove, "solves/ID or ID")
       ->required();
 
-  CLI::App* const models = app.add_subcommand("models", "Models of the server, or one of them whole");
-  models->add_option("NAME", arguments.models.flags.model,
-                     "Print this model: joints, links, limits, contact surfaces; or check the one in FILE.json");
-  AddBodyFlags(*models, arguments.models.flags);
-  models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
-  models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");
-  models->add_option("--slope", arguments.models.slope_deg, "With --format: of the ground, degrees; uphill is positive")
-      ->check(CLI::Range(-45.0, 45.0));
-
+  AddModels(app, arguments);
   AddExport(app, arguments.exported);
   AddSpec(app, arguments.spec);
 

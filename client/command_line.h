@@ -24,11 +24,12 @@ struct Arguments {
   ReportOptions report;
   ReproducePaperOptions paper;
   ModelsOptions models;
+  CreateModelOptions created_model;
   ExportOptions exported;
   SpecOptions spec;
   SimulateOptions simulate;
   PoincareOptions poincare;
-  std::vector<std::string> cancel, remove;
+  std::vector<std::string> cancel, remove, removed_models;
   std::string help_topic, shell;
 };
 

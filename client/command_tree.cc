@@ -36,6 +36,8 @@ ArgumentDescription DescribeArgument(const CLI::Option& option) {
   argument.required = option.get_required();
   argument.many = option.get_items_expected_max() > 1;
   if (argument.name == "SOLVE") argument.value = ArgumentDescription::Value::kSolve;
+  if (argument.name == "FILE") argument.value = ArgumentDescription::Value::kFile;
+  if (argument.name == "MODEL") argument.value = ArgumentDescription::Value::kModel;
   if (argument.name == "NAME") argument.value = ArgumentDescription::Value::kModel;
   if (argument.name == "TOPIC") argument.value = ArgumentDescription::Value::kTopic;
   if (argument.name == "SHELL") argument.value = ArgumentDescription::Value::kShell;
@@ -58,14 +60,17 @@ CommandDescription DescribeCommand(const CLI::App& app) {
   return command;
 }
 
+std::vector<CommandDescription> CommandsBelow(const CLI::App& app) {
+  std::vector<CommandDescription> commands;
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(DescribeCommand(*below));
+    commands.back().commands = CommandsBelow(*below);
+  }
+  return commands;
+}
+
 }  // namespace
 
-ProgramDescription DescribeProgram(const CLI::App& app) {
-  ProgramDescription description{DescribeCommand(app), {}};
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    description.commands.push_back(DescribeCommand(*command));
-  }
-  return description;
-}
+ProgramDescription DescribeProgram(const CLI::App& app) { return {DescribeCommand(app), CommandsBelow(app)}; }
 
 }  // namespace rollgait::client

@@ -23,7 +23,7 @@ struct FlagDescription {
 };
 
 struct ArgumentDescription {
-  enum class Value { kSolve, kModel, kTopic, kShell, kOther };
+  enum class Value { kSolve, kModel, kFile, kTopic, kShell, kOther };
   std::string name;  // "SOLVE"
   std::string help;
   bool required = false, many = false;
@@ -35,6 +35,7 @@ struct CommandDescription {
   std::string summary, footer;
   std::vector<FlagDescription> flags;  // without --help
   std::vector<ArgumentDescription> arguments;
+  std::vector<CommandDescription> commands;  // below it: "create" of "models create"
 };
 
 struct ProgramDescription {

@@ -28,10 +28,27 @@ std::vector<std::string> CommandNames(const ProgramDescription& program) {
   return names;
 }
 
+// Of the command and of those below it.
+std::vector<FlagDescription> AllFlags(const CommandDescription& command) {
+  std::vector<FlagDescription> flags = command.flags;
+  for (const CommandDescription& below : command.commands) {
+    const std::vector<FlagDescription> more = AllFlags(below);
+    flags.insert(flags.end(), more.begin(), more.end());
+  }
+  return flags;
+}
+
 std::vector<std::string> FlagNames(const CommandDescription& command) {
   std::vector<std::string> names;
-  for (const FlagDescription& flag : command.flags) names.push_back(flag.name);
+  for (const FlagDescription& flag : AllFlags(command)) names.push_back(flag.name);
   return names;
+}
+
+// The names of the commands below, as words of a command line that end with a blank; empty: none.
+std::string WordsBelow(const CommandDescription& command) {
+  std::string words;
+  for (const CommandDescription& below : command.commands) words += below.name + " ";
+  return words;
 }
 
 std::vector<std::string> TopicNames(const ProgramDescription& program) {
@@ -86,7 +103,10 @@ std::string BashArguments(const CommandDescription& command, const ProgramDescri
       return "COMPREPLY=($(compgen -W \"$(" + std::string(kListSolves) +
              ")\" -- \"$current\") $(compgen -f -X '!*.json' -- \"$current\"))";
     case ArgumentValue::kModel:
-      return "COMPREPLY=($(compgen -W \"$(" + std::string(kListModels) + ")\" -- \"$current\"))";
+      return "COMPREPLY=($(compgen -W \"" + WordsBelow(command) + "$(" + std::string(kListModels) +
+             ")\" -- \"$current\") $(compgen -f -X '!*.json' -- \"$current\"))";
+    case ArgumentValue::kFile:
+      return "COMPREPLY=($(compgen -f -- \"$current\"))";
     case ArgumentValue::kTopic:
       return "COMPREPLY=($(compgen -W \"" + JoinWords(TopicNames(program)) + "\" -- \"$current\"))";
     case ArgumentValue::kShell:
@@ -100,7 +120,7 @@ std::string BashArguments(const CommandDescription& command, const ProgramDescri
 // One flag name may mean different values in different commands; the lines of a case per command come first.
 std::string BashValues(const CommandDescription& command, const std::string& indent) {
   std::string text;
-  for (const FlagDescription& flag : command.flags) {
+  for (const FlagDescription& flag : AllFlags(command)) {
     const std::string value = BashValue(flag);
     if (!value.empty()) text += indent + BashPattern(flag) + ") " + value + "; return ;;\n";
   }
@@ -128,7 +148,7 @@ std::string BashScript(const ProgramDescription& program) {
     const std::string values = BashValues(command, "        ");
     script += "    " + command.name + ")\n";
     if (!values.empty()) script += "      case $previous in\n" + values + "      esac\n";
-    if (!command.flags.empty()) script += "      options+=\" " + JoinWords(FlagNames(command)) + "\"\n";
+    if (!FlagNames(command).empty()) script += "      options+=\" " + JoinWords(FlagNames(command)) + "\"\n";
     const std::string arguments = BashArguments(command, program);
     if (!arguments.empty()) script += "      if [[ $current != -* ]]; then " + arguments + "; return; fi\n";
     script += "      ;;\n";
@@ -170,7 +190,7 @@ std::string ZshAction(const FlagDescription& flag) {
 
 std::string ZshFlags(const CommandDescription& command, const std::string& indent) {
   std::string text;
-  for (const FlagDescription& flag : command.flags) {
+  for (const FlagDescription& flag : AllFlags(command)) {
     for (const std::string& name : {flag.name, flag.short_name}) {
       if (name.empty()) continue;
       text += indent + QuotedForShell("*" + name + "[" + ZshText(flag.help) + "]" + ZshAction(flag)) + " \\\n";
@@ -185,7 +205,10 @@ std::string ZshArguments(const CommandDescription& command, const ProgramDescrip
     case ArgumentValue::kSolve:
       return "'*:solve:_rollgait_solves'";
     case ArgumentValue::kModel:
-      return "'*:model:_rollgait_models'";
+      return command.commands.empty() ? "'*:model:_rollgait_models'"
+                                      : "'*:model:{compadd " + WordsBelow(command) + "; _rollgait_models}'";
+    case ArgumentValue::kFile:
+      return "'*:file:_files'";
     case ArgumentValue::kTopic:
       return "'*:topic:(" + JoinWords(TopicNames(program)) + ")'";
     case ArgumentValue::kShell:
@@ -207,7 +230,7 @@ std::string ZshScript(const ProgramDescription& program) {
       "_rollgait_models() {\n"
       "  local -a names=(${(f)\"$(" +
       std::string(kListModels) +
-      ")\"})\n  compadd -a names\n}\n"
+      ")\"})\n  compadd -a names\n  _files -g '*.json'\n}\n"
       "_rollgait() {\n"
       "  local -a commands=(\n";
   for (const CommandDescription& command : program.commands) {
@@ -260,7 +283,10 @@ std::string FishArguments(const CommandDescription& command, const ProgramDescri
     case ArgumentValue::kSolve:
       return start + "'(__rollgait_solves)'\n" + start + "'(__fish_complete_suffix .json)'\n";
     case ArgumentValue::kModel:
-      return start + "'(__rollgait_models)'\n";
+      return (command.commands.empty() ? "" : start + QuotedForShell(WordsBelow(command)) + "\n") + start +
+             "'(__rollgait_models)'\n" + start + "'(__fish_complete_suffix .json)'\n";
+    case ArgumentValue::kFile:
+      return start + "'(__fish_complete_path)'\n";
     case ArgumentValue::kTopic:
       return start + QuotedForShell(JoinWords(TopicNames(program))) + "\n";
     case ArgumentValue::kShell:
@@ -286,7 +312,7 @@ std::string FishScript(const ProgramDescription& program) {
   }
   for (const CommandDescription& command : program.commands) {
     const std::string condition = " -n '__fish_seen_subcommand_from " + command.name + "'";
-    for (const FlagDescription& flag : command.flags) script += FishFlag(flag, condition);
+    for (const FlagDescription& flag : AllFlags(command)) script += FishFlag(flag, condition);
     script += FishArguments(command, program, condition);
   }
   return script;

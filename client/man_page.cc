@@ -49,8 +49,10 @@ std::string Capitals(std::string text) {
   return text;
 }
 
-std::string RoffCommand(const CommandDescription& command) {
-  std::string usage = "rollgait " + command.name;
+// `parent`: what stands before the name, "rollgait".
+std::string RoffCommand(const CommandDescription& command, const std::string& parent) {
+  const std::string name = parent + " " + command.name;
+  std::string usage = name;
   if (!command.flags.empty()) usage += " [flags]";
   std::string text;
   for (const ArgumentDescription& argument : command.arguments) {
@@ -60,6 +62,7 @@ std::string RoffCommand(const CommandDescription& command) {
   }
   text = ".SS " + Roff(usage) + "\n" + Roff(command.summary) + ".\n" + text + RoffFlags(command);
   if (!command.footer.empty()) text += ".PP\n" + Literal(command.footer);
+  for (const CommandDescription& below : command.commands) text += RoffCommand(below, name);
   return text;
 }
 
@@ -75,7 +78,7 @@ std::string ManPage(const ProgramDescription& program) {
       "found. Progress goes to standard error, data to standard output.\n"
       ".SH FLAGS OF EVERY COMMAND\n" +
       RoffFlags(program.program) + ".SH COMMANDS\n";
-  for (const CommandDescription& command : program.commands) page += RoffCommand(command);
+  for (const CommandDescription& command : program.commands) page += RoffCommand(command, "rollgait");
   for (const HelpTopic& topic : HelpTopics()) page += ".SH " + Capitals(topic.name) + "\n" + Literal(topic.text);
   return page;
 }

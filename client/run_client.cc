@@ -30,6 +30,15 @@ std::string HelpText(const CLI::App& app, const std::string& name) {
   throw Failure(ExitCode::kUsage, "help " + name + ": no such command or topic" + DidYouMean(name, names));
 }
 
+// `models` alone, or the command below it.
+ExitCode RunModelCommand(const CLI::App& models, const Arguments& arguments, const Terminal& terminal) {
+  if (models.get_subcommands().empty()) return RunModels(arguments.models, arguments.global, terminal);
+  if (models.get_subcommands().front()->get_name() == "delete") {
+    return RunDeleteModels(arguments.removed_models, arguments.global, terminal);
+  }
+  return RunCreateModel(arguments.created_model, arguments.global, terminal);
+}
+
 // The command that was named on the command line.
 ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& terminal) {
   const std::string command = app.get_subcommands().front()->get_name();
@@ -41,7 +50,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "cancel") return RunCancel(arguments.cancel, global, terminal);
   if (command == "delete") return RunDelete(arguments.remove, global, terminal);
   if (command == "export") return RunExport(arguments.exported, global, terminal);
-  if (command == "models") return RunModels(arguments.models, global, terminal);
+  if (command == "models") return RunModelCommand(*app.get_subcommands().front(), arguments, terminal);
   if (command == "simulate") return RunSimulate(arguments.simulate, global, terminal);
   if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);
   if (command == "report") return RunReport(arguments.report, global, terminal);

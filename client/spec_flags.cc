@@ -162,7 +162,9 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
                      "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it; "
                      "`rollgait spec` writes it");
   command
-      .add_option("--model", flags.model, "Model name, see `rollgait models`, or FILE.json with a model of your own")
+      .add_option(
+          "--model", flags.model,
+          "Model name, see `rollgait models`; models/ID is one of your own on the server, FILE.json one in a file")
       ->group("Body");
   AddBodyFlags(command, flags);
   const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {

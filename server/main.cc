@@ -267,7 +267,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   options.store_disk = RoomOf(location.value());
   options.max_queued = flags.max_queued;
   options.reuse_results = !flags.no_result_reuse;
-  SolveService service(measured_store, MakeCoreKnowledge(), options, [&](const std::string& id) {
+  SolveService service(measured_store, *store.value(), MakeCoreKnowledge(), options, [&](const std::string& id) {
     hints.value()->Send(id);
     hub.Changed(id);
   });

@@ -27,7 +27,12 @@ std::string EffortRange(const v1::Joint& joint) {
 }
 
 std::string ModelText(const v1::Model& model) {
-  std::string text = model.summary().name() + ": " + model.summary().description() + "\n\n";
+  std::string text = model.summary().name() + ": " + model.summary().description() + "\n";
+  if (model.summary().has_stored()) {
+    const v1::StoredModel& stored = model.summary().stored();
+    text += "stored as " + stored.name() + ", " + FormatTime(stored.create_time()) + "\n";
+  }
+  text += "\n";
   text += FormatTable({{"mass", FormatNumber(model.total_mass_kg()), "kg"},
                        {"stature", FormatNumber(model.stature_m()), "m"},
                        {"leg length", FormatNumber(model.leg_length_m()), "m"},
@@ -56,6 +61,22 @@ std::string ModelText(const v1::Model& model) {
   return text;
 }
 
+// Those of all pages.
+std::vector<v1::ModelSummary> ListModels(Connection& connection) {
+  std::vector<v1::ModelSummary> models;
+  v1::ListModelsRequest request;
+  request.set_page_size(1000);
+  do {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::ListModelsResponse response;
+    RequireOk(connection.stub().ListModels(&context, request, &response), "list the models", connection.server());
+    models.insert(models.end(), response.models().begin(), response.models().end());
+    request.set_page_token(response.next_page_token());
+  } while (!request.page_token().empty());
+  return models;
+}
+
 }  // namespace
 
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal) {
@@ -68,9 +89,9 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     RequireOutput(options.output, FindModelFormat(options.format));
   }
   Connection connection(global);
-  grpc::ClientContext context;
-  connection.SetDeadline(context);
   if (flags.model) {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
     v1::GetModelRequest request;
     ApplyBodyFlags(flags, *request.mutable_model());
     v1::Model model;
@@ -83,15 +104,14 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     terminal.out << (global.json ? ToJsonText(model) : ModelText(model)) << std::flush;
     return ExitCode::kSuccess;
   }
-  v1::ListModelsResponse response;
-  RequireOk(connection.stub().ListModels(&context, {}, &response), "list the models", connection.server());
   std::vector<std::vector<std::string>> rows = {{"NAME", "DOF", "ACTUATED", "CONTACTS", "DESCRIPTION"}};
-  for (const v1::ModelSummary& model : response.models()) {
+  for (const v1::ModelSummary& model : ListModels(connection)) {
     if (global.json) terminal.out << ToJsonLine(model) << "\n";
     std::string contacts;
     for (const std::string& contact : model.contact_names()) contacts += (contacts.empty() ? "" : ", ") + contact;
-    rows.push_back({model.name(), std::to_string(model.degrees_of_freedom()), std::to_string(model.actuated_joints()),
-                    contacts, model.description()});
+    rows.push_back({model.has_stored() ? model.stored().name() : model.name(),
+                    std::to_string(model.degrees_of_freedom()), std::to_string(model.actuated_joints()), contacts,
+                    model.description()});
   }
   if (!global.json) terminal.out << FormatTable(rows, "lrr");
   terminal.out << std::flush;

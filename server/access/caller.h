@@ -27,7 +27,7 @@ struct TenantLimits {
   int max_queued = 0, max_running = 0, max_watches = 0;
   double creates_per_s = 0;
   int max_simulations = 0;
-  int64_t max_storage_bytes = 0;  // what its solves take in the store
+  int64_t max_storage_bytes = 0;  // what its solves and models take in the store
 };
 
 // The numbers of rollgait.v1.Caller.Authentication.

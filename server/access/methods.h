@@ -28,6 +28,8 @@ inline constexpr MethodRule kMethodRules[] = {
     {"DeleteSolve", kScopeSolve, false, false, true},
     {"ListModels", kScopeRead},
     {"GetModel", kScopeRead},
+    {"CreateModel", kScopeSolve, true, false, true},
+    {"DeleteModel", kScopeSolve, false, false, true},
     {"GetServerInfo", kScopeRead},
     {"Simulate", kScopeSolve, true, true, false, true},
     {"FindPeriodicGait", kScopeSolve, true, true, false, true},

@@ -93,27 +93,23 @@ grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc:
   return reactor;
 }
 
-template <typename Request, typename Response>
+template <typename UseCases, typename Request, typename Response>
 grpc::ServerUnaryReactor* GaitServiceRpc::Answer(const MethodRule& rule, grpc::CallbackServerContext* context,
-                                                 const Request* request, Response* response,
-                                                 Outcome<Response> (SolveService::*method)(const Caller&,
-                                                                                           const Request&)) {
-  // The service is captured on its own: g++ 12's vptr sanitizer looks at the wrong address in (service_.*method)
-  // otherwise.
-  return AnswerBy(
-      rule, context,
-      [&service = service_, request, response, method, changes = rule.changes](Admission& admission) -> Outcome<Done> {
-        Outcome<Response> outcome = (service.*method)(admission.caller(), *request);
-        if (!outcome.ok()) return outcome.error();
-        const int64_t bytes = MemoryOf(outcome.value());
-        if (changes) {
-          admission.answer().Owe(bytes);
-        } else if (Outcome<Done> held = admission.answer().Hold(bytes); !held.ok()) {
-          return held.error();
-        }
-        *response = std::move(outcome).value();
-        return Done{};
-      });
+                                                 const Request* request, Response* response, UseCases& service,
+                                                 Outcome<Response> (UseCases::*method)(const Caller&, const Request&)) {
+  return AnswerBy(rule, context,
+                  [&service, request, response, method, changes = rule.changes](Admission& admission) -> Outcome<Done> {
+                    Outcome<Response> outcome = (service.*method)(admission.caller(), *request);
+                    if (!outcome.ok()) return outcome.error();
+                    const int64_t bytes = MemoryOf(outcome.value());
+                    if (changes) {
+                      admission.answer().Owe(bytes);
+                    } else if (Outcome<Done> held = admission.answer().Hold(bytes); !held.ok()) {
+                      return held.error();
+                    }
+                    *response = std::move(outcome).value();
+                    return Done{};
+                  });
 }
 
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRule& rule,
@@ -166,7 +162,7 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::Callb
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContext* context,
                                                       const v1::CreateSolveRequest* request, v1::Solve* response) {
-  return Answer(RuleOf("CreateSolve"), context, request, response, &SolveService::CreateSolve);
+  return Answer(RuleOf("CreateSolve"), context, request, response, service_, &SolveService::CreateSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* context,
@@ -190,35 +186,46 @@ grpc::ServerUnaryReactor* GaitServiceRpc::GetSolve(grpc::CallbackServerContext* 
 grpc::ServerUnaryReactor* GaitServiceRpc::ListSolves(grpc::CallbackServerContext* context,
                                                      const v1::ListSolvesRequest* request,
                                                      v1::ListSolvesResponse* response) {
-  return Answer(RuleOf("ListSolves"), context, request, response, &SolveService::ListSolves);
+  return Answer(RuleOf("ListSolves"), context, request, response, service_, &SolveService::ListSolves);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CancelSolve(grpc::CallbackServerContext* context,
                                                       const v1::CancelSolveRequest* request, v1::Solve* response) {
-  return Answer(RuleOf("CancelSolve"), context, request, response, &SolveService::CancelSolve);
+  return Answer(RuleOf("CancelSolve"), context, request, response, service_, &SolveService::CancelSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::DeleteSolve(grpc::CallbackServerContext* context,
                                                       const v1::DeleteSolveRequest* request,
                                                       google::protobuf::Empty* response) {
-  return Answer(RuleOf("DeleteSolve"), context, request, response, &SolveService::DeleteSolve);
+  return Answer(RuleOf("DeleteSolve"), context, request, response, service_, &SolveService::DeleteSolve);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::ListModels(grpc::CallbackServerContext* context,
                                                      const v1::ListModelsRequest* request,
                                                      v1::ListModelsResponse* response) {
-  return Answer(RuleOf("ListModels"), context, request, response, &SolveService::ListModels);
+  return Answer(RuleOf("ListModels"), context, request, response, service_.models(), &ModelService::ListModels);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetModel(grpc::CallbackServerContext* context,
                                                    const v1::GetModelRequest* request, v1::Model* response) {
-  return Answer(RuleOf("GetModel"), context, request, response, &SolveService::GetModel);
+  return Answer(RuleOf("GetModel"), context, request, response, service_.models(), &ModelService::GetModel);
+}
+
+grpc::ServerUnaryReactor* GaitServiceRpc::CreateModel(grpc::CallbackServerContext* context,
+                                                      const v1::CreateModelRequest* request, v1::Model* response) {
+  return Answer(RuleOf("CreateModel"), context, request, response, service_.models(), &ModelService::CreateModel);
+}
+
+grpc::ServerUnaryReactor* GaitServiceRpc::DeleteModel(grpc::CallbackServerContext* context,
+                                                      const v1::DeleteModelRequest* request,
+                                                      google::protobuf::Empty* response) {
+  return Answer(RuleOf("DeleteModel"), context, request, response, service_.models(), &ModelService::DeleteModel);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::GetServerInfo(grpc::CallbackServerContext* context,
                                                         const v1::GetServerInfoRequest* request,
                                                         v1::ServerInfo* response) {
-  return Answer(RuleOf("GetServerInfo"), context, request, response, &SolveService::GetServerInfo);
+  return Answer(RuleOf("GetServerInfo"), context, request, response, service_, &SolveService::GetServerInfo);
 }
 
 grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulation(const MethodRule& rule,

@@ -50,6 +50,10 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
                                         google::protobuf::Empty* response) override;
   grpc::ServerUnaryReactor* ListModels(grpc::CallbackServerContext* context, const v1::ListModelsRequest* request,
                                        v1::ListModelsResponse* response) override;
+  grpc::ServerUnaryReactor* CreateModel(grpc::CallbackServerContext* context, const v1::CreateModelRequest* request,
+                                        v1::Model* response) override;
+  grpc::ServerUnaryReactor* DeleteModel(grpc::CallbackServerContext* context, const v1::DeleteModelRequest* request,
+                                        google::protobuf::Empty* response) override;
   grpc::ServerUnaryReactor* GetModel(grpc::CallbackServerContext* context, const v1::GetModelRequest* request,
                                      v1::Model* response) override;
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
@@ -71,10 +75,10 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
   grpc::ServerUnaryReactor* AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context, Serve serve);
   // Answers a unary call with (service_.*method)(caller, request). An answer beyond the budget is refused, unless the
   // method changes something.
-  template <typename Request, typename Response>
+  template <typename UseCases, typename Request, typename Response>
   grpc::ServerUnaryReactor* Answer(const MethodRule& rule, grpc::CallbackServerContext* context, const Request* request,
-                                   Response* response,
-                                   Outcome<Response> (SolveService::*method)(const Caller&, const Request&));
+                                   Response* response, UseCases& service,
+                                   Outcome<Response> (UseCases::*method)(const Caller&, const Request&));
   grpc::ServerWriteReactor<v1::SolveEvent>* Stream(const MethodRule& rule, grpc::CallbackServerContext* context,
                                                    WatchStream::Find find, bool cancel_on_disconnect);
   grpc::ServerWriteReactor<v1::SimulationMessage>* Simulation(const MethodRule& rule,

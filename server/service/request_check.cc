@@ -172,6 +172,16 @@ Violations CheckSize(const Message& request) {
                      std::to_string(kMaxRequestBytes) + " bytes"}};
 }
 
+Violations CheckRequest(const Message& request) {
+  Violations violations = CheckSize(request);
+  if (violations.empty()) violations = CheckWellFormed(request, "");
+  return violations;
+}
+
+void AddPrefix(const std::string& prefix, Violations& violations) {
+  for (Violation& violation : violations) violation.field.insert(0, prefix);
+}
+
 Violations CheckRequestId(const std::string& request_id) {
   constexpr size_t kLimit = 128;
   if (request_id.size() > kLimit) {

@@ -23,6 +23,12 @@ Violations CheckWellFormed(const google::protobuf::Message& message, const std::
 // Refuses a request of more than kMaxRequestBytes; names its largest field.
 Violations CheckSize(const google::protobuf::Message& request);
 
+// Both: what is wrong with any request, whatever its type.
+Violations CheckRequest(const google::protobuf::Message& request);
+
+// Puts `prefix` before the path of every violation.
+void AddPrefix(const std::string& prefix, Violations& violations);
+
 // Refuses an id of more than 128 bytes or with other than printable ASCII characters. Empty is allowed.
 Violations CheckRequestId(const std::string& request_id);
 

@@ -14,13 +14,6 @@
 namespace rollgait::server {
 namespace {
 
-// What is wrong with any request, whatever its type.
-Violations CheckRequest(const google::protobuf::Message& request) {
-  Violations violations = CheckSize(request);
-  if (violations.empty()) violations = CheckWellFormed(request, "");
-  return violations;
-}
-
 // In the store's words, so that another tenant's solve cannot be told from none.
 Error NoSuchSolve(const std::string& id) {
   return {ErrorCode::kNotFound, "there is no solve \"" + SolveName(id) + "\"; ListSolves lists those that are"};
@@ -53,15 +46,15 @@ Outcome<std::optional<std::string>> TenantToList(const Caller& caller, const std
   return all ? std::nullopt : std::optional(asked);
 }
 
-void AddPrefix(const std::string& prefix, Violations& violations) {
-  for (Violation& violation : violations) violation.field.insert(0, prefix);
-}
-
 }  // namespace
 
-SolveService::SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOptions options,
+SolveService::SolveService(SolveStore& store, ModelStore& models, GaitKnowledge knowledge, ServiceOptions options,
                            std::function<void(const std::string& id)> announce)
-    : store_(store), knowledge_(std::move(knowledge)), options_(std::move(options)), announce_(std::move(announce)) {}
+    : store_(store),
+      knowledge_(std::move(knowledge)),
+      models_(models, knowledge_),
+      options_(std::move(options)),
+      announce_(std::move(announce)) {}
 
 Outcome<SolveService::Checked> SolveService::CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec) {
   if (!has_spec) return InvalidArgument({{"spec", "is missing; set at least spec.model.name"}});
@@ -95,6 +88,14 @@ Outcome<CreatedSolve> SolveService::Store(const NewSolve& solve) {
 }
 
 Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request) {
+  if (!ModelService::IsStored(request.spec().model())) return CreateResolved(caller, request);
+  v1::CreateSolveRequest resolved = request;
+  std::optional<Error> refusal = models_.Resolve(caller, "spec.model.", resolved.mutable_spec()->mutable_model());
+  if (refusal.has_value()) return *std::move(refusal);
+  return CreateResolved(caller, resolved);
+}
+
+Outcome<v1::Solve> SolveService::CreateResolved(const Caller& caller, const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckRequestId(request.request_id());
   if (request.spell_out() && !request.validate_only()) {
@@ -186,31 +187,6 @@ Outcome<google::protobuf::Empty> SolveService::DeleteSolve(const Caller& caller,
   if (!done.ok()) return done.error();
   LogEvent(spdlog::level::info, "solve.deleted", {{"solve", id.value()}});
   return google::protobuf::Empty();
-}
-
-Outcome<v1::ListModelsResponse> SolveService::ListModels(const Caller&, const v1::ListModelsRequest&) {
-  return knowledge_.list_models();
-}
-
-Outcome<v1::Model> SolveService::GetModel(const Caller&, const v1::GetModelRequest& request) {
-  Violations violations = CheckRequest(request);
-  if (!violations.empty()) return InvalidArgument(std::move(violations));
-  const v1::ListModelsResponse models = knowledge_.list_models();
-  std::string names;
-  bool known = false;
-  for (const v1::ModelSummary& summary : models.models()) {
-    known = known || summary.name() == request.model().name();
-    names += (names.empty() ? "" : ", ") + summary.name();
-  }
-  if (!known && !request.model().has_own()) {
-    return Error{ErrorCode::kNotFound,
-                 "there is no model \"" + request.model().name().substr(0, 100) + "\"; there are: " + names};
-  }
-  const Result<v1::Model> model = knowledge_.get_model(request.model());
-  if (model.ok()) return model.value();
-  violations = model.violations();
-  AddPrefix("model.", violations);
-  return InvalidArgument(std::move(violations));
 }
 
 Outcome<v1::ServerInfo> SolveService::GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest&) {

@@ -11,6 +11,7 @@
 #include "server/base/outcome.h"
 #include "server/service/full_queue.h"
 #include "server/service/gait_knowledge.h"
+#include "server/service/model_service.h"
 #include "server/service/solve_message.h"
 #include "server/service/warm_start_search.h"
 #include "server/store/disk_room.h"
@@ -35,9 +36,9 @@ struct ServiceOptions {
 // every call may block on the store.
 class SolveService {
  public:
-  // `announce(id)` is called after a solve was created or cancelled: the agent and watchers want to look. Store
-  // outlives it.
-  SolveService(SolveStore& store, GaitKnowledge knowledge, ServiceOptions options,
+  // `announce(id)` is called after a solve was created or cancelled: the agent and watchers want to look. The
+  // stores outlive it.
+  SolveService(SolveStore& store, ModelStore& models, GaitKnowledge knowledge, ServiceOptions options,
                std::function<void(const std::string& id)> announce);
 
   Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
@@ -47,13 +48,13 @@ class SolveService {
   Outcome<v1::ListSolvesResponse> ListSolves(const Caller& caller, const v1::ListSolvesRequest& request);
   Outcome<v1::Solve> CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request);
   Outcome<google::protobuf::Empty> DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request);
-  Outcome<v1::ListModelsResponse> ListModels(const Caller& caller, const v1::ListModelsRequest& request);
-  Outcome<v1::Model> GetModel(const Caller& caller, const v1::GetModelRequest& request);
   Outcome<v1::ServerInfo> GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest& request);
   // How long a solve is that the caller may see; kNotFound, also for another tenant's unless the caller administers.
   Outcome<SolveExtent> ExtentFor(const Caller& caller, const std::string& id);
   // The id in the name of such a solve.
   Outcome<std::string> FindFor(const Caller& caller, const std::string& name);
+
+  ModelService& models() { return models_; }
 
  private:
   // What a good spec starts from, and its key, which is empty if results are not reused.
@@ -61,12 +62,15 @@ class SolveService {
     std::optional<FoundWarmStart> warm_start;
     std::string key;
   };
+  // CreateSolve of a request that names no stored model.
+  Outcome<v1::Solve> CreateResolved(const Caller& caller, const v1::CreateSolveRequest& request);
   // Creates it in the store, unless a queue was full a moment ago and it would need a place there.
   Outcome<CreatedSolve> Store(const NewSolve& solve);
   Outcome<Checked> CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec);
 
   SolveStore& store_;
   const GaitKnowledge knowledge_;
+  ModelService models_;  // asks knowledge_
   const ServiceOptions options_;
   const std::function<void(const std::string& id)> announce_;
   FullQueue full_queue_;

@@ -15,7 +15,7 @@ struct AuditRow {
   int64_t number = 0;  // grows with time
   int64_t time_us = 0;
   Actor actor;
-  std::string action;   // create, cancel, delete, end, expire; others by server/access
+  std::string action;   // create, cancel, delete, end, expire, create model, delete model; others by server/access
   std::string solve;    // id; empty: of none
   std::string outcome;  // the solve's state, or what became of the call
   std::string detail;

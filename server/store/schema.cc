@@ -203,9 +203,28 @@ void From4To5(SqlConnection& connection) {
   Query::Do(connection, "INSERT INTO secrets (name, value) VALUES ('page_tokens', ?)", RandomHex(32));
 }
 
+// Models of tenants, a row a version. `number` is the order of creation; the summary is apart, for lists.
+constexpr char kModels[] = R"(
+CREATE TABLE models (
+  number {serial_key},
+  tenant TEXT NOT NULL,
+  id TEXT NOT NULL,
+  version BIGINT NOT NULL,
+  digest TEXT NOT NULL,
+  create_time_us BIGINT NOT NULL,
+  bytes BIGINT NOT NULL,
+  summary {blob} NOT NULL,
+  payload {blob} NOT NULL);
+CREATE UNIQUE INDEX models_by_version ON models (tenant, id, version);
+CREATE UNIQUE INDEX models_by_digest ON models (tenant, id, digest);
+CREATE INDEX models_by_tenant ON models (tenant, number, bytes);
+)";
+
+void From5To6(SqlConnection& connection) { connection.Execute(kModels); }
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

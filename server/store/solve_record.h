@@ -51,7 +51,7 @@ struct NewSolve {
   std::string warm_start = {};   // wire::WarmStart, kept until the solve ends; empty: none
   Actor actor = {};              // its tenant is the solve's
   int max_queued_tenant = 0;     // the same limit for the tenant alone; 0: none
-  int64_t max_bytes_tenant = 0;  // refuse likewise if the tenant's solves take more with this one; 0: no limit
+  int64_t max_bytes_tenant = 0;  // refuse likewise if what the tenant stores takes more with this one; 0: no limit
   std::string solver_fingerprint = {}, traceparent = {};
   SolvePlace place = {};
 };

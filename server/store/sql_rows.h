@@ -80,8 +80,8 @@ std::string CancelledError();
 // What somebody did, for the audit.
 struct AuditEntry {
   const Actor& actor;
-  std::string action;   // create, cancel, delete, end, expire
-  std::string solve;    // id
+  std::string action;   // create, cancel, delete, end, expire, create model, delete model
+  std::string solve;    // id; empty: of none
   std::string outcome;  // the solve's state
   std::string detail = {};
 };

@@ -10,14 +10,15 @@
 #include "server/store/database.h"
 #include "server/store/disk_reserve.h"
 #include "server/store/disk_room.h"
+#include "server/store/model_store.h"
 #include "server/store/solve_store.h"
 #include "server/store/storage_use.h"
 
 namespace rollgait::server {
 
-// Solves in an SQL database. Threads may share it; so may processes (each with its own object): on one machine for
-// SQLite, on any for PostgreSQL. Leases expire by {now_ns} of sql_dialect.h.
-class SqlStore : public SolveStore {
+// Solves and models in an SQL database. Threads may share it; so may processes (each with its own object): on one
+// machine for SQLite, on any for PostgreSQL. Leases expire by {now_ns} of sql_dialect.h.
+class SqlStore : public SolveStore, public ModelStore {
  public:
   // Makes the tables or brings them up to date; kUnavailable with the reason if that fails. New solves are refused when
   // there is no room; the reserve (null: none) is given up for what makes some. The clock outlives the store.
@@ -49,6 +50,11 @@ class SqlStore : public SolveStore {
   Outcome<std::vector<LeaseOwner>> LeaseOwners() override;
   Outcome<std::vector<std::string>> ReclaimExpired() override;
   Outcome<std::vector<std::string>> ReclaimOwner(const std::string& owner) override;
+
+  Outcome<CreatedModel> CreateModel(const NewModel& model) override;
+  Outcome<ModelRecord> GetModel(const ModelKey& key) override;
+  Outcome<ModelPage> ListModels(const ModelQuery& query) override;
+  Outcome<Done> DeleteModel(const std::string& id, const Actor& actor) override;
 
   // For tables beside those of the solves.
   Database& database() { return *database_; }

@@ -158,7 +158,9 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
     }
     if (std::optional<Error> full = room_.Refusal()) return *full;
     if (reserve_ != nullptr) reserve_->Restore(room_.reserve_bytes());
-    if (std::optional<Error> full = storage_use_.Refusal(connection, solve)) return *full;
+    const StorageUse::Claim claim{solve.actor.tenant, static_cast<int64_t>(solve.spec.size() + solve.warm_start.size()),
+                                  solve.max_bytes_tenant};
+    if (std::optional<Error> full = storage_use_.Refusal(connection, claim)) return *full;
     const bool held = questions.reusable.has_value() && questions.reusable->Step();
     if (!held) {
       const Outcome<bool> may = MayQueue(questions, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters());

@@ -15,16 +15,17 @@ int64_t Sum(SqlConnection& connection, const std::string& tenant) {
                "SELECT CAST(COALESCE(SUM(LENGTH(payload)), 0) AS BIGINT) FROM warm_starts, solves WHERE solve = number "
                "AND tenant = ? AND state IN (1, 2)",
                tenant);
-  const int64_t bytes = solves.Step() ? solves.Int(0) : 0;
-  return bytes + (starts.Step() ? starts.Int(0) : 0);
+  Query models(connection, "SELECT CAST(COALESCE(SUM(bytes), 0) AS BIGINT) FROM models WHERE tenant = ?", tenant);
+  int64_t bytes = 0;
+  for (Query* part : {&solves, &starts, &models}) bytes += part->Step() ? part->Int(0) : 0;
+  return bytes;
 }
 
 }  // namespace
 
-std::optional<Error> StorageUse::Refusal(SqlConnection& connection, const NewSolve& solve) {
-  if (solve.max_bytes_tenant <= 0) return std::nullopt;
-  const std::string& tenant = solve.actor.tenant;
-  const auto more = static_cast<int64_t>(solve.spec.size() + solve.warm_start.size());
+std::optional<Error> StorageUse::Refusal(SqlConnection& connection, const Claim& claim) {
+  if (claim.limit <= 0) return std::nullopt;
+  const std::string& tenant = claim.tenant;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (known_.size() >= kMostTenants) known_.clear();
   Known& known = known_[tenant];
@@ -35,14 +36,15 @@ std::optional<Error> StorageUse::Refusal(SqlConnection& connection, const NewSol
     const Clock::time_point end = Clock::now();
     known.good_until = end + std::max<Clock::duration>(kGoodFor, kMostOfTheTime * (end - start));
   }
-  if (known.bytes + more <= solve.max_bytes_tenant) {
-    known.bytes += more;
+  if (known.bytes + claim.bytes <= claim.limit) {
+    known.bytes += claim.bytes;
     return std::nullopt;
   }
-  const std::string text = "solves of tenant \"" + tenant + "\" take " + std::to_string(known.bytes) +
-                           " bytes, this one would add " + std::to_string(more) + " and the limit is " +
-                           std::to_string(solve.max_bytes_tenant);
-  Error error{ErrorCode::kResourceExhausted, text + "; delete some that are not needed any more (DeleteSolve)"};
+  const std::string text = "solves and models of tenant \"" + tenant + "\" take " + std::to_string(known.bytes) +
+                           " bytes, this one would add " + std::to_string(claim.bytes) + " and the limit is " +
+                           std::to_string(claim.limit);
+  Error error{ErrorCode::kResourceExhausted,
+              text + "; delete some that are not needed any more (DeleteSolve, DeleteModel)"};
   error.quota = {"tenant:" + tenant, text};
   return error;
 }

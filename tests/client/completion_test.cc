@@ -85,6 +85,8 @@ TEST(CompletionTest, BashOffersCommandsFlagsAndWords) {
               testing::UnorderedElementsAre("human", "torque", "transport"));
   EXPECT_THAT(BashOffers({"rollgait", "solve", "--bound", "max_pull"}), testing::ElementsAre("max_pull_bw="));
   EXPECT_THAT(BashOffers({"rollgait", "list", "--sl"}), testing::ElementsAre(""));
+  EXPECT_THAT(BashOffers({"rollgait", "models", "cre"}), testing::ElementsAre("create"));
+  EXPECT_THAT(BashOffers({"rollgait", "models", "create", "--i"}), testing::UnorderedElementsAre("--id", "--insecure"));
   EXPECT_THAT(BashOffers({"rollgait", "help", "exit"}), testing::ElementsAre("exit-codes"));
   EXPECT_THAT(BashOffers({"rollgait", "completion", "z"}), testing::ElementsAre("zsh"));
 }
@@ -104,6 +106,7 @@ TEST(CompletionTest, EveryCommandAndFlagIsInEveryScriptAndInTheManualPage) {
     }
   }
   EXPECT_THAT(page, HasSubstr(".SS rollgait solve [flags]"));
+  EXPECT_THAT(page, HasSubstr(".SS rollgait models create [flags] FILE"));
   EXPECT_THAT(page, HasSubstr(".B \\-o, \\-\\-output"));
   EXPECT_THAT(page, HasSubstr(".SH EXIT CODES"));
 }

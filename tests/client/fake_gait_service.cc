@@ -218,10 +218,33 @@ grpc::Status FakeGaitService::DeleteSolve(grpc::ServerContext*, const v1::Delete
   return grpc::Status::OK;
 }
 
-grpc::Status FakeGaitService::ListModels(grpc::ServerContext*, const v1::ListModelsRequest*,
+// The stored ones on pages of one.
+grpc::Status FakeGaitService::ListModels(grpc::ServerContext*, const v1::ListModelsRequest* request,
                                          v1::ListModelsResponse* response) {
-  *response->add_models() = SampleModel().summary();
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (request->page_token().empty()) *response->add_models() = SampleModel().summary();
+  const size_t page = request->page_token().empty() ? 0 : std::stoul(request->page_token());
+  if (page < models_.size()) *response->add_models() = models_[page];
+  if (page + 1 < models_.size()) response->set_next_page_token(std::to_string(page + 1));
   return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::CreateModel(grpc::ServerContext*, const v1::CreateModelRequest* request,
+                                          v1::Model* model) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  *model = request->model();
+  const std::string id = request->model_id().empty() ? model->summary().name() : request->model_id();
+  model->mutable_summary()->mutable_stored()->set_name("models/" + id + "@1");
+  models_.push_back(model->summary());
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::DeleteModel(grpc::ServerContext*, const v1::DeleteModelRequest* request,
+                                          google::protobuf::Empty*) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const size_t removed = std::erase_if(
+      models_, [&](const v1::ModelSummary& model) { return model.stored().name() == request->name() + "@1"; });
+  return removed > 0 ? grpc::Status::OK : NotFound(request->name());
 }
 
 grpc::Status FakeGaitService::GetModel(grpc::ServerContext*, const v1::GetModelRequest* request, v1::Model* model) {

@@ -44,6 +44,8 @@ class FakeGaitService : public v1::GaitService::Service {
   grpc::Status DeleteSolve(grpc::ServerContext*, const v1::DeleteSolveRequest*, google::protobuf::Empty*) override;
   grpc::Status ListModels(grpc::ServerContext*, const v1::ListModelsRequest*, v1::ListModelsResponse*) override;
   grpc::Status GetModel(grpc::ServerContext*, const v1::GetModelRequest*, v1::Model*) override;
+  grpc::Status CreateModel(grpc::ServerContext*, const v1::CreateModelRequest*, v1::Model*) override;
+  grpc::Status DeleteModel(grpc::ServerContext*, const v1::DeleteModelRequest*, google::protobuf::Empty*) override;
   grpc::Status GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*, v1::ServerInfo*) override;
 
  private:
@@ -60,6 +62,7 @@ class FakeGaitService : public v1::GaitService::Service {
   std::map<std::string, Record> records_;
   std::multiset<int64_t> breaks_;
   int broken_ = 0;
+  std::vector<v1::ModelSummary> models_;  // stored
   std::vector<v1::CreateSolveRequest> created_;
   std::vector<v1::WatchSolveRequest> watched_;
   std::vector<std::string> cancelled_, deleted_;

@@ -25,7 +25,8 @@ using grpc::StatusCode;
 
 class MatrixTest : public GuardedServer {
  protected:
-  // A request of the method's type that the server would serve; its field `name`, if it has one, names a solve.
+  // A request of the method's type that the server would serve; its field `name`, if it has one, names a solve or a
+  // model.
   std::string Request(const MethodDescriptor& method, const std::string& name) {
     v1::SolveSpec spec;
     spec.mutable_model()->set_name("planar");
@@ -41,10 +42,37 @@ class MatrixTest : public GuardedServer {
       const auto* field = method.input_type()->field(i);
       const auto part = parts.find(std::string(field->name()));
       if (field->name() == "name") reflection.SetString(message.get(), field, name);
+      if (field->message_type() == v1::Model::descriptor()) {
+        EXPECT_TRUE(reflection.MutableMessage(message.get(), field, &factory_)->ParseFromString(planar_));
+        continue;
+      }
       if (part == parts.end()) continue;
       EXPECT_TRUE(reflection.MutableMessage(message.get(), field, &factory_)->ParseFromString(part->second));
     }
     return message->SerializeAsString();
+  }
+
+  // Stores the model "planar" as the good caller's own "models/{id}".
+  void StoreModel(const std::string& id) {
+    v1::GetModelRequest get;
+    get.mutable_model()->set_name("planar");
+    v1::CreateModelRequest create;
+    const grpc::Status known = GoodStub()->GetModel(GoodContext().get(), get, create.mutable_model());
+    ASSERT_TRUE(known.ok()) << known.error_message();
+    planar_ = create.model().SerializeAsString();
+    create.set_model_id(id);
+    v1::Model model;
+    const grpc::Status stored = GoodStub()->CreateModel(GoodContext().get(), create, &model);
+    ASSERT_TRUE(stored.ok()) << stored.error_message();
+  }
+
+  std::set<std::string> GoodModels() {
+    v1::ListModelsResponse response;
+    const grpc::Status status = GoodStub()->ListModels(GoodContext().get(), {}, &response);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    std::set<std::string> names;
+    for (const v1::ModelSummary& model : response.models()) names.insert(model.stored().name());
+    return names;
   }
 
   std::set<std::string> GoodSolves() {
@@ -57,6 +85,7 @@ class MatrixTest : public GuardedServer {
   }
 
   google::protobuf::DynamicMessageFactory factory_;
+  std::string planar_;  // v1::Model
 };
 
 void Print(const std::string& method, const std::vector<StatusCode>& codes) {
@@ -82,6 +111,8 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
   ASSERT_NE(file, nullptr);
   const std::string kept = EndedSolve(), to_delete = EndedSolve();
   ASSERT_NE(kept, to_delete);
+  StoreModel("to_delete");
+  const std::map<std::string, std::string> deleted = {{"DeleteSolve", to_delete}, {"DeleteModel", "models/to_delete"}};
   // The token that expires has done so: it was valid for a second.
   const std::string ask = "/rollgait.v1.GaitService/GetServerInfo";
   for (int i = 0; i < 600 && Call(unknown_.back(), ask, "") == StatusCode::OK; ++i) {
@@ -99,8 +130,9 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
       const MethodDescriptor& method = *file->service(i)->method(j);
       SCOPED_TRACE(std::string(method.full_name()));
       const std::string path = "/" + std::string(method.service()->full_name()) + "/" + std::string(method.name());
-      const std::string bytes = Request(method, method.name() == "DeleteSolve" ? to_delete : kept);
-      const std::set<std::string> before = GoodSolves();
+      const auto name = deleted.find(std::string(method.name()));
+      const std::string bytes = Request(method, name == deleted.end() ? kept : name->second);
+      const std::set<std::string> before = GoodSolves(), models_before = GoodModels();
       std::vector<StatusCode> row;
       for (const Visitor& visitor : strangers_) {
         row.push_back(Call(visitor, path, bytes));
@@ -118,16 +150,19 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
       row.push_back(Call(rule->scope == kScopeRead ? solver_ : reader_, path, bytes));
       EXPECT_EQ(row.back(), StatusCode::PERMISSION_DENIED);
       row.push_back(Call(other_, path, bytes));
-      const bool names_a_solve = method.input_type()->FindFieldByName("name") != nullptr;
-      EXPECT_EQ(row.back() == StatusCode::NOT_FOUND, names_a_solve);
-      EXPECT_TRUE(row.back() == StatusCode::OK || names_a_solve) << row.back();
+      const bool names_one = method.input_type()->FindFieldByName("name") != nullptr;
+      EXPECT_EQ(row.back() == StatusCode::NOT_FOUND, names_one);
+      EXPECT_TRUE(row.back() == StatusCode::OK || names_one) << row.back();
       EXPECT_EQ(GoodSolves(), before) << "a call that was refused has done something";
+      EXPECT_EQ(GoodModels(), models_before) << "a call that was refused has done something";
       row.push_back(Call(good_, path, bytes));
       EXPECT_EQ(row.back(), StatusCode::OK);
       Print(std::string(method.name()), row);
     }
   }
-  EXPECT_GE(methods, 12);
+  EXPECT_GE(methods, 14);
+  EXPECT_EQ(GoodModels().count("models/to_delete@1"), 0u);
+  EXPECT_EQ(GoodModels().count("models/planar@1"), 1u);
   EXPECT_EQ(GoodSolves().count(to_delete), 0u);
   EXPECT_EQ(GoodSolves().count(kept), 1u);
 }

@@ -105,6 +105,31 @@ TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
   EXPECT_THAT(Run("models " + file).err, HasSubstr("has more than 64 MiB"));
 }
 
+// A model that is stored once walks like the one in the file, and a solve outlives the model it used.
+TEST_F(CommandLineTest, AStoredModelWalksLikeTheOneInTheFile) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string file = directory_.path() + "/walker.json";
+  std::ofstream(file) << Run("models planar --json").out;
+  EXPECT_EQ(Run("models create " + file + " --id walker").out, "models/walker@1\n");
+  EXPECT_EQ(Run("models create " + file + " --id walker").out, "models/walker@1\n");
+  EXPECT_THAT(Run("models").out, HasSubstr("models/walker@1 "));
+  const Ended stored = Run("models models/walker --json");
+  const std::string again = directory_.path() + "/again.json";
+  std::ofstream(again) << stored.out;
+  EXPECT_EQ(Run("models create " + again + " --id walker").out, "models/walker@1\n") << "read back to the bit";
+  EXPECT_THAT(Run("models models/walker").out, HasSubstr("stored as models/walker@1"));
+
+  const std::string rest = " --preset torque --intervals 8 --accuracy draft --slope 2";
+  const v1::Solve named = Solve("--model models/walker" + rest), own = Solve("--model " + file + rest);
+  ASSERT_EQ(named.result().termination(), v1::TERMINATION_OPTIMAL) << named.result().message();
+  EXPECT_NEAR(own.result().objective(), named.result().objective(), 1e-9 * own.result().objective());
+  ASSERT_TRUE(named.spec().model().has_own());
+  EXPECT_TRUE(Solve("--model models/walker@1" + rest).from_cache());
+  EXPECT_EQ(Run("models delete walker").code, 0);
+  EXPECT_NE(Run("solve --model models/walker" + rest).code, 0);
+  EXPECT_THAT(Run("get " + named.name() + " --json").out, HasSubstr("\"own\""));
+}
+
 TEST_F(CommandLineTest, TheDoctorFindsAFreshServerWell) {
   ASSERT_NE(daemon_.address(), "");
   const Ended doctor = Run("doctor");

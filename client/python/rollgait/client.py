@@ -123,7 +123,15 @@ class Client:
         self._call(self._stub.DeleteSolve, calls.DeleteSolveRequest(name=name))
 
     def models(self) -> List[str]:
-        return [model.name for model in self._call(self._stub.ListModels, calls.ListModelsRequest()).models]
+        """Names that requests take: those of the server's list, then "models/ID@VERSION" of your own."""
+        names: List[str] = []
+        token = ""
+        while True:
+            page = self._call(self._stub.ListModels, calls.ListModelsRequest(page_size=1000, page_token=token))
+            names += [model.stored.name if model.HasField("stored") else model.name for model in page.models]
+            token = page.next_page_token
+            if not token:
+                return names
 
     def model(self, name: str, **selection) -> model_pb2.Model:
         """The whole model, scaled. Keywords: fields of rollgait.v1.ModelSelection."""

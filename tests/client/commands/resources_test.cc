@@ -93,6 +93,29 @@ TEST_F(ResourceCommandTest, Models) {
   EXPECT_EQ(Run({"models", "cat"}).code, 7);
 }
 
+TEST_F(ResourceCommandTest, StoredModels) {
+  const std::string file = testing::TempDir() + "resources_test.json";
+  std::ofstream(file) << "{\"summary\": {\"name\": \"walker\"}}";
+  EXPECT_EQ(Run({"models", "create", file}).out, "models/walker@1\n");
+  EXPECT_EQ(Run({"models", "create", file, "--id", "models/other"}).out, "models/other@1\n");
+  const Ended created = Run({"models", "create", file, "--id", "third", "--json"});
+  v1::Model model;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(created.out, &model).ok());
+  EXPECT_EQ(model.summary().stored().name(), "models/third@1");
+  const std::string list = Run({"models"}).out;
+  for (const char* name : {"planar ", "models/walker@1 ", "models/other@1 ", "models/third@1 "}) {
+    EXPECT_THAT(list, HasSubstr(name));
+  }
+  EXPECT_EQ(Run({"models", "delete", "walker", "models/other"}).code, 0);
+  EXPECT_THAT(Run({"models"}).out, testing::Not(HasSubstr("walker")));
+  const Ended gone = Run({"models", "delete", "walker", "third"});
+  EXPECT_EQ(gone.code, 7);
+  EXPECT_THAT(gone.err, HasSubstr("models/walker"));
+  EXPECT_THAT(Run({"models"}).out, testing::Not(HasSubstr("third"))) << "every name is tried";
+  EXPECT_EQ(Run({"models", "create"}).code, 2);
+  EXPECT_EQ(Run({"models", "create", file + ".none"}).code, 2);
+}
+
 TEST_F(ResourceCommandTest, ServerInfoHelpAndVersion) {
   EXPECT_THAT(Run({"server-info"}).out, HasSubstr("1.2.3"));
   EXPECT_THAT(Run({"--help"}).out, HasSubstr("exit-codes"));

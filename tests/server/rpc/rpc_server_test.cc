@@ -86,6 +86,23 @@ TEST(RpcServerTest, EveryUnaryMethodAnswers) {
     EXPECT_TRUE(bench.stub().GetModel(&context, request, &model).ok());
   }
   {
+    grpc::ClientContext context, second, third;
+    v1::CreateModelRequest request;
+    request.mutable_model()->mutable_summary()->set_name("walker");
+    request.mutable_model()->add_joints()->set_mass_kg(-1);
+    v1::Model model;
+    const grpc::Status refused = bench.stub().CreateModel(&context, request, &model);
+    EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_EQ(ViolatedField(refused), "model.joints[0].mass_kg");
+    request.mutable_model()->mutable_joints(0)->set_mass_kg(70);
+    ASSERT_TRUE(bench.stub().CreateModel(&second, request, &model).ok());
+    EXPECT_EQ(model.summary().stored().name(), "models/walker@1");
+    v1::DeleteModelRequest removal;
+    removal.set_name("models/walker");
+    google::protobuf::Empty empty;
+    EXPECT_TRUE(bench.stub().DeleteModel(&third, removal, &empty).ok());
+  }
+  {
     grpc::ClientContext context;
     v1::ServerInfo info;
     ASSERT_TRUE(bench.stub().GetServerInfo(&context, {}, &info).ok());

@@ -16,14 +16,16 @@
 
 namespace rollgait::server {
 
-// Knows one model, "planar", and slopes up to 0.5 rad: the service without the physics.
+// Knows one model, "planar", own ones that weigh something, and slopes up to 0.5 rad: the service without the physics.
 inline GaitKnowledge SmallKnowledge() {
   GaitKnowledge knowledge;
   knowledge.check_spec = [](const v1::SolveSpec& spec) -> Result<v1::Model> {
     Violations violations;
-    if (spec.model().name() != "planar") violations.push_back({"model.name", "is not a model"});
+    if (spec.model().name() != "planar" && !spec.model().has_own())
+      violations.push_back({"model.name", "is not a model"});
     if (spec.slope_rad() > 0.5) violations.push_back({"slope_rad", "is too steep, the limit is 0.5"});
     if (!violations.empty()) return violations;
+    if (spec.model().has_own()) return spec.model().own();
     v1::Model model;
     model.mutable_summary()->set_name("planar");
     return model;
@@ -40,6 +42,14 @@ inline GaitKnowledge SmallKnowledge() {
   knowledge.get_model = [](const v1::ModelSelection& selection) -> Result<v1::Model> {
     if (selection.stature_m() > 2.3) return Violations{{"stature_m", "is too large, the limit is 2.3"}};
     v1::Model model;
+    if (selection.has_own()) {
+      if (selection.has_stature_m()) return Violations{{"stature_m", "is not of an own model"}};
+      model = selection.own();
+      if (model.joints_size() == 0) return Violations{{"own.joints", "are 0, at least 1 is needed"}};
+      if (model.joints(0).mass_kg() <= 0) return Violations{{"own.joints[0].mass_kg", "is not above 0"}};
+      model.set_total_mass_kg(model.joints(0).mass_kg());  // completed
+      return model;
+    }
     *model.mutable_selection() = selection;
     return model;
   };
@@ -70,7 +80,8 @@ class ServiceBench {
         channel_(SocketHints::Create(directory_.path(), kServerSocket, kAgentSocket).value()),
         hub_(*store_, *channel_, heartbeat),
         hints_(NotifySender::Create(directory_.path(), kServerSocket).value()),
-        service_(*store_, SmallKnowledge(), std::move(options), [this](const std::string& id) { hub_.Changed(id); }) {}
+        service_(*store_, *store_, SmallKnowledge(), std::move(options),
+                 [this](const std::string& id) { hub_.Changed(id); }) {}
 
   SqlStore& store() { return *store_; }
   WatchHub& hub() { return hub_; }

@@ -182,14 +182,14 @@ TEST(SolveServiceTest, ModelsAndServerInfo) {
   options.solver_slots = 7;
   options.solver_build = "a build";
   ServiceBench bench(std::chrono::hours(1), options);
-  EXPECT_EQ(bench.service().ListModels({}, {}).value().models(0).name(), "planar");
+  EXPECT_EQ(bench.service().models().ListModels({}, {}).value().models(0).name(), "planar");
   v1::GetModelRequest request;
   request.mutable_model()->set_name("snake");
-  EXPECT_EQ(bench.service().GetModel({}, request).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().models().GetModel({}, request).error().code, ErrorCode::kNotFound);
   request.mutable_model()->set_name("planar");
-  EXPECT_TRUE(bench.service().GetModel({}, request).ok());
+  EXPECT_TRUE(bench.service().models().GetModel({}, request).ok());
   request.mutable_model()->set_stature_m(9);
-  EXPECT_EQ(bench.service().GetModel({}, request).error().violations[0].field, "model.stature_m");
+  EXPECT_EQ(bench.service().models().GetModel({}, request).error().violations[0].field, "model.stature_m");
   bench.Create();
   bench.Create(PlanarSpec(0.2));
   bench.Claim();

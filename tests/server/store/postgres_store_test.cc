@@ -28,7 +28,7 @@ std::string UrlFor(const std::string& directory) {
 
 StoreLocation LocationFor(const std::string& directory) { return LocateStore(UrlFor(directory), "").value(); }
 
-std::unique_ptr<SolveStore> OpenIn(const std::string& directory, const Clock& clock) {
+std::unique_ptr<SqlStore> OpenIn(const std::string& directory, const Clock& clock) {
   auto store = OpenStore(LocationFor(directory), clock);
   ROLLGAIT_CHECK(store.ok());
   return std::move(store).value();

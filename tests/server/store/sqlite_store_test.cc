@@ -17,7 +17,7 @@
 namespace rollgait::server {
 namespace {
 
-std::unique_ptr<SolveStore> OpenIn(const std::string& directory, const Clock& clock) {
+std::unique_ptr<SqlStore> OpenIn(const std::string& directory, const Clock& clock) {
   auto store = OpenStore({directory + "/rollgait.db"}, clock);
   ROLLGAIT_CHECK(store.ok());
   return std::move(store).value();
@@ -132,6 +132,24 @@ TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
   Query check(connection, "PRAGMA foreign_key_check");
   EXPECT_FALSE(check.Step());
   ASSERT_TRUE(store.value()->Create({"warm", "", "s", "", 9, "start"}).ok());
+}
+
+// Version 5 is this one without models.
+TEST(SqliteStoreTest, AFileOfVersion5GetsModels) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  ASSERT_TRUE(OpenStore({path}, clock).value()->Create({"old", "", "spec", ""}).ok());
+  SqliteConnection(path, clock).Execute("DROP TABLE models; UPDATE schema_version SET version = 5;");
+  const auto store = OpenStore({path}, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  EXPECT_EQ(store.value()->Get("old").value().spec, "spec");
+  ASSERT_TRUE(store.value()->CreateModel({"walker", "digest", "summary", "payload"}).ok());
+  EXPECT_EQ(store.value()->GetModel({"", "walker"}).value().payload, "payload");
+  SqliteConnection connection(path, clock);
+  Query version(connection, "SELECT version FROM schema_version");
+  ASSERT_TRUE(version.Step());
+  EXPECT_EQ(version.Int(0), kSchemaVersion);
 }
 
 TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {

@@ -19,10 +19,11 @@ class StoreBench {
   explicit StoreBench(const StoreKind& kind) : kind_(kind), store_(kind.open(directory_.path(), clock_)) {}
 
   SolveStore& store() { return *store_; }
+  ModelStore& models() { return *store_; }
   FakeClock& clock() { return clock_; }
   // For leases; by more than a test takes, on engines whose clock cannot be stopped.
   void PassTime(std::chrono::milliseconds time) { kind_.pass_time(directory_.path(), clock_, time); }
-  std::unique_ptr<SolveStore> OpenAgain() { return kind_.open(directory_.path(), clock_); }
+  std::unique_ptr<SqlStore> OpenAgain() { return kind_.open(directory_.path(), clock_); }
   // Nobody of this process has the store open; before fork.
   void Close() { store_.reset(); }
   void Restart() {
@@ -49,7 +50,7 @@ class StoreBench {
   TemporaryDirectory directory_;
   FakeClock clock_;
   const StoreKind& kind_;
-  std::unique_ptr<SolveStore> store_;
+  std::unique_ptr<SqlStore> store_;
 };
 
 inline std::string Numbered(const std::string& prefix, size_t number) { return prefix + std::to_string(number); }
