@@ -7,6 +7,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/error_estimate.h"
+#include "core/gait/half_cycle.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
@@ -105,8 +106,7 @@ bool Answers(const GaitSolution& solution) {
 
 // Squared torque alone is solved as it is, and where that takes long or leads to motions that exist on no finer mesh,
 // by continuation in the weight of torque rates.
-GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
-  if (!LeavesRatesFree(spec)) return SearchByMeshes(spec, Otherwise::kContinue, budget);
+GaitSolution SearchWithoutRates(const GaitSpec& spec, SolveBudget* budget) {
   constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100
   GaitSpec impatient = spec;
   impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
@@ -123,6 +123,41 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   if (Converged(solution.termination)) return solution;
   direct.meshes = std::move(solution.meshes);
   return direct;
+}
+
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget);
+
+// One step first, where the second may be its mirror image. Empty where that does not answer; `meshes` receives those
+// that came before the solution.
+std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* budget,
+                                           std::vector<MeshStatistics>* meshes) {
+  const std::optional<GaitSpec> half = HalfCycleOf(spec);
+  if (!half) return std::nullopt;
+  GaitSolution step = SearchCold(*half, budget);
+  meshes->insert(meshes->end(), step.meshes.begin(), step.meshes.end());
+  if (!Answers(step)) return std::nullopt;
+  GaitSpec both = spec;
+  both.warm_start = BothSteps(spec, step);
+  constexpr int kMostIterations = 200;
+  GaitSolution solution = SolveFromNeighbour(both, *BuildProblem(both), kMostIterations, budget);
+  if (!Answers(solution)) {
+    meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
+    return std::nullopt;
+  }
+  solution.warm_started = solution.used_multipliers = false;  // not from what the request named
+  solution.note = step.note;
+  return solution;
+}
+
+GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
+  std::vector<MeshStatistics> meshes;
+  std::optional<GaitSolution> solution = SearchByHalves(spec, budget, &meshes);
+  if (!solution) {
+    solution =
+        LeavesRatesFree(spec) ? SearchWithoutRates(spec, budget) : SearchByMeshes(spec, Otherwise::kContinue, budget);
+  }
+  PutBefore(meshes, &*solution);
+  return std::move(*solution);
 }
 
 // From the warm start, if there is one, and without it where that does not converge.

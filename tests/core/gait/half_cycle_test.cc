@@ -1,0 +1,175 @@
+// Full cycles that start from one step and its mirror image.
+#include "core/gait/half_cycle.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/gait/build_problem.h"
+#include "core/gait/initial_guess.h"
+#include "core/gait/meshes.h"
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+GaitRequest Full(const std::string& model, FootShape feet, GaitRequest::TouchDown touch_down) {
+  GaitRequest request;
+  request.body.model = model;
+  request.body.feet = feet;
+  request.cycle = Cycle::kFull;
+  request.preset = Preset::kTorque;
+  request.ground_contact.touch_down = touch_down;
+  request.discretization.single_support_intervals = 8;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+  return request;
+}
+
+GaitRequest Planar() { return Full("planar", FootShape::kOneEllipsoid, GaitRequest::TouchDown::kSmooth); }
+
+bool HasHalf(const GaitRequest& request) { return HalfCycleOf(CheckRequest(request).value()).has_value(); }
+
+TEST(HalfCycleOf, IsTheRequestForOneStep) {
+  const GaitSpec full = CheckRequest(Planar()).value();
+  GaitRequest request = Planar();
+  request.cycle = Cycle::kHalf;
+  const GaitSpec asked = CheckRequest(request).value();
+  const std::optional<GaitSpec> half = HalfCycleOf(full);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(half->cycle, Cycle::kHalf);
+  ASSERT_EQ(half->phases.size(), asked.phases.size());
+  for (size_t p = 0; p < asked.phases.size(); ++p) {
+    EXPECT_EQ(half->phases[p].contacts, asked.phases[p].contacts);
+    EXPECT_EQ(half->phases[p].intervals, asked.phases[p].intervals);
+  }
+  EXPECT_FALSE(HalfCycleOf(asked));
+}
+
+TEST(HalfCycleOf, IsEmptyWhereLeftAndRightDiffer) {
+  EXPECT_TRUE(HasHalf(Planar()));
+  GaitRequest request = Planar();
+  request.limits.joint_velocity = {{"knee_l", 5}, {"knee_r", 5}};
+  EXPECT_TRUE(HasHalf(request));
+  request.limits.joint_velocity = {{"knee_l", 5}};
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.limits.joint_position = {{"knee_r", {0, 1}}};
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.limits.joint_effort = {{"hip_r", {-50, 50}}};
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.costs = {{GaitRequest::SquaredTorque{{{"hip_l", 2}, {"hip_r", 2}}}, 1}};
+  EXPECT_TRUE(HasHalf(request));
+  request.costs = {{GaitRequest::SquaredTorque{{{"hip_l", 2}, {"hip_r", 1}}}, 1}};
+  EXPECT_FALSE(HasHalf(request));
+  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::Tracking{{{"hip_l", {0, 0.1, 0.2, 0.1}, {}}}}, 1}};
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.phases = {{{{"left_foot", "right_foot"}, 4, {}, {}},
+                     {{"left_foot"}, 8, {}, {}},
+                     {{"left_foot", "right_foot"}, 4, {}, {}},
+                     {{"right_foot"}, 8, {}, {}}}};
+  EXPECT_TRUE(HasHalf(request));
+  (*request.phases)[3].intervals = 9;
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.body.locked_joints = {{"ankle_l", 0}};
+  EXPECT_FALSE(HasHalf(request));
+}
+
+// How far a motion is from meeting the program of a spec, and its cost.
+struct Residuals {
+  double rows = 0, bounds = 0, objective = 0;
+  std::string worst_row;
+};
+
+Residuals ResidualsAt(const GaitSpec& spec, const WarmStart& motion) {
+  const auto problem = BuildProblem(spec);
+  CollocationNlp nlp(*problem, spec.scheme, MeshOf(motion.trajectory), motion.added);
+  const VectorX x = nlp.MakeStart(GuessFromTrajectory(motion.trajectory));
+  VectorX g(nlp.constraints());
+  Residuals residuals;
+  if (!nlp.Constraints(x.data(), g.data()) || !nlp.Objective(x.data(), &residuals.objective)) {
+    residuals.rows = kInfinity;
+    return residuals;
+  }
+  residuals.objective /= nlp.objective_scale();
+  int row = 0;
+  residuals.rows = (nlp.constraint_lower() - g).cwiseMax(g - nlp.constraint_upper()).maxCoeff(&row);
+  residuals.worst_row = nlp.Describe(x.data(), row).name;
+  residuals.bounds = (nlp.lower_bounds() - x).cwiseMax(x - nlp.upper_bounds()).maxCoeff();
+  return residuals;
+}
+
+struct Case {
+  const char* model;
+  FootShape feet;
+  GaitRequest::TouchDown touch_down;
+};
+
+class BothStepsOf : public ::testing::TestWithParam<Case> {};
+
+// Every row and bound of the program for two steps, with the constraints of one step mirrored, holds at the two steps
+// as well as those of the program for one step hold at it, at the same cost.
+TEST_P(BothStepsOf, AreAMotionOfTheFullCycleAtTheSameCost) {
+  GaitRequest request = Full(GetParam().model, GetParam().feet, GetParam().touch_down);
+  // Rates leave no sharp forces, which a program evaluates off its points.
+  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  const GaitSpec full = CheckRequest(request).value();
+  const GaitSpec half = HalfCycleOf(full).value();
+  GaitSolution step = OptimizingGaitSolver().Solve(half, SolveControl());
+  ASSERT_EQ(step.termination, Termination::kOptimal) << step.message;
+  // An edge of a pyramid adds a row that it must find on the other foot, too.
+  step.added.between.resize(half.phases.size());
+  const int stance = half.phases.back().contacts.front();
+  const bool in_space = full.scene.model.Find(JointRole::kBaseLateral) >= 0;
+  if (in_space) step.added.between.back().friction = {{stance, 5}, {stance, 50}};
+  const WarmStart both = BothSteps(full, step);
+  EXPECT_TRUE(CheckWarmStart(full, both.trajectory).empty());
+  EXPECT_FALSE(both.multipliers);
+
+  const Residuals of_one = ResidualsAt(half, {*step.trajectory, std::nullopt, step.added});
+  const Residuals of_both = ResidualsAt(full, both);
+  EXPECT_LT(of_one.rows, 1e-3);
+  EXPECT_LT(of_both.rows, 1.001 * of_one.rows + 1e-6) << of_both.worst_row;
+  EXPECT_LT(of_both.bounds, 1.001 * of_one.bounds + 1e-9);
+  EXPECT_NEAR(of_both.objective, of_one.objective, 1e-9 * of_one.objective);
+  if (!in_space) return;
+  const std::vector<FrictionEdge>& edges = both.added.Edges(static_cast<int>(full.phases.size()) - 1);
+  const int other = full.scene.contacts[static_cast<size_t>(stance)].mirror_contact;
+  EXPECT_EQ(edges, (std::vector<FrictionEdge>{{other, 22}, {other, 67}}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, BothStepsOf,
+                         ::testing::Values(Case{"planar", FootShape::kOneEllipsoid, GaitRequest::TouchDown::kPlastic},
+                                           Case{"planar", FootShape::kTwoEllipsoids, GaitRequest::TouchDown::kSmooth},
+                                           Case{"human29", FootShape::kTwoEllipsoids, GaitRequest::TouchDown::kSmooth},
+                                           Case{"human29", FootShape::kOneEllipsoid,
+                                                GaitRequest::TouchDown::kPlastic}));
+
+// The first program is that of one step; the last one, of both, has little left to find.
+TEST(FullCycle, BeginsWithOneStep) {
+  const GaitRequest request = Planar();
+  const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(request).value(), SolveControl());
+  ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
+  EXPECT_EQ(solution.trajectory->cycle, Cycle::kFull);
+  EXPECT_FALSE(solution.warm_started);
+  ASSERT_EQ(solution.meshes.size(), 2u);
+  EXPECT_EQ(solution.meshes.front().intervals.size(), 2u);
+  EXPECT_EQ(solution.meshes.back().intervals.size(), 4u);
+  EXPECT_NEAR(solution.objective, solution.meshes.front().objective, 1e-5 * solution.objective);
+}
+
+// Of two sides that differ nothing is known of the second step.
+TEST(FullCycle, OfAnUnequalBodyIsSolvedAsAWhole) {
+  GaitRequest request = Planar();
+  request.limits.joint_velocity = {{"knee_l", 12}};
+  const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(request).value(), SolveControl());
+  ASSERT_FALSE(solution.meshes.empty());
+  EXPECT_EQ(solution.meshes.front().intervals.size(), 4u);
+}
+
+}  // namespace
+}  // namespace rollgait
