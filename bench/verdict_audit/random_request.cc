@@ -44,14 +44,14 @@ class Draft {
   std::string group, command;
 };
 
-void DrawModel(Draft* draft) {
+void DrawModel(const DrawOptions& options, Draft* draft) {
   GaitRequest& request = draft->request;
   const double model = draft->random.Share();
-  request.body.model = model < 0.4 ? "planar" : "human29";
+  request.body.model = model < options.planar ? "planar" : "human29";
   draft->group = request.body.model;
   draft->Flag("--model " + request.body.model);
   if (request.body.model == "planar") return;
-  request.body.sagittal = model < 0.6;
+  request.body.sagittal = model < options.planar + (1 - options.planar) / 3;
   request.body.drop_arms = draft->random.Chance(0.25);
   request.body.rigid_trunk = draft->random.Chance(0.25);
   if (request.body.sagittal) draft->Flag("--sagittal");
@@ -88,9 +88,9 @@ void DrawPreset(Draft* draft) {
   draft->Flag("--preset " + name);
 }
 
-void DrawMotion(Draft* draft) {
+void DrawMotion(const DrawOptions& options, Draft* draft) {
   GaitRequest& request = draft->request;
-  const double degrees = draft->random.Between(-25, 25, 0.5);
+  const double degrees = draft->random.Between(-options.steepest, options.steepest, 0.5);
   request.slope = degrees * std::numbers::pi / 180.0;
   request.motion.speed = draft->random.Between(0.4, 2.2, 0.05);
   draft->Number("--slope", degrees);
@@ -124,6 +124,28 @@ void DrawNumerics(const DrawOptions& options, Draft* draft) {
   draft->Number("--time-limit", options.time_limit);
 }
 
+void DrawMaxError(Draft* draft) {
+  const double kind = draft->random.Share(), level = draft->random.Share();
+  const auto between = [&](double most, double least) { return most * std::pow(least / most, level); };
+  const auto flag = [&](const char* name, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "--max-error %s=%.10g", name, value);
+    draft->Flag(text);
+  };
+  MaxError& error = draft->request.accuracy.max_error.emplace();
+  if (kind < 1. / 3) {
+    error.objective = between(1e-2, 1e-4);
+    flag("objective", *error.objective);
+  } else if (kind < 2. / 3) {
+    const double degrees = between(2, 0.1);
+    error.angle = degrees * std::numbers::pi / 180.0;
+    flag("angle", degrees);
+  } else {
+    error.torque = between(20, 1);
+    flag("torque", *error.torque);
+  }
+}
+
 }  // namespace
 
 DrawnRequest Draw(const DrawOptions& options, int number) {
@@ -132,11 +154,12 @@ DrawnRequest Draw(const DrawOptions& options, int number) {
       seeds.Next() + static_cast<uint64_t>(number) * 0xd1342543de82ef95u;  // an odd constant: all differ
   Draft draft{Generator(stream)};
   draft.command = "rollgait solve";
-  DrawModel(&draft);
+  DrawModel(options, &draft);
   DrawBody(&draft);
   DrawPreset(&draft);
-  DrawMotion(&draft);
+  DrawMotion(options, &draft);
   DrawNumerics(options, &draft);
+  if (options.max_error) DrawMaxError(&draft);
   return {draft.request, draft.group, draft.command};
 }
 
