@@ -320,10 +320,8 @@ int Main(int argc, char** argv) {
   Flags flags;
   if (const std::optional<int> code = RunAccessCommand(argc, argv)) return *code;
   if (const std::optional<int> code = RunBackupCommand(argc, argv)) return *code;
-  CLI::App app(
-      "Optimal gaits over gRPC. Tokens, tenants and the audit trail: rollgaitd token|tenant|audit --help; "
-      "copies of the store: rollgaitd backup|restore --help.",
-      "rollgaitd");
+  CLI::App app("Optimal gaits over gRPC. For its store: rollgaitd token|tenant|audit|backup|restore --help.",
+               "rollgaitd");
   AddFlags(app, flags);
   AddStorageFlags(app, flags.storage);
   CLI11_PARSE(app, argc, argv);

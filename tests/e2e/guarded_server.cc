@@ -27,7 +27,7 @@ void GuardedServer::SetUp() {
     return grpc::SslCredentialsOptions{authority.cert, identity.key, identity.cert};
   };
   good_ = {"good token", shows(client), good};
-  other_ = {"other tenant", shows(client), Token("rival", "read,solve,admin")};
+  other_ = {"other tenant", shows(client), Token("rival", "read,solve")};
   reader_ = {"scope", shows(client), Token("acme", "read")};
   solver_ = {"scope", shows(client), Token("acme", "solve")};
   strangers_ = {{"no certificate", {authority.cert, "", ""}, good},
