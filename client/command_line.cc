@@ -76,7 +76,7 @@ void AddListFilters(CLI::App& command, ListFilter& filter) {
   command.add_option("--verdict", filter.verdict, "Only this accuracy verdict: within, exceeded, not-judged or none");
   command.add_option("--termination", filter.termination,
                      "Only solves that ended so, for example optimal; none: not yet");
-  command.add_option("--model", filter.model, "Only of this model");
+  command.add_option("--model", filter.model, "Only of this model; own: of one that the request carries");
   command.add_option("--name", filter.name_prefix, "Only solves whose ID begins with this");
   command.add_option(
       "--since", filter.since,

@@ -51,6 +51,11 @@ WallClock::time_point ParseSince(const std::string& text, WallClock::time_point 
                                       "2026-11-24 or 2026-11-24T12:30");
 }
 
+std::string ListedModel(const v1::Solve& solve) {
+  const v1::ModelSelection& model = solve.spec().model();
+  return model.has_own() ? "own" : model.name();
+}
+
 SolveMatcher::SolveMatcher(const ListFilter& filter, WallClock::time_point now) : model_(filter.model) {
   if (!filter.state.empty()) state_ = Lookup("--state", filter.state, StateWords());
   if (!filter.verdict.empty()) verdict_ = Lookup("--verdict", filter.verdict, VerdictWords());
@@ -69,7 +74,7 @@ bool SolveMatcher::Matches(const v1::Solve& solve) const {
   const bool silent = solve.has_outcome() && solve.outcome().verdict() == v1::VERDICT_UNSPECIFIED;
   if (verdict_ && (silent ? v1::VERDICT_NOT_JUDGED : solve.outcome().verdict()) != *verdict_) return false;
   if (termination_ && solve.outcome().termination() != *termination_) return false;
-  if (!model_.empty() && solve.spec().model().name() != model_) return false;
+  if (!model_.empty() && ListedModel(solve) != model_) return false;
   if (solve.name().rfind(name_prefix_, 0) != 0) return false;
   return !IsTooOld(solve);
 }

@@ -25,6 +25,9 @@ struct ListFilter {
 // Failure(kUsage) for another text.
 std::chrono::system_clock::time_point ParseSince(const std::string& text, std::chrono::system_clock::time_point now);
 
+// The model of a solve as the list shows it and --model means it: "own" for one that the request carries.
+std::string ListedModel(const v1::Solve& solve);
+
 // The filter with its words understood.
 class SolveMatcher {
  public:

@@ -28,7 +28,7 @@ std::vector<std::string> ListRow(const v1::Solve& solve, bool with_tenant) {
       StateName(solve.state()),
       outcome.termination() == v1::TERMINATION_UNSPECIFIED ? "-" : TerminationName(outcome.termination()),
       solve.has_outcome() ? VerdictName(outcome.verdict()) : "-",
-      solve.spec().model().name(),
+      ListedModel(solve),
       FormatNumber(solve.spec().slope_rad() * 180 / kPi) + "°",
       motion.has_speed_m_s() ? FormatNumber(motion.speed_m_s()) + " m/s"
       : motion.free_speed()  ? "free"

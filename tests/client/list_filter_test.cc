@@ -53,6 +53,16 @@ TEST(ListFilterTest, EveryFilterTakesAndLeaves) {
   }
 }
 
+TEST(ListFilterTest, AModelThatTheRequestCarriesIsOwn) {
+  v1::Solve solve = ListedSolve();
+  EXPECT_EQ(ListedModel(solve), "planar");
+  solve.mutable_spec()->mutable_model()->clear_name();
+  solve.mutable_spec()->mutable_model()->mutable_own();
+  EXPECT_EQ(ListedModel(solve), "own");
+  EXPECT_TRUE(FilterMatches({.model = "own"}, solve));
+  EXPECT_FALSE(FilterMatches({.model = "planar"}, solve));
+}
+
 TEST(ListFilterTest, NoneIsWhatHasNoOutcomeYet) {
   v1::Solve running = ListedSolve();
   running.clear_outcome();
