@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "core/gait/build_problem.h"
@@ -15,15 +14,9 @@
 namespace rollgait {
 namespace {
 
-// Of a mesh on which errors are estimated: human29 then takes about 2 GB, half of what a solver is given by default,
-// and a solver that runs out of memory would lose the solution whose errors were asked for.
-constexpr int kMostIntervals = 1000;
-
 double Share(double difference, double value) {
   return value != 0 ? std::abs(difference / value) : difference == 0 ? 0 : kInfinity;
 }
-
-int Total(const std::vector<int>& intervals) { return std::accumulate(intervals.begin(), intervals.end(), 0); }
 
 FinerSolution AsFiner(const GaitSolution& solution) {
   return {*solution.trajectory, solution.objective, solution.speed, solution.step_length,
@@ -80,7 +73,7 @@ double WorstShareOf(const MaxError& allowed, const ErrorEstimate& errors) {
 GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBudget* budget) {
   while (true) {
     solution.finer.reset();
-    if (2 * Total(MeshOf(*solution.trajectory).Intervals()) > kMostIntervals) {
+    if (2 * TotalIntervals(MeshOf(*solution.trajectory)) > kMostIntervals) {
       solution.message += " The errors are not estimated: a mesh of half the intervals' length would have more than " +
                           std::to_string(kMostIntervals) + " intervals.";
       return solution;

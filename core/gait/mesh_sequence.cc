@@ -77,6 +77,10 @@ bool IsBounded(const GaitSpec& spec) { return spec.bounds != NoBounds(); }
 // 1e-2 one.
 constexpr double kFirstJudged = 1e-2;
 
+std::string WouldBeTooFine() {
+  return " A finer mesh would have more than " + std::to_string(kMostIntervals) + " intervals.";
+}
+
 // Nothing is left for a finer mesh to do.
 bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verdict::Kind::kExceeded; }
 
@@ -214,11 +218,19 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       // and velocities between the nodes, so those that did are bounded there (docs/explanation/optimizer.md).
       AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
       mesh = Halved(mesh);
+      if (TotalIntervals(mesh) > kMostIntervals) {
+        remark = WouldBeTooFine();
+        break;
+      }
       previous = {};
       continue;
     }
     const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(spec, solution.meshes));
     const bool is_finer = finer.fractions != mesh.fractions;
+    if (is_finer && TotalIntervals(finer) > kMostIntervals) {
+      remark = WouldBeTooFine();
+      break;
+    }
     const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
     if (is_finer ? refinements++ == spec.max_refinements : !adds || additions++ == kMostAdditions) break;
     mesh = finer;
@@ -267,7 +279,10 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
   if (IsBounded(spec) && IsAtLeastAsFine(other, mesh)) mesh = other;
   Predecessor previous = PredecessorOf(spec, problem, *spec.warm_start, other);
   const bool used_multipliers = previous.nlp != nullptr;
-  if (report != nullptr && IsSameMesh(mesh, other)) mesh = RefineMesh(mesh, spec, trajectory, *report, false);
+  if (report != nullptr && IsSameMesh(mesh, other)) {
+    Mesh finer = RefineMesh(mesh, spec, trajectory, *report, false);
+    if (TotalIntervals(finer) <= kMostIntervals) mesh = std::move(finer);
+  }
   NlpOptions options = SettingsFor(start_of, spec);
   options.max_iterations = max_iterations;
   GaitSolution solution =

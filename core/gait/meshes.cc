@@ -16,6 +16,12 @@ bool IsSamePhase(const std::vector<double>& phase, const std::vector<double>& ot
 
 }  // namespace
 
+int TotalIntervals(const Mesh& mesh) {
+  size_t total = 0;
+  for (const std::vector<double>& phase : mesh.fractions) total += phase.size();
+  return static_cast<int>(total);
+}
+
 Mesh RequestedMesh(const GaitSpec& spec) {
   std::vector<int> intervals;
   for (const GaitSpec::Phase& phase : spec.phases) intervals.push_back(phase.intervals);

@@ -6,6 +6,13 @@
 
 namespace rollgait {
 
+// Of a mesh that a search makes by itself, at most: human29 then takes about 2 GB, half of what a solver is given by
+// default, and a solver that runs out of memory would lose the solution that it had. A request may ask for more.
+inline constexpr int kMostIntervals = 1000;
+
+// Of all phases.
+int TotalIntervals(const Mesh& mesh);
+
 // The mesh that the request asks for.
 Mesh RequestedMesh(const GaitSpec& spec);
 

@@ -22,6 +22,8 @@ TEST(Meshes, ATrajectorysMeshIsReadFromTheTimesOfItsNodes) {
   EXPECT_NE(mesh.fractions, kMesh.fractions) << "rounded";
 }
 
+TEST(Meshes, TheIntervalsOfAllPhasesCount) { EXPECT_EQ(TotalIntervals(kMesh), 5); }
+
 TEST(Meshes, AreTheSameUpToRounding) {
   EXPECT_TRUE(IsSameMesh(kMesh, Moved(1e-12)));
   EXPECT_FALSE(IsSameMesh(kMesh, Moved(1e-6)));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/gait/added_constraints.h"
+#include "core/gait/meshes.h"
 #include "core/gait/optimizing_gait_solver.h"
 
 namespace rollgait {
@@ -78,6 +79,24 @@ TEST(VerdictOfAGait, NamesTheBoundThatIsNotMet) {
   EXPECT_EQ(solution.verdict.excesses.front().criterion, Criterion::kPositionDefect);
   EXPECT_NE(solution.message.find("difference of positions after re-integration"), std::string::npos)
       << solution.message;
+}
+
+// Refinement ends with a mesh that a solver's memory holds, and says so.
+TEST(VerdictOfAGait, SaysThatAFinerMeshWouldBeTooFine) {
+  GaitRequest request;
+  request.body.model = "planar";
+  request.preset = Preset::kHuman;
+  request.motion.speed = 1.3;
+  request.accuracy.bounds[Criterion::kSlip] = 1e-8;
+  const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(request).value(), {});
+  EXPECT_EQ(solution.verdict.kind, Verdict::Kind::kExceeded);
+  EXPECT_NE(solution.message.find("more than 1000 intervals"), std::string::npos) << solution.message;
+  ASSERT_GT(solution.meshes.size(), 2u);
+  for (const MeshStatistics& mesh : solution.meshes) {
+    int total = 0;
+    for (const int intervals : mesh.intervals) total += intervals;
+    EXPECT_LE(total, kMostIntervals);
+  }
 }
 
 // Joints that leave their limits between the nodes of one phase are found by name and phase, and once only.
