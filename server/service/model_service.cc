@@ -101,15 +101,10 @@ Outcome<v1::Model> ModelService::GetStored(const Caller& caller, const v1::Model
 }
 
 Outcome<v1::ListModelsResponse> ModelService::ListModels(const Caller& caller, const v1::ListModelsRequest& request) {
-  constexpr int kDefaultPage = 50, kMaxPage = 1000;
   Violations violations = CheckRequest(request);
-  if (request.page_size() < 0 || request.page_size() > kMaxPage) {
-    violations.push_back({"page_size", "is " + std::to_string(request.page_size()) + ", must be from 1 to " +
-                                           std::to_string(kMaxPage) + " (0: " + std::to_string(kDefaultPage) + ")"});
-  }
+  const int page_size = CheckPageSize(request.page_size(), &violations);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
-  const Outcome<ModelPage> page = store_.ListModels(
-      {caller.tenant, request.page_size() == 0 ? kDefaultPage : request.page_size(), request.page_token()});
+  const Outcome<ModelPage> page = store_.ListModels({caller.tenant, page_size, request.page_token()});
   if (!page.ok()) return page.error();
   v1::ListModelsResponse response;
   if (request.page_token().empty()) response = knowledge_.list_models();

@@ -182,6 +182,15 @@ void AddPrefix(const std::string& prefix, Violations& violations) {
   for (Violation& violation : violations) violation.field.insert(0, prefix);
 }
 
+int CheckPageSize(int asked, Violations* violations) {
+  constexpr int kDefault = 50, kMost = 1000;
+  if (asked < 0 || asked > kMost) {
+    violations->push_back({"page_size", "is " + std::to_string(asked) + ", must be from 1 to " + std::to_string(kMost) +
+                                            " (0: " + std::to_string(kDefault) + ")"});
+  }
+  return asked == 0 ? kDefault : asked;
+}
+
 Violations CheckRequestId(const std::string& request_id) {
   constexpr size_t kLimit = 128;
   if (request_id.size() > kLimit) {

@@ -29,6 +29,9 @@ Violations CheckRequest(const google::protobuf::Message& request);
 // Puts `prefix` before the path of every violation.
 void AddPrefix(const std::string& prefix, Violations& violations);
 
+// How many a page of a list holds at most: `asked` is from 1 to 1000; 0: 50. Refuses others.
+int CheckPageSize(int asked, Violations* violations);
+
 // Refuses an id of more than 128 bytes or with other than printable ASCII characters. Empty is allowed.
 Violations CheckRequestId(const std::string& request_id);
 

@@ -142,17 +142,12 @@ Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSo
 }
 
 Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, const v1::ListSolvesRequest& request) {
-  constexpr int kDefaultPage = 50, kMaxPage = 1000;
   Violations violations = CheckRequest(request);
-  if (request.page_size() < 0 || request.page_size() > kMaxPage) {
-    violations.push_back({"page_size", "is " + std::to_string(request.page_size()) + ", must be from 1 to " +
-                                           std::to_string(kMaxPage) + " (0: " + std::to_string(kDefaultPage) + ")"});
-  }
+  const int page_size = CheckPageSize(request.page_size(), &violations);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   const Outcome<std::optional<std::string>> tenant = TenantToList(caller, request.tenant());
   if (!tenant.ok()) return tenant.error();
-  ListQuery query{request.page_size() == 0 ? kDefaultPage : request.page_size(), request.page_token(), std::nullopt,
-                  tenant.value()};
+  ListQuery query{page_size, request.page_token(), std::nullopt, tenant.value()};
   if (request.state() != v1::SOLVE_STATE_UNSPECIFIED) query.state = static_cast<SolveState>(request.state());
   const Outcome<SolvePage> page = store_.List(query);
   if (!page.ok()) return page.error();

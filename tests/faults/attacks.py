@@ -127,6 +127,15 @@ class Attacker:
             time.sleep(0.01)
 
     @staticmethod
+    def eight_times(work):
+        """At once, each in a thread of its own."""
+        threads = [threading.Thread(target=work, daemon=True) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+
+    @staticmethod
     def take_credit(buffer, credit):
         """Takes whole frames off what was received and adds the windows that they open."""
         while len(buffer) >= 9 and len(buffer) >= 9 + int.from_bytes(buffer[:3], "big"):
@@ -244,11 +253,7 @@ class Attacker:
                     credit[0] -= 16384
                     credit[stream] -= 16384
                 peer.close()
-        threads = [threading.Thread(target=pour, daemon=True) for _ in range(8)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        self.eight_times(pour)
 
     def compressed_bodies(self):
         """Calls of 8 KB each, short to the door, that unfold into 8 MB."""
@@ -273,11 +278,7 @@ class Attacker:
                     credit[0] -= len(message)
                     stream += 2
                 peer.close()
-        threads = [threading.Thread(target=pour, daemon=True) for _ in range(8)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        self.eight_times(pour)
 
     def unread_refusals(self):
         """Calls without a token whose refusals are never read."""

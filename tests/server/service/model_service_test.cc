@@ -7,14 +7,6 @@
 namespace rollgait::server {
 namespace {
 
-Caller CallerOf(const std::string& tenant) {
-  Caller caller;
-  caller.authentication = Authentication::kToken;
-  caller.tenant = tenant;
-  caller.scopes = kAllScopes;
-  return caller;
-}
-
 v1::CreateModelRequest Walker(double mass = 70) {
   v1::CreateModelRequest request;
   request.mutable_model()->mutable_summary()->set_name("walker");
@@ -32,12 +24,6 @@ v1::CreateSolveRequest SolveWith(const std::string& model) {
   v1::CreateSolveRequest request;
   *request.mutable_spec() = PlanarSpec();
   request.mutable_spec()->mutable_model()->set_name(model);
-  return request;
-}
-
-v1::DeleteModelRequest Removal(const std::string& name) {
-  v1::DeleteModelRequest request;
-  request.set_name(name);
   return request;
 }
 
@@ -97,7 +83,8 @@ TEST(ModelServiceTest, AnotherTenantNeitherSeesNorUsesNorDeletesIt) {
   const Caller rival = CallerOf("rival");
   EXPECT_EQ(models.GetModel(rival, Get("models/walker")).error().code, ErrorCode::kNotFound);
   EXPECT_EQ(models.ListModels(rival, {}).value().models_size(), 1) << "the one of the list";
-  EXPECT_EQ(models.DeleteModel(rival, Removal("models/walker")).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(models.DeleteModel(rival, Named<v1::DeleteModelRequest>("models/walker")).error().code,
+            ErrorCode::kNotFound);
   const Error refused = bench.service().CreateSolve(rival, SolveWith("models/walker")).error();
   EXPECT_EQ(refused.code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(refused.violations[0].field, "spec.model.name");
@@ -113,7 +100,7 @@ TEST(ModelServiceTest, ASolveKeepsTheModelItUsed) {
   const v1::Solve solve = bench.service().CreateSolve(caller, SolveWith("models/walker")).value();
   EXPECT_EQ(solve.spec().model().name(), "");
   EXPECT_EQ(solve.spec().model().own().SerializeAsString(), content.SerializeAsString());
-  ASSERT_TRUE(models.DeleteModel(caller, Removal("models/walker")).ok());
+  ASSERT_TRUE(models.DeleteModel(caller, Named<v1::DeleteModelRequest>("models/walker")).ok());
   const Lease lease = bench.Claim();
   v1::SolveSpec claimed;
   ASSERT_TRUE(claimed.ParseFromString(bench.store().Get(lease.solve_id).value().spec));
@@ -150,8 +137,9 @@ TEST(ModelServiceTest, BrokenModelsAndNamesAreRefused) {
   v1::GetModelRequest scaled = Get("models/walker");
   scaled.mutable_model()->set_stature_m(1.8);
   EXPECT_EQ(models.GetModel(caller, scaled).error().violations[0].field, "model.stature_m");
-  EXPECT_EQ(models.DeleteModel(caller, Removal("models/walker@1")).error().violations[0].field, "name");
-  EXPECT_EQ(models.DeleteModel(caller, Removal("planar")).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(models.DeleteModel(caller, Named<v1::DeleteModelRequest>("models/walker@1")).error().violations[0].field,
+            "name");
+  EXPECT_EQ(models.DeleteModel(caller, Named<v1::DeleteModelRequest>("planar")).error().code, ErrorCode::kNotFound);
 }
 
 TEST(ModelServiceTest, WhatATenantStoresIsBounded) {

@@ -65,6 +65,22 @@ inline GaitKnowledge SmallKnowledge() {
 inline const auto kHoldAll = [](int64_t) -> Outcome<Done> { return Done{}; };
 inline const auto kHoldNone = [](int64_t) -> Outcome<Done> { return Error{ErrorCode::kResourceExhausted, "no room"}; };
 
+inline Caller CallerOf(const std::string& tenant, unsigned scopes = kScopeRead | kScopeSolve) {
+  Caller caller;
+  caller.authentication = Authentication::kToken;
+  caller.tenant = tenant;
+  caller.scopes = scopes;
+  return caller;
+}
+
+// A request that names a solve or a model and says nothing else.
+template <typename Request>
+Request Named(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
+}
+
 inline v1::SolveSpec PlanarSpec(double slope = 0.1) {
   v1::SolveSpec spec;
   spec.mutable_model()->set_name("planar");

@@ -19,23 +19,16 @@ v1::CreateSolveRequest CreateRequest(const v1::SolveSpec& spec, const std::strin
   return request;
 }
 
-template <typename Request>
-Request Named(const std::string& id) {
-  Request request;
-  request.set_name("solves/" + id);
-  return request;
-}
-
 TEST(SolveServiceTest, CreateGetListAndDelete) {
   ServiceBench bench;
   const v1::Solve created = bench.service().CreateSolve({}, CreateRequest(PlanarSpec())).value();
   EXPECT_EQ(created.state(), v1::SOLVE_STATE_QUEUED);
   EXPECT_EQ(created.spec().slope_rad(), 0.1);
   const std::string id = created.name().substr(7);
-  EXPECT_EQ(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).error().code,
+  EXPECT_EQ(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(SolveName(id))).error().code,
             ErrorCode::kFailedPrecondition);
   bench.Finish(bench.Claim());
-  const SolveBytes bytes = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), kHoldAll).value();
+  const SolveBytes bytes = bench.service().GetSolve({}, Named<v1::GetSolveRequest>(SolveName(id)), kHoldAll).value();
   v1::Solve done;
   ASSERT_TRUE(done.ParseFromString(bytes.head + bytes.result));
   EXPECT_EQ(done.state(), v1::SOLVE_STATE_SUCCEEDED);
@@ -43,8 +36,9 @@ TEST(SolveServiceTest, CreateGetListAndDelete) {
   const v1::ListSolvesResponse list = bench.service().ListSolves({}, {}).value();
   ASSERT_EQ(list.solves_size(), 1);
   EXPECT_FALSE(list.solves(0).has_result());
-  EXPECT_TRUE(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(id)).ok());
-  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), kHoldAll).error().code, ErrorCode::kNotFound);
+  EXPECT_TRUE(bench.service().DeleteSolve({}, Named<v1::DeleteSolveRequest>(SolveName(id))).ok());
+  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(SolveName(id)), kHoldAll).error().code,
+            ErrorCode::kNotFound);
 }
 
 TEST(SolveServiceTest, AnAnswerIsReadOnlyOnceThereIsRoomForIt) {
@@ -57,7 +51,7 @@ TEST(SolveServiceTest, AnAnswerIsReadOnlyOnceThereIsRoomForIt) {
     asked = bytes;
     return Error{ErrorCode::kResourceExhausted, "no room"};
   };
-  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(id), hold).error().message, "no room");
+  EXPECT_EQ(bench.service().GetSolve({}, Named<v1::GetSolveRequest>(SolveName(id)), hold).error().message, "no room");
   EXPECT_EQ(asked, static_cast<int64_t>(record.spec.size() + record.result.size()));
 }
 
@@ -156,10 +150,10 @@ TEST(SolveServiceTest, AnEqualRequestIsAnsweredFromTheStoreUnlessForbidden) {
 TEST(SolveServiceTest, CancelEndsAQueuedSolve) {
   ServiceBench bench;
   const std::string id = bench.Create();
-  const v1::Solve solve = bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>(id)).value();
+  const v1::Solve solve = bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>(SolveName(id))).value();
   EXPECT_EQ(solve.state(), v1::SOLVE_STATE_CANCELLED);
   EXPECT_EQ(solve.error().kind(), v1::SolveError::KIND_CANCELLED);
-  EXPECT_EQ(bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>("none")).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>("solves/none")).error().code, ErrorCode::kNotFound);
 }
 
 TEST(SolveServiceTest, ListRefusesBadPages) {

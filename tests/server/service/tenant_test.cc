@@ -12,42 +12,31 @@
 namespace rollgait::server {
 namespace {
 
-Caller Of(const std::string& tenant) {
-  Caller caller;
-  caller.authentication = Authentication::kToken;
-  caller.tenant = tenant;
-  caller.scopes = kScopeRead | kScopeSolve;
-  return caller;
-}
-
 TEST(TenantTest, ASolveOfAnotherTenantDoesNotExist) {
   ServiceBench bench;
   SolveService& service = bench.service();
   v1::CreateSolveRequest create;
   *create.mutable_spec() = PlanarSpec();
-  const std::string name = service.CreateSolve(Of("acme"), create).value().name();
+  const std::string name = service.CreateSolve(CallerOf("acme"), create).value().name();
   const std::string id = SolveId(name).value();
-  v1::GetSolveRequest get;
-  get.set_name(name);
-  v1::CancelSolveRequest cancel;
-  cancel.set_name(name);
-  v1::DeleteSolveRequest remove;
-  remove.set_name(name);
-  ASSERT_TRUE(service.GetSolve(Of("acme"), get, kHoldAll).ok());
-  EXPECT_EQ(service.FindFor(Of("acme"), name).value(), id);
-  const Error none = service.GetSolve(Of("rival"), get, kHoldNone).error();
+  const auto get = Named<v1::GetSolveRequest>(name);
+  const auto cancel = Named<v1::CancelSolveRequest>(name);
+  const auto remove = Named<v1::DeleteSolveRequest>(name);
+  ASSERT_TRUE(service.GetSolve(CallerOf("acme"), get, kHoldAll).ok());
+  EXPECT_EQ(service.FindFor(CallerOf("acme"), name).value(), id);
+  const Error none = service.GetSolve(CallerOf("rival"), get, kHoldNone).error();
   EXPECT_EQ(none.code, ErrorCode::kNotFound);
-  EXPECT_EQ(service.CancelSolve(Of("rival"), cancel).error().message, none.message);
-  EXPECT_EQ(service.DeleteSolve(Of("rival"), remove).error().message, none.message);
-  EXPECT_EQ(service.FindFor(Of("rival"), name).error().message, none.message);
-  EXPECT_EQ(service.ListSolves(Of("rival"), {}).value().solves_size(), 0);
-  EXPECT_EQ(service.ListSolves(Of("acme"), {}).value().solves_size(), 1);
-  EXPECT_EQ(service.GetServerInfo(Of("rival"), {}).value().queued(), 0);
-  EXPECT_EQ(service.GetServerInfo(Of("acme"), {}).value().queued(), 1);
+  EXPECT_EQ(service.CancelSolve(CallerOf("rival"), cancel).error().message, none.message);
+  EXPECT_EQ(service.DeleteSolve(CallerOf("rival"), remove).error().message, none.message);
+  EXPECT_EQ(service.FindFor(CallerOf("rival"), name).error().message, none.message);
+  EXPECT_EQ(service.ListSolves(CallerOf("rival"), {}).value().solves_size(), 0);
+  EXPECT_EQ(service.ListSolves(CallerOf("acme"), {}).value().solves_size(), 1);
+  EXPECT_EQ(service.GetServerInfo(CallerOf("rival"), {}).value().queued(), 0);
+  EXPECT_EQ(service.GetServerInfo(CallerOf("acme"), {}).value().queued(), 1);
   // In the store's own words for what is not there.
-  ASSERT_TRUE(service.CancelSolve(Of("acme"), cancel).ok());
-  ASSERT_TRUE(service.DeleteSolve(Of("acme"), remove).ok());
-  EXPECT_EQ(service.GetSolve(Of("acme"), get, kHoldAll).error().message, none.message);
+  ASSERT_TRUE(service.CancelSolve(CallerOf("acme"), cancel).ok());
+  ASSERT_TRUE(service.DeleteSolve(CallerOf("acme"), remove).ok());
+  EXPECT_EQ(service.GetSolve(CallerOf("acme"), get, kHoldAll).error().message, none.message);
 }
 
 TEST(TenantTest, AnAdministratorListsCancelsAndDeletesForEveryTenant) {
@@ -55,10 +44,9 @@ TEST(TenantTest, AnAdministratorListsCancelsAndDeletesForEveryTenant) {
   SolveService& service = bench.service();
   v1::CreateSolveRequest create;
   *create.mutable_spec() = PlanarSpec();
-  const std::string name = service.CreateSolve(Of("acme"), create).value().name();
-  ASSERT_TRUE(service.CreateSolve(Of("rival"), create).ok());
-  Caller administrator = Of("operators");
-  administrator.scopes = kAllScopes;
+  const std::string name = service.CreateSolve(CallerOf("acme"), create).value().name();
+  ASSERT_TRUE(service.CreateSolve(CallerOf("rival"), create).ok());
+  const Caller administrator = CallerOf("operators", kAllScopes);
   const auto listed = [&](const Caller& caller, const std::string& tenant) {
     v1::ListSolvesRequest list;
     list.set_tenant(tenant);
@@ -71,22 +59,19 @@ TEST(TenantTest, AnAdministratorListsCancelsAndDeletesForEveryTenant) {
   EXPECT_EQ(listed(administrator, ""), "");
   EXPECT_EQ(listed(administrator, "acme"), "acme ");
   EXPECT_EQ(listed(administrator, "-"), "rival acme ");
-  EXPECT_EQ(listed(Of("acme"), "acme"), "acme ");
-  EXPECT_EQ(listed(Of("acme"), "rival"), "refused");
-  EXPECT_EQ(listed(Of("acme"), "-"), "refused");
+  EXPECT_EQ(listed(CallerOf("acme"), "acme"), "acme ");
+  EXPECT_EQ(listed(CallerOf("acme"), "rival"), "refused");
+  EXPECT_EQ(listed(CallerOf("acme"), "-"), "refused");
   EXPECT_EQ(listed(Caller(), "-"), "rival acme ") << "where it is not asked who calls";
   v1::ListSolvesRequest others;
   others.set_tenant("rival");
-  const Error refused = service.ListSolves(Of("acme"), others).error();
+  const Error refused = service.ListSolves(CallerOf("acme"), others).error();
   EXPECT_EQ(refused.code, ErrorCode::kPermissionDenied);
   EXPECT_NE(refused.message.find("scope admin"), std::string::npos);
 
-  v1::GetSolveRequest get;
-  get.set_name(name);
-  v1::CancelSolveRequest cancel;
-  cancel.set_name(name);
-  v1::DeleteSolveRequest remove;
-  remove.set_name(name);
+  const auto get = Named<v1::GetSolveRequest>(name);
+  const auto cancel = Named<v1::CancelSolveRequest>(name);
+  const auto remove = Named<v1::DeleteSolveRequest>(name);
   EXPECT_TRUE(service.GetSolve(administrator, get, kHoldAll).ok());
   EXPECT_EQ(service.CancelSolve(administrator, cancel).value().state(), v1::SOLVE_STATE_CANCELLED);
   EXPECT_TRUE(service.DeleteSolve(administrator, remove).ok());
@@ -103,23 +88,23 @@ TEST(TenantTest, ResultsAndRequestIdsAreOfOneTenant) {
   v1::CreateSolveRequest create;
   *create.mutable_spec() = PlanarSpec();
   create.set_request_id("mine");
-  const std::string first = bench.service().CreateSolve(Of("acme"), create).value().name();
+  const std::string first = bench.service().CreateSolve(CallerOf("acme"), create).value().name();
   bench.Finish(bench.Claim());
-  const v1::Solve rival = bench.service().CreateSolve(Of("rival"), create).value();
+  const v1::Solve rival = bench.service().CreateSolve(CallerOf("rival"), create).value();
   EXPECT_NE(rival.name(), first);
   EXPECT_FALSE(rival.from_cache());
-  EXPECT_EQ(bench.service().CreateSolve(Of("acme"), create).value().name(), first);
+  EXPECT_EQ(bench.service().CreateSolve(CallerOf("acme"), create).value().name(), first);
   create.set_request_id("mine too");
-  EXPECT_TRUE(bench.service().CreateSolve(Of("acme"), create).value().from_cache());
+  EXPECT_TRUE(bench.service().CreateSolve(CallerOf("acme"), create).value().from_cache());
   v1::CreateSolveRequest warm;
   *warm.mutable_spec() = PlanarSpec();
   warm.mutable_spec()->set_warm_start(first);
-  EXPECT_EQ(bench.service().CreateSolve(Of("rival"), warm).error().violations[0].field, "spec.warm_start");
+  EXPECT_EQ(bench.service().CreateSolve(CallerOf("rival"), warm).error().violations[0].field, "spec.warm_start");
 }
 
 TEST(TenantTest, TheQuotaOfATenantIsHisOwn) {
   ServiceBench bench;
-  Caller acme = Of("acme");
+  Caller acme = CallerOf("acme");
   acme.limits.max_queued = 1;
   v1::CreateSolveRequest create;
   *create.mutable_spec() = PlanarSpec(0.1);
@@ -130,7 +115,7 @@ TEST(TenantTest, TheQuotaOfATenantIsHisOwn) {
   ASSERT_TRUE(full.quota.has_value());
   EXPECT_EQ(full.quota->subject, "tenant:acme");
   EXPECT_TRUE(full.retry_after.has_value());
-  EXPECT_TRUE(bench.service().CreateSolve(Of("rival"), create).ok());
+  EXPECT_TRUE(bench.service().CreateSolve(CallerOf("rival"), create).ok());
 }
 
 }  // namespace
