@@ -153,7 +153,8 @@ TEST(SolveServiceTest, CancelEndsAQueuedSolve) {
   const v1::Solve solve = bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>(SolveName(id))).value();
   EXPECT_EQ(solve.state(), v1::SOLVE_STATE_CANCELLED);
   EXPECT_EQ(solve.error().kind(), v1::SolveError::KIND_CANCELLED);
-  EXPECT_EQ(bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>("solves/none")).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.service().CancelSolve({}, Named<v1::CancelSolveRequest>("solves/none")).error().code,
+            ErrorCode::kNotFound);
 }
 
 TEST(SolveServiceTest, ListRefusesBadPages) {
