@@ -161,7 +161,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   const CheckedAccuracy accuracy =
       CheckAccuracy(request.accuracy, similarity, request.limits.allow_body_overlap, check);
   const int max_iterations = check.Integer("solver_limits.max_iterations", request.solver_limits.max_iterations,
-                                           once ? 5000 : 1000, 1, 100000);
+                                           once ? 5000 : 3000, 1, 100000);
   const double max_wall_time =
       check.Number("solver_limits.max_wall_time_s", request.solver_limits.max_wall_time, 600, {0.01, 86400, "s"});
   const int starts = check.Integer("starts", request.starts, 1, 1, 32);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/gait/added_constraints.h"
 #include "core/gait/mesh_sequence.h"
 
 namespace rollgait {
@@ -183,6 +184,12 @@ WarmStart BothSteps(const GaitSpec& spec, const GaitSolution& half) {
     both.phases.push_back(SecondStep(both.phases[p], spec.phases[count + p].contacts, both.duration, mirror));
     start.added.between.push_back(mirror.Bounds(start.added.between[p]));
   }
+  // Bodies that are kept apart in one step are so in the other, on the other side.
+  std::vector<int> images;
+  for (const int pair : start.added.separated) {
+    images.push_back(spec.scene.pairs[static_cast<size_t>(pair)].mirror_pair);
+  }
+  KeepApart(images, &start.added);
   StartInTheMiddle(spec.scene, &both);
   both.cycle = Cycle::kFull;
   both.duration *= 2;

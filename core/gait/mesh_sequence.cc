@@ -63,8 +63,16 @@ struct Predecessor {
   NlpResult result;
 };
 
+// Settings of a program that starts from a solution. One that does not end soon is lost.
+NlpOptions SettingsNear(StartOf start, const GaitSpec& spec) {
+  constexpr int kMostIterations = 300;  // those that succeed take 5 to 200
+  NlpOptions options = SettingsFor(start, spec);
+  options.max_iterations = std::min(options.max_iterations, kMostIterations);
+  return options;
+}
+
 NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
-  return SettingsFor(guess.near_solution ? StartOf::kFinerMesh : StartOf::kGuess, spec);
+  return guess.near_solution ? SettingsNear(StartOf::kFinerMesh, spec) : SettingsFor(StartOf::kGuess, spec);
 }
 
 // Whether the motion between the nodes counts; without bounds (draft) it does not.
@@ -139,7 +147,7 @@ void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBud
   const Mesh mesh = MeshOf(start.trajectory);
   const Predecessor finished =
       SolveOneMesh(spec, problem, mesh, start.added, GuessFromTrajectory(start.trajectory),
-                   PredecessorOf(spec, problem, start, mesh), SettingsFor(StartOf::kSameMesh, spec), false, budget);
+                   PredecessorOf(spec, problem, start, mesh), SettingsNear(StartOf::kSameMesh, spec), false, budget);
   MeshStatistics statistics = Describe(spec, *finished.nlp, finished.result);
   solution->termination = finished.result.termination;
   solution->message = finished.result.message;
@@ -198,7 +206,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;
       guess = GuessFromTrajectory(*solution.trajectory);
-      options = SettingsFor(StartOf::kFinerMesh, spec);
+      options = SettingsNear(StartOf::kFinerMesh, spec);
       previous = std::move(current);
       continue;
     }
@@ -207,7 +215,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       // Bodies that overlapped move a long way: on the same mesh first, and as from the solution of a neighbour.
       ++additions;
       guess = GuessFromTrajectory(*solution.trajectory);
-      options = SettingsFor(StartOf::kNeighbour, spec);
+      options = SettingsNear(StartOf::kNeighbour, spec);
       previous = std::move(current);
       continue;
     }
@@ -323,6 +331,11 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
 GaitSolution SolveFromNeighbour(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget) {
   return SolveFromStored(spec, problem, StartOf::kNeighbour, max_iterations, nullptr, budget);
+}
+
+GaitSolution SolveFromImage(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                            SolveBudget* budget) {
+  return SolveFromStored(spec, problem, StartOf::kImage, max_iterations, nullptr, budget);
 }
 
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,

@@ -33,6 +33,10 @@ GaitSolution SolveFromWarmStart(const GaitSpec& spec, const OptimalControlProble
 GaitSolution SolveFromNeighbour(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
                                 SolveBudget* budget);
 
+// The same where the spec's warm start consists of the solution of half of the request and its mirror image.
+GaitSolution SolveFromImage(const GaitSpec& spec, const OptimalControlProblem& problem, int max_iterations,
+                            SolveBudget* budget);
+
 // The same where the spec's warm start is `smoother`, the solution of the same request with smoother powers. With
 // bounds the first mesh is refined where the motion of `smoother` misses them.
 GaitSolution SolveFromSmoother(const GaitSpec& spec, const OptimalControlProblem& problem, const GaitSolution& smoother,

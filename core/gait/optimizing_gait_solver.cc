@@ -139,7 +139,7 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   GaitSpec both = spec;
   both.warm_start = BothSteps(spec, step);
   constexpr int kMostIterations = 200;  // of one program; the four requests that optimizer.md names took 30 to 100
-  GaitSolution solution = SolveFromNeighbour(both, *BuildProblem(both), kMostIterations, budget);
+  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), kMostIterations, budget);
   if (!Answers(solution)) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     return std::nullopt;

@@ -13,6 +13,7 @@ enum class StartOf {
   kSmoother,      // the solution of this problem with smoother powers, on a coarser mesh
   kOtherRequest,  // the solution of another request
   kFinerMesh,     // the solution of this problem on a coarser mesh
+  kImage,         // the solution of half of this problem and its mirror image
   kSameMesh,      // the solution of this problem on a mesh whose intervals are nowhere longer
 };
 

@@ -10,14 +10,16 @@ constexpr double kKappaSigma = 1e10;
 }  // namespace
 
 void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
-                           const NlpStart& start, Multipliers* multipliers) {
+                           const NlpStart& start, bool estimate, Multipliers* multipliers) {
   const int n = barrier.variables();
   const bool warm = start.constraint_multipliers.size() > 0;
   multipliers->lower.setZero(barrier.unknowns());
   multipliers->upper.setZero(barrier.unknowns());
   for (int i = 0; i < barrier.unknowns(); ++i) {
     const double row = warm && i >= n ? multipliers->y(barrier.slack_rows()[i - n]) : 0;
-    const auto first = [&](double given, double distance) { return warm ? std::max(given, mu / distance) : 1.0; };
+    const auto first = [&](double given, double distance) {
+      return warm || estimate ? std::max(given, mu / distance) : 1.0;
+    };
     if (barrier.has_lower(i)) {
       const double given = warm && i < n ? start.lower_bound_multipliers(i) : -row;
       multipliers->lower(i) = first(given, point.w(i) - barrier.lower(i));

@@ -7,9 +7,10 @@
 namespace rollgait {
 
 // Multipliers of the bounds of w at the first point: 1 of a cold start; of a warm one those of `start`, and of its rows
-// for slacks (multipliers->y), but no smaller than on the central path at the point's distances.
+// for slacks (multipliers->y), but no smaller than on the central path at the point's distances; those of the central
+// path where they are to be estimated (NlpOptions).
 void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
-                           const NlpStart& start, Multipliers* multipliers);
+                           const NlpStart& start, bool estimate, Multipliers* multipliers);
 
 // Keeps them within a factor of 1e10 of those of the central path (Wächter and Biegler, eq. 16).
 void KeepNearCentralPath(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/nlp/barrier_parameter.h"
 #include "core/nlp/bound_multipliers.h"
 #include "core/nlp/newton_step.h"
 #include "core/nlp/optimality.h"
@@ -18,8 +19,7 @@ using Clock = std::chrono::steady_clock;
 using Point = BarrierProblem::Point;
 
 // Constants of the algorithm; names as in Wächter and Biegler, values as in Ipopt.
-constexpr double kTauMin = 0.99, kKappaMu = 0.2;
-constexpr double kKappaSoc = 0.99, kPush = 0.01, kKappaEnd = 10;
+constexpr double kKappaSoc = 0.99, kPush = 0.01, kMostMultiplier = 1000;
 constexpr int kMostCorrections = 4;
 // Of recentred steps: shorter ones are worth it; how much longer they are to be, and the part of that which is enough.
 constexpr double kLongStep = 0.9, kLengthening = 0.6, kLeastGain = 0.1;
@@ -37,6 +37,7 @@ class Solver {
         resumption_(resumption),
         barrier_(problem),
         newton_(barrier_, options),
+        parameter_(options),
         begin_(Clock::now()) {}
 
   InteriorPointResult Run() {
@@ -52,16 +53,16 @@ class Solver {
   enum class Search { kStep, kTinyStep, kFailed };
 
   bool Begin() {
-    mu_ = options_.initial_barrier;
-    tau_ = std::max(kTauMin, 1 - mu_);
     const bool warm = start_.constraint_multipliers.size() > 0;
-    const double warm_push = std::min(kPush, options_.warm_push > 0 ? options_.warm_push : mu_);
-    if (!barrier_.MakeInterior(start_.x, warm ? warm_push : kPush, &point_)) return false;
+    const bool estimates = !warm && options_.estimate_multipliers;
+    const double warm_push = std::min(kPush, options_.warm_push > 0 ? options_.warm_push : parameter_.mu());
+    if (!barrier_.MakeInterior(start_.x, warm || estimates ? warm_push : kPush, &point_)) return false;
     gradient_.resize(barrier_.variables());
     multipliers_.y = warm ? start_.constraint_multipliers : VectorX(VectorX::Zero(barrier_.rows()));
-    StartBoundMultipliers(barrier_, point_, mu_, start_, &multipliers_);
+    StartBoundMultipliers(barrier_, point_, parameter_.mu(), start_, estimates, &multipliers_);
     if (!barrier_.Gradient(point_, &gradient_)) return false;
-    if (!warm && !newton_.StartRowMultipliers(point_, gradient_, &multipliers_)) return false;
+    const double most = estimates ? kInfinity : kMostMultiplier;
+    if (!warm && !newton_.StartRowMultipliers(point_, gradient_, most, &multipliers_)) return false;
     for (const int row : barrier_.free_rows()) multipliers_.y(row) = 0;
     if (!Linearise()) return false;
     acceptance_.Begin(point_.theta);
@@ -71,8 +72,7 @@ class Solver {
   bool Resume(const InteriorPointState& state) {
     iteration_ = state.iteration;
     before_s_ = state.elapsed_s;
-    mu_ = state.mu;
-    tau_ = std::max(kTauMin, 1 - mu_);
+    parameter_.Restore(state.barrier);
     tiny_steps_ = state.tiny_steps;
     asked_ = state.asked;
     barrier_.MoveBounds(state.moved_bounds);
@@ -90,7 +90,7 @@ class Solver {
             Elapsed(),
             point_.w,
             multipliers_,
-            mu_,
+            parameter_.memory(),
             acceptance_.memory(),
             newton_.memory(),
             barrier_.MovedBounds(),
@@ -124,7 +124,7 @@ class Solver {
       if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
       ReduceBarrier(tiny_steps_ > 1);
       if (tiny_steps_ > 3) return Termination::kNumericalDifficulty;
-      if (!newton_.Compute(point_, multipliers_, lagrangian_, mu_, &step_)) {
+      if (!newton_.Compute(point_, multipliers_, lagrangian_, parameter_.mu(), &step_)) {
         needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
       }
@@ -134,8 +134,9 @@ class Solver {
         return Termination::kNumericalDifficulty;
       }
       tiny_steps_ = outcome == Search::kTinyStep ? tiny_steps_ + 1 : 0;
-      barrier_.KeepDistance(point_.w, mu_);
-      KeepNearCentralPath(barrier_, point_, mu_, &multipliers_);
+      if (parameter_.RaiseWhereStepsAreShort(primal_step_)) acceptance_.ForgetFilter();
+      barrier_.KeepDistance(point_.w, parameter_.mu());
+      KeepNearCentralPath(barrier_, point_, parameter_.mu(), &multipliers_);
       if (!Linearise()) return Termination::kNumericalDifficulty;
     }
   }
@@ -150,23 +151,19 @@ class Solver {
   bool HasAcceptableError() const { return error_.scaled <= AcceptableError(options_.tolerance); }
 
   void ReduceBarrier(bool stuck) {
-    const double least = options_.tolerance / (kKappaEnd + 1);
-    while (mu_ > least && (stuck || ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <=
-                                        options_.barrier_tolerance * mu_)) {
-      mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, options_.barrier_exponent)));
-      tau_ = std::max(kTauMin, 1 - mu_);
-      acceptance_.ForgetFilter();
-      stuck = false;
-    }
+    const auto error = [this](double mu) {
+      return ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu).scaled;
+    };
+    if (parameter_.Reduce(stuck, error)) acceptance_.ForgetFilter();
   }
 
   Search LineSearch() {
     objective_gradient_.setZero(barrier_.unknowns());
     objective_gradient_.head(barrier_.variables()) = gradient_;
-    barrier_.AddBarrierGradient(point_, mu_, objective_gradient_, &barrier_gradient_);
-    from_ = {point_.theta, barrier_.Barrier(point_, mu_), barrier_gradient_.dot(step_.w)};
-    double alpha = MaxPrimalStep(barrier_, point_, step_.w, tau_);
-    dual_step_ = MaxDualStep(multipliers_, step_.multipliers, tau_);
+    barrier_.AddBarrierGradient(point_, parameter_.mu(), objective_gradient_, &barrier_gradient_);
+    from_ = {point_.theta, barrier_.Barrier(point_, parameter_.mu()), barrier_gradient_.dot(step_.w)};
+    double alpha = MaxPrimalStep(barrier_, point_, step_.w, parameter_.tau());
+    dual_step_ = MaxDualStep(multipliers_, step_.multipliers, parameter_.tau());
     trials_ = 0;
     if (IsTiny(step_.w, point_)) {
       if (!Try(alpha, step_.w)) return Search::kFailed;
@@ -190,16 +187,16 @@ class Solver {
   // The whole Newton step for what it does to the optimality conditions, whatever the filter says of it: close to a
   // solution the filter compares roundings (Wächter and Biegler, section 3.3, before the restoration phase).
   bool TryForOptimality() {
-    const double before = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled;
+    const double before = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, parameter_.mu()).scaled;
     const Multipliers old_multipliers = multipliers_;
-    const double alpha =
-        std::min(MaxPrimalStep(barrier_, point_, step_.w, tau_), MaxDualStep(multipliers_, step_.multipliers, tau_));
+    const double alpha = std::min(MaxPrimalStep(barrier_, point_, step_.w, parameter_.tau()),
+                                  MaxDualStep(multipliers_, step_.multipliers, parameter_.tau()));
     ++trials_;
     if (!Try(alpha, step_.w)) return false;
     dual_step_ = alpha;
     Accept(alpha, step_);
-    if (Linearise() &&
-        ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, mu_).scaled <= kWorthwhile * before) {
+    if (Linearise() && ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, parameter_.mu()).scaled <=
+                           kWorthwhile * before) {
       return true;
     }
     std::swap(point_, trial_);
@@ -210,12 +207,12 @@ class Solver {
   // The recentred step, if it is longer in one and not much shorter in the other of primal and dual, and the filter
   // takes it whole.
   bool TryRecentred(double alpha) {
-    if (!newton_.Recentre(point_, multipliers_, mu_, step_, std::min(1.0, alpha + kLengthening),
+    if (!newton_.Recentre(point_, multipliers_, parameter_.mu(), step_, std::min(1.0, alpha + kLengthening),
                           std::min(1.0, dual_step_ + kLengthening), &corrected_)) {
       return false;
     }
-    const double primal = MaxPrimalStep(barrier_, point_, corrected_.w, tau_);
-    const double dual = MaxDualStep(multipliers_, corrected_.multipliers, tau_);
+    const double primal = MaxPrimalStep(barrier_, point_, corrected_.w, parameter_.tau());
+    const double dual = MaxDualStep(multipliers_, corrected_.multipliers, parameter_.tau());
     if (std::max(primal - alpha, dual - dual_step_) < kLeastGain * kLengthening) return false;
     if (primal < 0.9 * alpha || dual < 0.9 * dual_step_) return false;
     const double slope = from_.slope;
@@ -237,7 +234,7 @@ class Solver {
   }
 
   bool IsAcceptable(double alpha) {
-    return acceptance_.Accepts(from_, alpha, {trial_.theta, barrier_.Barrier(trial_, mu_), 0});
+    return acceptance_.Accepts(from_, alpha, {trial_.theta, barrier_.Barrier(trial_, parameter_.mu()), 0});
   }
 
   bool SecondOrderCorrection(double alpha) {
@@ -248,12 +245,12 @@ class Solver {
     for (int k = 0; k < kMostCorrections && (k == 0 || theta <= kKappaSoc * last_theta); ++k) {
       last_theta = theta;
       corrected_c_ = alpha * corrected_c_ + trial_.c;
-      if (!newton_.Solve(point_, multipliers_, corrected_c_, mu_, &corrected_)) return false;
-      alpha = MaxPrimalStep(barrier_, point_, corrected_.w, tau_);
+      if (!newton_.Solve(point_, multipliers_, corrected_c_, parameter_.mu(), &corrected_)) return false;
+      alpha = MaxPrimalStep(barrier_, point_, corrected_.w, parameter_.tau());
       ++trials_;
       if (!Try(alpha, corrected_.w)) return false;
       if (IsAcceptable(reference_alpha)) {
-        dual_step_ = MaxDualStep(multipliers_, corrected_.multipliers, tau_);
+        dual_step_ = MaxDualStep(multipliers_, corrected_.multipliers, parameter_.tau());
         Accept(alpha, corrected_);
         return true;
       }
@@ -280,7 +277,7 @@ class Solver {
     info.objective = point_.f;
     info.primal_infeasibility = error_.primal;
     info.dual_infeasibility = error_.dual;
-    info.barrier_parameter = mu_;
+    info.barrier_parameter = parameter_.mu();
     info.step_norm = step_norm_;
     info.regularization = newton_.regularization();
     info.primal_step = primal_step_;
@@ -319,6 +316,7 @@ class Solver {
   const Resumption resumption_;
   BarrierProblem barrier_;
   NewtonSystem newton_;
+  BarrierParameter parameter_;
   Clock::time_point begin_;
 
   Point point_, trial_;
@@ -327,7 +325,6 @@ class Solver {
   StepAcceptance acceptance_;
   LinePoint from_;
   VectorX gradient_, objective_gradient_, barrier_gradient_, lagrangian_, corrected_c_;
-  double mu_ = 0, tau_ = 0;
   OptimalityError error_;
   double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
   double before_s_ = 0;  // spent before the resumption

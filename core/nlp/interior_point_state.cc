@@ -35,8 +35,9 @@ bool Fits(const InteriorPointState& state, NlpProblem& problem) {
       !multipliers.upper.allFinite()) {
     return false;
   }
-  if (state.iteration < 0 || !(state.elapsed_s >= 0) || !IsPositive(state.mu) || state.tiny_steps < 0 ||
-      !IsPositive(state.acceptance.theta_min) || !IsPositive(state.acceptance.theta_max) ||
+  if (state.iteration < 0 || !(state.elapsed_s >= 0) || !IsPositive(state.barrier.mu) ||
+      !(state.barrier.recent_step >= 0 && state.barrier.recent_step <= 1) || state.barrier.raised < 0 ||
+      state.tiny_steps < 0 || !IsPositive(state.acceptance.theta_min) || !IsPositive(state.acceptance.theta_max) ||
       !(state.newton.last_shift >= 0) || state.newton.zero_failures < 0 || state.newton.skipped < 0 ||
       !(state.newton.threshold > 0 && state.newton.threshold <= 0.5)) {
     return false;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/nlp/barrier_parameter.h"
 #include "core/nlp/barrier_problem.h"
 #include "core/nlp/newton_step.h"
 #include "core/nlp/step_acceptance.h"
@@ -16,7 +17,7 @@ struct InteriorPointState {
   double elapsed_s = 0;  // s, from the start of the solve to there
   VectorX w;             // variables and slacks
   Multipliers multipliers;
-  double mu = 0;
+  BarrierParameter::Memory barrier;
   StepAcceptance::Memory acceptance;
   NewtonSystem::Memory newton;
   std::vector<BarrierProblem::MovedBound> moved_bounds;

@@ -12,7 +12,7 @@ namespace rollgait {
 namespace {
 
 // "RGJ" and the version of the format: to be raised with every change of what is written here or of what it means.
-constexpr int64_t kFinished = 0x4a475201'0001, kStarted = 0x4a475202'0001;
+constexpr int64_t kFinished = 0x4a475201'0001, kStarted = 0x4a475202'0002;
 constexpr size_t kChecksumBytes = sizeof(uint64_t);
 constexpr double kLargestNumber = 1e19;  // beyond: no bound
 
@@ -171,11 +171,11 @@ std::string Encode(const StartedProgram& program) {
     out.Put(*part);
   }
   for (const int part : {state.iteration, state.tiny_steps, static_cast<int>(state.asked), state.newton.zero_failures,
-                         state.newton.skipped}) {
+                         state.newton.skipped, state.barrier.raised}) {
     out.Put(static_cast<int64_t>(part));
   }
-  for (const double part : {state.elapsed_s, state.mu, state.acceptance.theta_min, state.acceptance.theta_max,
-                            state.newton.last_shift, state.newton.threshold}) {
+  for (const double part : {state.elapsed_s, state.barrier.mu, state.barrier.recent_step, state.acceptance.theta_min,
+                            state.acceptance.theta_max, state.newton.last_shift, state.newton.threshold}) {
     out.Put(part);
   }
   out.Put(static_cast<int64_t>(state.acceptance.corners.size()));
@@ -205,8 +205,9 @@ bool Decode(const std::string& bytes, StartedProgram* program) {
   state.asked = in.Int() != 0;
   state.newton.zero_failures = Bounded(in.Int());
   state.newton.skipped = Bounded(in.Int());
-  for (double* part : {&state.elapsed_s, &state.mu, &state.acceptance.theta_min, &state.acceptance.theta_max,
-                       &state.newton.last_shift, &state.newton.threshold}) {
+  state.barrier.raised = Bounded(in.Int());
+  for (double* part : {&state.elapsed_s, &state.barrier.mu, &state.barrier.recent_step, &state.acceptance.theta_min,
+                       &state.acceptance.theta_max, &state.newton.last_shift, &state.newton.threshold}) {
     *part = in.Double();
   }
   state.acceptance.corners.clear();

@@ -73,11 +73,9 @@ double NewtonSystem::HessianNorm() {
 }
 
 bool NewtonSystem::StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
-                                       Multipliers* multipliers) {
-  constexpr double kMostMultiplier = 1000;
+                                       double most, Multipliers* multipliers) {
   if (!barrier_.problem().Jacobian(point.w.data(), kkt_.jacobian())) return false;
-  if (!LeastSquaresMultipliers(objective_gradient, multipliers) ||
-      multipliers->y.lpNorm<Eigen::Infinity>() > kMostMultiplier) {
+  if (!LeastSquaresMultipliers(objective_gradient, multipliers) || multipliers->y.lpNorm<Eigen::Infinity>() > most) {
     multipliers->y.setZero();
   }
   return true;

@@ -41,9 +41,9 @@ class NewtonSystem {
   // Least-squares multipliers of the rows at a point: min ‖∇f + Jᵀ y − z_l + z_u‖. False if J has no full rank there.
   bool LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers);
 
-  // Multipliers of the rows to start from at a point: the least-squares ones, or 0 where those are large. Fills the
-  // Jacobian. False if it is not finite.
-  bool StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient,
+  // Multipliers of the rows to start from at a point: the least-squares ones, or 0 where the largest is beyond
+  // `most`. Fills the Jacobian. False if it is not finite.
+  bool StartRowMultipliers(const BarrierProblem::Point& point, const VectorX& objective_gradient, double most,
                            Multipliers* multipliers);
 
   // Factors the system at a point, whose Jacobian and Hessian are in kkt(), and solves it. False if no shift helps.

@@ -23,6 +23,9 @@ struct NlpOptions {
   double barrier_tolerance = 10;  // κ_ε: μ falls once its problem is solved to an error of κ_ε μ
   // How far from its bounds a warm start begins, relative to their size or distance, at most 0.01; 0: μ₀.
   double warm_push = 0;
+  // Of a start that is close to a solution but brings no multipliers: those of bounds are μ₀ over the distance from the
+  // bound, those of rows are least squares, however large, and the distance from bounds is that of a warm start.
+  bool estimate_multipliers = false;
   double barrier_exponent = 1.5;  // θ_μ: the next μ is at least μ^θ_μ
   // Whether a step that bounds cut short is tried again with Gondzio's correction for centrality.
   bool recentre = false;

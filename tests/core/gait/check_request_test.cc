@@ -49,7 +49,7 @@ TEST(CheckRequest, FillsTheDocumentedDefaults) {
   EXPECT_EQ(spec.bounds[Criterion::kGap], 1e-4);
   EXPECT_EQ(spec.bounds[Criterion::kSlip], 1e-3);
   EXPECT_EQ(spec.max_refinements, 12);
-  EXPECT_EQ(spec.max_iterations, 1000);
+  EXPECT_EQ(spec.max_iterations, 3000);
   EXPECT_EQ(spec.max_wall_time, 600);
 }
 

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/nlp/barrier_parameter.h"
 #include "core/nlp/ipopt_solver.h"
 #include "core/nlp/solve_nlp.h"
 #include "tests/core/nlp/hs071.h"
@@ -178,6 +180,47 @@ TEST(InteriorPoint, EndsWhereNothingHelps) {
   EXPECT_EQ(good.result.termination, Termination::kAcceptable) << good.result.message;
   EXPECT_FALSE(good.needs_restoration);
   EXPECT_TRUE(SolveWithInteriorPoint(far, start, {}, {}).needs_restoration);
+}
+
+// From a solution without multipliers: estimated, they end it at once; a cold start goes away first.
+TEST(InteriorPoint, EstimatesMultipliersOfASolution) {
+  Hs071 problem;
+  NlpOptions options;
+  options.tolerance = 1e-9;
+  const NlpResult solution = SolveWithInteriorPoint(problem, {Hs071::Start(), {}, {}, {}}, options, {}).result;
+  ASSERT_EQ(solution.termination, Termination::kOptimal);
+  const NlpStart start{solution.x, {}, {}, {}};
+  options.initial_barrier = BarrierParameter::Least(options.tolerance);
+  options.warm_push = 1e-12;
+  EXPECT_GT(SolveWithInteriorPoint(problem, start, options, {}).result.iterations, 3);
+  options.estimate_multipliers = true;
+  const NlpResult again = SolveWithInteriorPoint(problem, start, options, {}).result;
+  EXPECT_EQ(again.termination, Termination::kOptimal);
+  EXPECT_LE(again.iterations, 1);
+  EXPECT_NEAR((again.x - solution.x).norm(), 0, 1e-8);
+  EXPECT_NEAR((again.constraint_multipliers - solution.constraint_multipliers).norm(), 0, 1e-6);
+}
+
+// At wrong bounds with a small barrier steps are short until the barrier is raised; Problem 71 has three minima.
+TEST(InteriorPoint, RaisesTheBarrierWhereStepsAreShort) {
+  NlpOptions options;
+  options.initial_barrier = 1e-6;
+  options.warm_push = 1e-8;
+  options.barrier_tolerance = 1000;
+  options.barrier_exponent = 2.2;
+  const VectorX none = VectorX::Zero(4);
+  int raised = 0;
+  for (const Eigen::Vector4d& x : {Eigen::Vector4d(1, 1, 1.1, 3.1), {1, 1, 1.4, 3.9}, {1, 1, 1.5, 4}}) {
+    Hs071 problem;
+    std::vector<double> barriers;
+    SolveControl control;
+    control.observer = [&](const IterationInfo& info) { barriers.push_back(info.barrier_parameter); };
+    const NlpStart start{x, VectorX::Zero(2), none, none};
+    const NlpResult result = SolveWithInteriorPoint(problem, start, options, control).result;
+    EXPECT_EQ(result.termination, Termination::kOptimal) << x.transpose() << ": " << result.message;
+    if (!std::is_sorted(barriers.rbegin(), barriers.rend())) ++raised;
+  }
+  EXPECT_GT(raised, 0);
 }
 
 }  // namespace
