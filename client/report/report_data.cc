@@ -262,4 +262,14 @@ json ReportData(const std::vector<ReportedSolve>& solves, const std::string& tit
           {"solves", list}};
 }
 
+json LiveData(const v1::Solve& solve) {
+  json data = SolveData(solve, Labels({solve}).front());
+  data["model"]["name"] = solve.spec().model().name();
+  return {{"title", "Solve in progress"},
+          {"live", true},
+          {"program", "rollgait " ROLLGAIT_VERSION},
+          {"datasets", json::array()},
+          {"solves", json::array({data})}};
+}
+
 }  // namespace rollgait::client
