@@ -4,6 +4,9 @@
 #include <httplib.h>
 #include <signal.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "tests/client/client_process.h"
@@ -67,6 +70,7 @@ TEST_F(ViewCommandTest, FollowsARunningSolveAndThenShowsItsReport) {
   ASSERT_EQ(Run({"cancel", "endless"}).code, 0);
   ASSERT_TRUE(view_->WaitForError("solves/endless has ended: the page is its report"));
   EXPECT_THAT(Page(), HasSubstr("<title>Optimal gait</title>"));
+  EXPECT_THAT(Page(), HasSubstr("\"name\":\"endless\"")) << "the model, which a solve without a result has not";
   EXPECT_EQ(Interrupt(), 0);
   EXPECT_FALSE(Client().Get(path_));
 }
@@ -97,6 +101,29 @@ TEST_F(ViewCommandTest, JsonHasTheAddressAndAWatcherWithoutAPageAsksForNoIterate
   ASSERT_TRUE(view_->WaitForError("serving"));
   EXPECT_THAT(view_->out(), testing::MatchesRegex("\\{\"url\":\"http://127[^\"]*\"\\}\n"));
   EXPECT_EQ(Interrupt(), 0);
+}
+
+// With an xdg-open of the test's own, and without any.
+TEST_F(ViewCommandTest, OpensThePageIfAsked) {
+  ASSERT_EQ(Run({"-q", "solve", "--model", "planar"}).code, 0);
+  const std::string folder = testing::TempDir() + "view_test_path_" + std::to_string(getpid());
+  const std::string path = std::getenv("PATH"), opened = folder + "/opened", program = folder + "/xdg-open";
+  ASSERT_TRUE(std::filesystem::create_directory(folder));
+  ASSERT_EQ(setenv("PATH", folder.c_str(), 1), 0);
+  Start({"planar", "--open"});
+  EXPECT_TRUE(view_->WaitForError("xdg-open cannot be started (No such file or directory); open the address"));
+  EXPECT_EQ(Interrupt(), 0);
+  std::ofstream(program) << "#!/bin/sh\nprintf %s \"$1\" > " << opened << ".new && /bin/mv " << opened << ".new "
+                         << opened << "\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  Start({"planar", "--open"});
+  for (int i = 0; i < 3000 && !std::filesystem::exists(opened); ++i) usleep(10'000);
+  std::string url;
+  std::ifstream(opened) >> url;
+  EXPECT_EQ(url + "\n", view_->out());
+  EXPECT_EQ(Interrupt(), 0);
+  EXPECT_EQ(setenv("PATH", path.c_str(), 1), 0);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(ViewCommandTest, SaysWhatItCannotShow) {

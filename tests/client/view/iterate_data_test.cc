@@ -51,7 +51,7 @@ TEST(IterateDataTest, IsAWholeCycleWithItsMirrorImage) {
   const nlohmann::json data = IterateData(SampleIterate(model, 3, 1), model);
   EXPECT_EQ(data.at("index"), 3);
   EXPECT_EQ(data.at("mesh"), 1);
-  const nlohmann::json& stride = data.at("stride");
+  const nlohmann::json stride = data.at("stride");
   EXPECT_EQ(stride.at("duration"), 2 * kSampleSpan_s);
   EXPECT_EQ(stride.at("displacement"), 2 * kSampleDisplacement_m);
   EXPECT_EQ(stride.at("scene").at("contacts").size(), static_cast<size_t>(model.contacts_size()));
