@@ -126,6 +126,20 @@ void AddModels(CLI::App& app, Arguments& arguments) {
       ->required();
 }
 
+void AddView(CLI::App& app, ViewOptions& options) {
+  CLI::App* const view = app.add_subcommand("view", "Show a solve in the browser, live while it runs; Ctrl-C ends it");
+  view->add_option("SOLVE", options.solve,
+                   "solves/ID or ID, or a .json file of --output; default: your newest that runs, else your newest");
+  view->add_option("--port", options.port, "Port on 127.0.0.1; default: any free one")->check(CLI::Range(1, 65535));
+  view->add_flag("--open", options.opens, "Open the page with xdg-open");
+  view->add_option("--reconnect", options.reconnect_s, "How long to re-attach when the connection breaks, s")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  view->footer(
+      "Prints the address of the page, which only this machine reaches.\n"
+      "Example: rollgait view $(rollgait solve --model human29 --detach)");
+}
+
 void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const get = app.add_subcommand("get", "Print a solve as it stands");
   get->add_option("SOLVE", arguments.get.name, "solves/ID or ID")->required();
@@ -158,6 +172,8 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   report->add_option("--title", arguments.report.title, "Title of the page");
   report->add_flag("--no-normative", arguments.report.without_people,
                    "Leave out people's curves, which human models get");
+
+  AddView(app, arguments.view);
 
   CLI::App* const paper =
       app.add_subcommand("reproduce-paper", "The paper's three walks and its statements beside ours");

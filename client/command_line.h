@@ -22,6 +22,7 @@ struct Arguments {
   ExplainOptions explain;
   ListOptions list;
   ReportOptions report;
+  ViewOptions view;
   ReproducePaperOptions paper;
   ModelsOptions models;
   CreateModelOptions created_model;

@@ -66,6 +66,7 @@ SolveFollower::StreamEnd SolveFollower::ReadStream(const std::function<void(cons
   v1::WatchSolveRequest request;
   request.set_name(name_);
   request.set_after_sequence(last_sequence_);
+  request.set_iterates_per_second(options_.iterates_per_second);
   heard_ = false;
   auto reader = connection_.stub().WatchSolve(&context, request);
   v1::SolveEvent event;
@@ -95,6 +96,7 @@ SolveFollower::StreamEnd SolveFollower::ReadStream(const std::function<void(cons
 
 bool SolveFollower::Accept(const v1::SolveEvent& event, const std::function<void(const std::string&)>& on_note) {
   if (event.has_heartbeat() || event.event_case() == v1::SolveEvent::EVENT_NOT_SET) return false;
+  if (event.has_iterate()) return true;
   if (event.sequence() <= last_sequence_) return event.has_finished();
   // An event may stand for itself and the skipped ones merged into it.
   const int64_t missing = event.sequence() - last_sequence_ - 1 - event.skipped_count();

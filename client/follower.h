@@ -17,6 +17,8 @@ struct FollowOptions {
   int64_t after_sequence = 0;
   // How long to try to re-attach after the stream broke, s. 0: not at all.
   double reconnect_s = 60.0;
+  // WatchSolveRequest.iterates_per_second; events with iterates are extra, and may be missed.
+  int iterates_per_second = 0;
 };
 
 // Calls `on_event` for every event after options.after_sequence once and in order (heartbeats excepted, which are

@@ -54,6 +54,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "simulate") return RunSimulate(arguments.simulate, global, terminal);
   if (command == "poincare") return RunPoincare(arguments.poincare, global, terminal);
   if (command == "report") return RunReport(arguments.report, global, terminal);
+  if (command == "view") return RunView(arguments.view, global, terminal);
   if (command == "reproduce-paper") return RunReproducePaper(arguments.paper, global, terminal);
   if (command == "health") return RunHealth(global, terminal);
   if (command == "server-info") return RunServerInfo(global, terminal);

@@ -254,9 +254,9 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   if (placed.value() > 0) LogEvent(spdlog::level::info, "store.indexed", {{"solves", placed.value()}});
   const auto hints = OpenHints(location.value(), data_dir.path, HintRole::kServer);
   if (!hints.ok()) return Fail(hints.error().message);
-
   WatchHub hub(measured_store, *hints.value(),
-               std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)));
+               std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.heartbeat_interval_s)),
+               IterateFiles(data_dir.IteratesDir()));
   metrics.Collect(std::make_shared<ServiceMetrics>(measured_store, hub, clock, solver_slots));
   ServiceOptions options;
   options.version = RollgaitVersion();

@@ -101,6 +101,16 @@ struct ReportOptions {
 };
 ExitCode RunReport(const ReportOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
+struct ViewOptions {
+  std::string solve;   // a name on the server, or a .json file; empty: the caller's newest
+  int port = 0;        // 0: any free one
+  bool opens = false;  // starts the desktop's browser
+  double reconnect_s = 60;
+};
+// Serves the page about a solve on this machine, with the newest iterate while it runs, until Ctrl-C. Writes the
+// address to terminal.out. Success after Ctrl-C, whatever became of the solve.
+ExitCode RunView(const ViewOptions& options, const GlobalOptions& global, const Terminal& terminal);
+
 struct ReproducePaperOptions {
   SpecFlags spec;  // the slope is the command's own
   std::string output;

@@ -35,9 +35,11 @@ std::string EscapeScript(const std::string& text) {
 }
 
 // The page of `data` with the script that puts it together.
-std::string Page(const nlohmann::json& data, const char* script) {
+std::string Page(const nlohmann::json& data, const char* script, const std::string& nonce) {
   const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return Fill(kReportHtml, {{"title", EscapeHtml(data.at("title"))},
+                            {"policy", PagePolicy(nonce)},
+                            {"nonce", nonce.empty() ? "" : " nonce=\"" + nonce + "\""},
                             {"style", kReportCss},
                             {"three", kThreeJs},
                             {"script", std::string(kReportScript) + script},
@@ -46,14 +48,24 @@ std::string Page(const nlohmann::json& data, const char* script) {
 
 }  // namespace
 
-std::string ReportHtml(const std::vector<ReportedSolve>& solves, const std::string& title) {
-  return Page(ReportData(solves, title), kReportGaitsJs);
+std::string PagePolicy(const std::string& nonce) {
+  const std::string common = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; ";
+  if (nonce.empty()) return common + "script-src 'unsafe-inline'";
+  return common + "script-src 'nonce-" + nonce + "'; connect-src 'self'; base-uri 'none'; form-action 'none'";
+}
+
+std::string ReportHtml(const std::vector<ReportedSolve>& solves, const std::string& title, const std::string& nonce) {
+  return Page(ReportData(solves, title), kReportGaitsJs, nonce);
+}
+
+std::string LiveHtml(const v1::Solve& solve, const std::string& nonce) {
+  return Page(LiveData(solve), kReportLiveJs, nonce);
 }
 
 std::string PageHtml(const std::vector<ReportedSolve>& solves, const std::string& title, const nlohmann::json& paper) {
   nlohmann::json data = ReportData(solves, title);
   data["paper"] = paper;
-  return Page(data, kReportPaperJs);
+  return Page(data, kReportPaperJs, "");
 }
 
 }  // namespace rollgait::client

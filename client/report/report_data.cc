@@ -209,6 +209,8 @@ json SolveData(const ReportedSolve& reported, const std::string& label) {
   int iterations = 0;
   for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
   const bool good = ExitCodeOf(solve) == ExitCode::kSuccess;
+  json model = ModelData(result.model());
+  if (!result.has_model()) model["name"] = solve.spec().model().name();
   return {{"name", solve.name()},
           {"label", label},
           {"slope_rad", solve.spec().slope_rad()},
@@ -234,7 +236,7 @@ json SolveData(const ReportedSolve& reported, const std::string& label) {
           {"log", IterationTable(reported.iterations)},
           {"unmet", UnmetTable(result)},
           {"people", OwnComparison(result)},
-          {"model", ModelData(result.model())},
+          {"model", model},
           {"stride", json()},
           {"path", json()}};
 }
@@ -260,6 +262,14 @@ json ReportData(const std::vector<ReportedSolve>& solves, const std::string& tit
           {"program", "rollgait " ROLLGAIT_VERSION},
           {"datasets", Datasets(solves)},
           {"solves", list}};
+}
+
+json LiveData(const v1::Solve& solve) {
+  return {{"title", "Solve in progress"},
+          {"live", true},
+          {"program", "rollgait " ROLLGAIT_VERSION},
+          {"datasets", json::array()},
+          {"solves", json::array({SolveData(solve, Labels({solve}).front())})}};
 }
 
 }  // namespace rollgait::client

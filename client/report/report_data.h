@@ -25,6 +25,9 @@ struct ReportedSolve {
 // what belongs to one gait. Throws Failure(kUsage) if a trajectory does not fit its model.
 nlohmann::json ReportData(const std::vector<ReportedSolve>& solves, const std::string& title);
 
+// The same of a solve that waits or runs: what is known of it, and no motion.
+nlohmann::json LiveData(const v1::Solve& solve);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_REPORT_REPORT_DATA_H_

@@ -59,23 +59,30 @@ Instant Mirror(const Instant& instant, const v1::Model& model) {
 
 Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, double start_s, int intervals) {
   const Motion motion(trajectory, model);
-  const bool half = trajectory.cycle() != v1::CYCLE_FULL && trajectory.cycle() != v1::CYCLE_ONCE;
-  const double span = motion.duration_s();
+  const bool is_half = trajectory.cycle() != v1::CYCLE_FULL && trajectory.cycle() != v1::CYCLE_ONCE;
+  const StrideSource source{motion.duration_s(), motion.displacement_m(), is_half,
+                            [&motion](double time_s, bool from_left) { return motion.At(time_s, from_left); }};
+  return BuildStride(source, model, start_s, intervals);
+}
+
+Stride BuildStride(const StrideSource& source, const v1::Model& model, double start_s, int intervals) {
+  const bool half = source.is_half;
+  const double span = source.duration_s;
 
   Stride stride;
   stride.duration_s = half ? 2 * span : span;
-  stride.displacement_m = half ? 2 * motion.displacement_m() : motion.displacement_m();
+  stride.displacement_m = half ? 2 * source.displacement_m : source.displacement_m;
   if (!(start_s >= 0 && start_s < stride.duration_s)) {
     throw Failure(ExitCode::kUsage, "gait_events.start_s is " + std::to_string(start_s) + ", must be in [0, " +
                                         std::to_string(stride.duration_s) + ")");
   }
-  const std::vector<double> shift = ForwardShift(model, motion.displacement_m());
+  const std::vector<double> shift = ForwardShift(model, source.displacement_m);
 
   // The instant at time t ≥ 0 from the start of the trajectory, any number of spans later.
   const auto at = [&](double t, bool from_left) {
     const double tolerance = (from_left ? -1e-9 : 1e-9) * span;
     const int spans = std::max(0, static_cast<int>(std::floor((t + tolerance) / span)));
-    Instant instant = motion.At(t - spans * span, from_left);
+    Instant instant = source.at(t - spans * span, from_left);
     if (half && spans % 2 == 1) instant = Mirror(instant, model);
     for (size_t i = 0; i < shift.size(); ++i) instant.position[i] += spans * shift[i];
     return instant;

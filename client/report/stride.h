@@ -3,6 +3,7 @@
 #ifndef ROLLGAIT_CLIENT_REPORT_STRIDE_H_
 #define ROLLGAIT_CLIENT_REPORT_STRIDE_H_
 
+#include <functional>
 #include <vector>
 
 #include "client/report/motion.h"
@@ -28,6 +29,18 @@ struct Stride {
 // ContactSurface.mirror_contact). Throws Failure(kUsage) if trajectory, model, mirror data or start_s (less than the
 // length of the cycle) do not fit.
 Stride BuildStride(const v1::Trajectory& trajectory, const v1::Model& model, double start_s, int intervals);
+
+// A motion over a half or a whole cycle.
+struct StrideSource {
+  double duration_s;
+  double displacement_m;
+  bool is_half;  // the rest is its mirror image
+  // The instant at a time in [0, duration]; on a border between phases that of the earlier one if `from_left`.
+  std::function<Instant(double time_s, bool from_left)> at;
+};
+
+// The same of any motion.
+Stride BuildStride(const StrideSource& source, const v1::Model& model, double start_s, int intervals);
 
 // The left/right mirror image of an instant, without the forward shift.
 Instant Mirror(const Instant& instant, const v1::Model& model);

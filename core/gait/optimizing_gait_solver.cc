@@ -186,7 +186,7 @@ GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolveBudget
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
   const Units units = spec.manoeuvre ? Units{} : OwnUnits(spec);
-  SolveBudget budget(spec, control, units.objective);
+  SolveBudget budget(spec, control, units);
   if (const auto contradiction = FindContradiction(spec)) {
     GaitSolution solution;
     solution.termination = Termination::kInfeasible;

@@ -2,30 +2,17 @@
 
 #include <algorithm>
 
+#include "core/gait/iterate_sink.h"
 #include "core/nlp/solve_journal.h"
 #include "core/nlp/solve_nlp.h"
 
 namespace rollgait {
-namespace {
 
-// Observers see the objective of the request, not that of the scaled NLP.
-SolveControl Unscaled(const SolveControl& control, double scale) {
-  SolveControl unscaled = control;
-  if (control.observer) {
-    unscaled.observer = [&control, scale](IterationInfo info) {
-      info.objective /= scale;
-      control.observer(info);
-    };
-  }
-  return unscaled;
-}
-
-}  // namespace
-
-SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control, double objective_unit)
+SolveBudget::SolveBudget(const GaitSpec& spec, const SolveControl& control, const Units& units)
     : control_(control),
       begin_(std::chrono::steady_clock::now()),
-      objective_unit_(objective_unit),
+      units_(units),
+      shows_iterates_(control.iterates != nullptr && !spec.manoeuvre),
       max_wall_time_(spec.max_wall_time),
       iterations_left_(spec.max_iterations) {}
 
@@ -39,13 +26,38 @@ bool SolveBudget::Left() const {
          (control_.stop == nullptr || !control_.stop->requested());
 }
 
+SolveControl SolveBudget::ControlOf(const CollocationNlp& nlp, double scale) const {
+  SolveControl control = control_;
+  if (!control_.observer && !shows_iterates_) return control;
+  control.observer = [this, &nlp, scale](IterationInfo info) {
+    info.objective /= scale;
+    if (control_.observer) control_.observer(info);
+    if (shows_iterates_ && info.x != nullptr && control_.iterates->Wants()) Show(info, nlp);
+  };
+  return control;
+}
+
+void SolveBudget::Show(const IterationInfo& iteration, const CollocationNlp& nlp) const {
+  // Enough for the eye, and at most 128 in all: rollgait.v1.Iterate promises it.
+  constexpr int kMostOfAPhase = 16, kMostInAll = 128;
+  const int phases = nlp.layout().phases();
+  CoarseMotion motion = nlp.ExtractCoarse(iteration.x, std::clamp(kMostInAll / phases, 2, kMostOfAPhase));
+  motion.duration *= units_.time;
+  for (CoarseMotion::Phase& phase : motion.phases) {
+    phase.start *= units_.time;
+    phase.duration *= units_.time;
+    for (double& time : phase.times) time *= units_.time;
+  }
+  control_.iterates->Take(iteration, motion);
+}
+
 NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
   options.mesh = programs_++;
   options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
   options.max_wall_time_s = max_wall_time_ - elapsed();
-  const SolveControl unscaled = Unscaled(control_, nlp.objective_scale() / objective_unit_);
-  NlpResult result = control_.journal != nullptr ? control_.journal->Solve(nlp, start, options, unscaled)
-                                                 : SolveNlp(nlp, start, options, unscaled);
+  const SolveControl control = ControlOf(nlp, nlp.objective_scale() / units_.objective);
+  NlpResult result = control_.journal != nullptr ? control_.journal->Solve(nlp, start, options, control)
+                                                 : SolveNlp(nlp, start, options, control);
   iterations_left_ -= result.iterations;
   return result;
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/gait/gait_spec.h"
+#include "core/gait/similarity.h"
 #include "core/nlp/nlp_options.h"
 #include "core/nlp/result.h"
 #include "core/transcription/collocation_nlp.h"
@@ -14,8 +15,9 @@ namespace rollgait {
 // numbering of the programs (IterationInfo::mesh). Starts its clock when it is made.
 class SolveBudget {
  public:
-  // Observers see objectives times `objective_unit`: what the specs that are solved count, of what the request weighs.
-  SolveBudget(const GaitSpec& spec, const SolveControl& control, double objective_unit = 1);
+  // Observers see objectives times `units.objective`, and iterates in seconds: what the specs that are solved count in
+  // these units, of the request.
+  SolveBudget(const GaitSpec& spec, const SolveControl& control, const Units& units = {});
 
   // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
   NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
@@ -24,9 +26,14 @@ class SolveBudget {
   bool Left() const;
 
  private:
+  // The control of one program, whose objective is this much larger than the request's.
+  SolveControl ControlOf(const CollocationNlp& nlp, double scale) const;
+  void Show(const IterationInfo& iteration, const CollocationNlp& nlp) const;
+
   const SolveControl& control_;
   std::chrono::steady_clock::time_point begin_;
-  double objective_unit_;
+  const Units units_;
+  const bool shows_iterates_;
   double max_wall_time_;
   int iterations_left_;
   int programs_ = 0;

@@ -285,6 +285,7 @@ class Solver {
     info.line_search_trials = trials_;
     info.elapsed_s = Elapsed();
     info.mesh = options_.mesh;
+    info.x = point_.w.data();
     control_.observer(info);
   }
 

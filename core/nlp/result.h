@@ -35,8 +35,11 @@ struct IterationInfo {
   bool restoration = false;
   double elapsed_s = 0;
   int mesh = 0;
+  // The point of the iteration, scaled as the NLP is, for as long as the observer runs; null in Ipopt's iterations.
+  const double* x = nullptr;
 };
 
+class IterateSink;
 class SolveJournal;
 
 // How a running solve is watched, stopped and kept. All may be empty. The observer is called in the solving thread.
@@ -44,6 +47,7 @@ struct SolveControl {
   std::function<void(const IterationInfo&)> observer;
   const StopFlag* stop = nullptr;
   SolveJournal* journal = nullptr;  // of a search of several programs: where it goes on from (solve_journal.h)
+  IterateSink* iterates = nullptr;  // of a search for a gait: who is shown iterates (core/gait/iterate_sink.h)
 };
 
 // The outcome of one NLP: the last (or best feasible) iterate, scaled as the NLP was given.

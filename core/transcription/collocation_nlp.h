@@ -9,6 +9,7 @@
 #include "core/nlp/nlp_options.h"
 #include "core/nlp/problem.h"
 #include "core/nlp/result.h"
+#include "core/trajectory/coarse_motion.h"
 #include "core/trajectory/sampling.h"
 #include "core/transcription/coupling_term.h"
 #include "core/transcription/entry_rows.h"
@@ -72,6 +73,8 @@ class CollocationNlp : public NlpProblem {
   // Fills the multipliers of `start` from those of a solution of the same problem on another mesh.
   void TransferMultipliers(const CollocationNlp& from, const NlpResult& of, NlpStart* start) const;
   Trajectory Extract(const double* x);
+  // Positions at some of the nodes of each phase; evaluates nothing. At most so many of a phase, >= 2.
+  CoarseMotion ExtractCoarse(const double* x, int most_of_a_phase) const;
   // Unweighted integral of every cost term in the order of the problem, and what their weighted sum is divided by.
   VectorX CostIntegrals(const double* x, CostForm form = CostForm::kMinimised);
   double Denominator(const double* x) const;

@@ -12,6 +12,10 @@ namespace {
 // others: it is looked for by this part of a half interval further in.
 constexpr double kInside = 1e-9;
 
+Cycle CycleOf(const OptimalControlProblem& problem) {
+  return problem.ends ? Cycle::kOnce : problem.mirrored ? Cycle::kHalf : Cycle::kFull;
+}
+
 }  // namespace
 
 VectorX CollocationNlp::MakeStart(const MotionGuess& guess) const {
@@ -87,7 +91,7 @@ Trajectory CollocationNlp::Extract(const double* x) {
   trajectory.scheme = scheme_kind_;
   trajectory.points_per_interval = s;
   for (int i = 0; i < s; ++i) trajectory.point_fractions.push_back(scheme_.tableau().c(i));
-  trajectory.cycle = problem_.ends ? Cycle::kOnce : problem_.mirrored ? Cycle::kHalf : Cycle::kFull;
+  trajectory.cycle = CycleOf(problem_);
   trajectory.duration = duration(x);
   trajectory.displacement = x[layout_.displacement()];
   double start = 0;
@@ -97,6 +101,30 @@ Trajectory CollocationNlp::Extract(const double* x) {
   }
   FillPointStates(&trajectory);
   return trajectory;
+}
+
+CoarseMotion CollocationNlp::ExtractCoarse(const double* x, int most_of_a_phase) const {
+  ROLLGAIT_CHECK(most_of_a_phase >= 2);
+  const int n = problem_.model.size();
+  CoarseMotion motion;
+  motion.cycle = CycleOf(problem_);
+  motion.duration = duration(x);
+  motion.displacement = x[layout_.displacement()];
+  double start = 0;
+  for (int p = 0; p < layout_.phases(); ++p) {
+    const int count = layout_.intervals_in(p), first = layout_.first_interval(p);
+    const int samples = std::min(count + 1, most_of_a_phase);
+    CoarseMotion::Phase phase{problem_.phases[p].active, start, x[layout_.duration(p)], {}, MatrixX(n, samples)};
+    for (int i = 0; i < samples; ++i) {
+      const int k = i * count / (samples - 1);
+      const double* node = x + (k < count ? layout_.node(first + k) : layout_.end_node(first + k - 1));
+      phase.times.push_back(start + phase.duration * (k < count ? layout_.start(first + k) : 1));
+      phase.positions.col(i) = Eigen::Map<const VectorX>(node, n);
+    }
+    start += phase.duration;
+    motion.phases.push_back(std::move(phase));
+  }
+  return motion;
 }
 
 TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double start) {

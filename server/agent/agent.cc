@@ -55,6 +55,8 @@ Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, const Surr
   Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
   if (!lock.ok()) return lock.error();
   if (!lock.value()) return Error{ErrorCode::kInternal, directory.AgentLock(owner) + " is locked by another process"};
+  const Outcome<Done> iterates = IterateFiles(directory.IteratesDir()).MakeDirectory();
+  if (!iterates.ok()) return iterates.error();
   Outcome<Spool> spool = Spool::Open(options.work_dir + "/spool");
   if (!spool.ok()) return spool.error();
   return std::unique_ptr<Agent>(
@@ -67,9 +69,11 @@ Agent::Agent(const Options& options, const Surroundings& surroundings, std::stri
       owner_(std::move(owner)),
       lock_(std::move(lock)),
       spool_(std::move(spool)),
+      iterates_(DataDir{options.work_dir}.IteratesDir()),
       hints_(surroundings.hints),
       context_{.store = surroundings.store,
                .spool = spool_,
+               .iterates = iterates_,
                .clock = surroundings.clock,
                .poke = [this](const std::string& id) { hints_.Send(id); },
                .kill_after = options.kill_after,
@@ -88,6 +92,7 @@ Agent::~Agent() {
 void Agent::Run() {
   ReplayDead("");
   RemoveOldJournals();
+  RemoveOldIterates();
   while (Step(std::chrono::hours(1))) {
   }
 }

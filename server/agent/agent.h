@@ -14,6 +14,7 @@
 #include "server/base/data_dir.h"
 #include "server/base/file_lock.h"
 #include "server/base/hint_channel.h"
+#include "server/base/iterate_files.h"
 #include "server/base/notify.h"
 #include "server/store/solve_store.h"
 
@@ -68,6 +69,7 @@ class Agent {
   void Drain();
   void StopAll();
   void RemoveOldJournals();
+  void RemoveOldIterates();
   static void StoreFailed(const char* wanted, const Error& error);
   bool LivesElsewhere(const std::string& owner) const;
   int RunByDrainingAgents();
@@ -86,6 +88,7 @@ class Agent {
   const std::string owner_;
   FileLock lock_;
   const Spool spool_;
+  const IterateFiles iterates_;
   HintChannel& hints_;
   const SolveRun::Context context_;
   std::vector<std::unique_ptr<SolveRun>> runs_;

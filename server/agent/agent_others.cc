@@ -66,7 +66,10 @@ void Agent::ReclaimDeadOwners() {
       continue;
     }
     LogEvent(spdlog::level::info, "agent.found_dead", {{"owner", owner}, {"solves", ids.value().size()}});
-    for (const std::string& id : ids.value()) context_.poke(id);
+    for (const std::string& id : ids.value()) {
+      iterates_.Remove(id);
+      context_.poke(id);
+    }
     poked_ = true;
     unlink(directory.AgentDraining(owner).c_str());
     lock.value()->ReleaseAndRemove();
@@ -88,6 +91,16 @@ int Agent::RunByDrainingAgents() {
     if (std::find(draining.begin(), draining.end(), owner) != draining.end()) count += solves;
   }
   return count;
+}
+
+// Iterates of solves that ended or were deleted after their agent had died.
+void Agent::RemoveOldIterates() {
+  for (const std::string& id : iterates_.Owners()) {
+    const Outcome<SolveRecord> record = store_.Get(id);
+    const bool is_running =
+        record.ok() ? record.value().state == SolveState::kRunning : record.error().code != ErrorCode::kNotFound;
+    if (!is_running) iterates_.Remove(id);
+  }
 }
 
 // Journals of solves that ended or were deleted while another agent had them.

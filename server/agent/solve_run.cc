@@ -103,6 +103,7 @@ void SolveRun::GiveUp() {
     return;
   }
   state_ = State::kOver;
+  context_.iterates.Remove(id());
   const Outcome<SolveState> given = GiveBack(GiveBackReason::kStopping, "its agent stops");
   if (!given.ok()) Warn("solve.give_back_failed", given.error().message);
   context_.poke(id());
@@ -137,6 +138,7 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     AddIteration(std::move(*message.mutable_iteration()), now);
     return;
   }
+  if (message.has_iterate()) return ShowIterate(std::move(*message.mutable_iterate()), now);
   last_ = std::move(message);
   KillBy(now + context_.kill_after);  // nothing is to follow but its end
 }
@@ -160,6 +162,16 @@ void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
   event_bytes_ += pending_.back().payload.size();
   if (!flush_at_) flush_at_ = sent_any_ ? now + context_.batch : now;
   sent_any_ = true;
+}
+
+// A solver that sends them sooner than it may fills no disk.
+void SolveRun::ShowIterate(v1::Iterate iterate, SteadyTime now) {
+  if (now < iterate_at_) return;
+  iterate_at_ = now + kIteratePause / 2;  // what leaves the solver at its pace may arrive closer together
+  iterate.DiscardUnknownFields();
+  const Outcome<Done> put = context_.iterates.Put(id(), iterate.SerializeAsString());
+  if (put.ok() || std::exchange(iterate_failed_, true)) return;
+  Warn("solve.iterates_not_shown", put.error().message);
 }
 
 void SolveRun::NoEvents(SteadyTime now) {
@@ -202,6 +214,7 @@ void SolveRun::LoseLease(const std::string& reason) {
   Warn("lease.lost", reason);
   process_.Kill(SIGKILL);
   if (state_ == State::kCommitting) context_.spool.Remove(lease_);
+  context_.iterates.Remove(id());
   state_ = State::kOver;
 }
 
@@ -229,6 +242,7 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   facts.out_of_time = out_of_time_;
   facts.cpu_limit_s = context_.cpu_limit_s;
   facts.output = process_.LastOutput();
+  context_.iterates.Remove(id());
   outcome_ = JudgeRun(std::move(facts));
   if (SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {
     if (other_solver_) solve_end->reusable = false;

@@ -13,6 +13,7 @@
 #include "server/agent/solver_process.h"
 #include "server/agent/spool.h"
 #include "server/base/clock.h"
+#include "server/base/iterate_files.h"
 #include "server/base/logging.h"
 #include "server/store/solve_store.h"
 
@@ -28,6 +29,7 @@ class SolveRun {
   struct Context {
     SolveStore& store;
     const Spool& spool;
+    const IterateFiles& iterates;
     const Clock& clock;
     std::function<void(const std::string& id)> poke;   // tells rollgaitd that the solve has new events
     std::chrono::milliseconds batch{20};               // how long events wait for company
@@ -74,6 +76,7 @@ class SolveRun {
   void ReadSolver(SteadyTime now);
   void Take(const std::string& payload, SteadyTime now);
   void AddIteration(v1::Iteration iteration, SteadyTime now);
+  void ShowIterate(v1::Iterate iterate, SteadyTime now);
   void RenewLease(SteadyTime now);
   void EnforceDeadlines(SteadyTime now);
   void ConcludeIfGone(SteadyTime now);
@@ -100,6 +103,8 @@ class SolveRun {
   int skipped_ = 0;         // iterations dropped: the store does not take any, or there were too many
   size_t event_bytes_ = 0;  // of all iterations so far
   bool sent_any_ = false;
+  SteadyTime iterate_at_{};      // one before that is dropped
+  bool iterate_failed_ = false;  // the log has a line about it
   bool cancelled_ = false, stopping_ = false;
   bool out_of_time_ = false;
   std::optional<SteadyTime> flush_at_, kill_at_;

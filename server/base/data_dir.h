@@ -14,6 +14,7 @@ namespace rollgait::server {
 //   agent.sock             notifications to the newest agent: a solve was created or is to be cancelled
 //   spool/<id>-<epoch>.end an agent's copy of how a solve ended, until the store has it
 //   spool/<id>-<epoch>.journal  what an attempt has come to, for the next one, until the solve has ended
+//   iterates/<id>          the newest iterate of a running solve, for those who watch, until it has ended
 //   agents/<owner>.lock    flock held by a living agent; `owner` is the owner of its leases (letters, digits, '-')
 //   agents/<owner>.draining  that agent claims nothing more
 //
@@ -36,6 +37,8 @@ struct DataDir {
   std::string AgentsDir() const { return path + "/agents"; }
   std::string AgentLock(const std::string& owner) const { return AgentsDir() + "/" + owner + ".lock"; }
   std::string AgentDraining(const std::string& owner) const { return AgentsDir() + "/" + owner + kDrainingSuffix; }
+
+  std::string IteratesDir() const { return path + "/iterates"; }
 
   static constexpr char kDrainingSuffix[] = ".draining";
 };

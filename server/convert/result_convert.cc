@@ -39,18 +39,6 @@ v1::Discretization::Scheme EncodeScheme(Scheme scheme) {
   ROLLGAIT_CHECK(false);
 }
 
-v1::Cycle EncodeCycle(Cycle cycle) {
-  switch (cycle) {
-    case Cycle::kHalf:
-      return v1::CYCLE_HALF;
-    case Cycle::kFull:
-      return v1::CYCLE_FULL;
-    case Cycle::kOnce:
-      return v1::CYCLE_ONCE;
-  }
-  ROLLGAIT_CHECK(false);
-}
-
 v1::Verdict EncodeVerdict(Verdict::Kind kind) {
   switch (kind) {
     case Verdict::Kind::kNotJudged:
@@ -214,6 +202,18 @@ void EncodeAdded(const AddedConstraints& added, v1::Multipliers* multipliers) {
 }
 
 }  // namespace
+
+v1::Cycle EncodeCycle(Cycle cycle) {
+  switch (cycle) {
+    case Cycle::kHalf:
+      return v1::CYCLE_HALF;
+    case Cycle::kFull:
+      return v1::CYCLE_FULL;
+    case Cycle::kOnce:
+      return v1::CYCLE_ONCE;
+  }
+  ROLLGAIT_CHECK(false);
+}
 
 v1::Iteration EncodeIteration(const IterationInfo& iteration) {
   v1::Iteration encoded;

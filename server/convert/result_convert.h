@@ -6,6 +6,8 @@
 
 namespace rollgait::server {
 
+v1::Cycle EncodeCycle(Cycle cycle);
+
 v1::Iteration EncodeIteration(const IterationInfo& iteration);
 
 v1::Trajectory EncodeTrajectory(const Trajectory& trajectory, const Scene& scene);

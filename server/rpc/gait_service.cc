@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <iterator>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "server/rpc/call_record.h"
@@ -39,6 +41,14 @@ Error TooManyCalls() {
           "the server has too many calls to answer; try again later",
           {},
           std::chrono::milliseconds(1000)};
+}
+
+std::optional<Error> CheckIterates(int per_second) {
+  if (per_second >= 0 && per_second <= kMostIteratesPerSecond) return std::nullopt;
+  return Error{ErrorCode::kInvalidArgument,
+               "the request cannot be served",
+               {{"iterates_per_second", "is " + std::to_string(per_second) + ", must be in [0, " +
+                                            std::to_string(kMostIteratesPerSecond) + "]; 0: none"}}};
 }
 
 }  // namespace
@@ -151,11 +161,13 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::CallbackServerContext* context,
                                                                      const v1::WatchSolveRequest* request) {
   const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
+    if (std::optional<Error> refused = CheckIterates(request->iterates_per_second())) return *refused;
     Outcome<std::string> id = SolveId(request->name());
     if (!id.ok()) return id.error();
     const Outcome<SolveExtent> extent = service_.ExtentFor(caller, id.value());
     if (!extent.ok()) return extent.error();
-    return WatchStream::Target{std::move(id).value(), request->after_sequence(), extent.value().bytes};
+    return WatchStream::Target{std::move(id).value(), request->after_sequence(), request->iterates_per_second(),
+                               extent.value().bytes};
   };
   return Stream(RuleOf("WatchSolve"), context, find, false);
 }

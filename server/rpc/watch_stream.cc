@@ -72,11 +72,12 @@ void WatchStream::Prepare() {
     if (ended_) return;
   }
   std::weak_ptr<WatchStream> weak = weak_from_this();
-  Outcome<std::unique_ptr<Watch>> watch = target.ok() ? hub_.Open(target.value().id, target.value().after_sequence,
-                                                                  [weak] {
-                                                                    if (const auto stream = weak.lock()) stream->Wake();
-                                                                  })
-                                                      : Outcome<std::unique_ptr<Watch>>(target.error());
+  Outcome<std::unique_ptr<Watch>> watch =
+      target.ok() ? hub_.Open(target.value().id, target.value().after_sequence, target.value().iterates_per_second,
+                              [weak] {
+                                if (const auto stream = weak.lock()) stream->Wake();
+                              })
+                  : Outcome<std::unique_ptr<Watch>>(target.error());
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!watch.ok()) {

@@ -26,7 +26,8 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   struct Target {
     std::string id;
     int64_t after_sequence = 0;
-    int64_t bytes = 0;  // of the solve: the stream is refused before that is read if there is no room for it
+    int iterates_per_second = 0;  // at most; 0: none
+    int64_t bytes = 0;            // of the solve: the stream is refused before that is read if there is no room for it
   };
   // Finds or makes the solve to be watched. Runs on the executor.
   using Find = std::function<Outcome<Target>(const Caller&)>;

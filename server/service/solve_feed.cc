@@ -5,8 +5,9 @@
 
 namespace rollgait::server {
 
-SolveFeed::SolveFeed(SolveStore& store, std::string id, int64_t last_sequence, bool terminal)
-    : store_(store), id_(std::move(id)), last_sequence_(last_sequence), terminal_(terminal) {}
+SolveFeed::SolveFeed(SolveStore& store, const IterateFiles& iterates, std::string id, int64_t last_sequence,
+                     bool terminal)
+    : store_(store), iterates_(iterates), id_(std::move(id)), last_sequence_(last_sequence), terminal_(terminal) {}
 
 Outcome<EventPtr> SolveFeed::Decode(const StoredEvent& event) {
   Outcome<v1::SolveEvent> decoded = ToEvent(id_, event);
@@ -51,6 +52,25 @@ Outcome<bool> SolveFeed::Refresh() {
     if (held_.size() > kHeld) held_.pop_front();
   }
   return !read.value().empty();
+}
+
+bool SolveFeed::RefreshIterate() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (terminal_) return false;
+  }
+  const std::optional<std::string> bytes = iterates_.ReadNewer(id_, &iterate_version_);
+  auto read = std::make_shared<v1::Iterate>();
+  if (!bytes || !read->ParseFromString(*bytes)) return false;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  iterate_ = std::move(read);
+  ++iterate_number_;
+  return true;
+}
+
+std::shared_ptr<const v1::Iterate> SolveFeed::iterate() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return iterate_;
 }
 
 Outcome<std::vector<EventPtr>> SolveFeed::After(int64_t position, int max_events) {

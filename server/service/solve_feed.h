@@ -1,12 +1,15 @@
 #ifndef ROLLGAIT_SERVER_SERVICE_SOLVE_FEED_H_
 #define ROLLGAIT_SERVER_SERVICE_SOLVE_FEED_H_
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "server/base/iterate_files.h"
 #include "server/service/solve_message.h"
 #include "server/store/solve_store.h"
 
@@ -16,12 +19,18 @@ namespace rollgait::server {
 // share it.
 class SolveFeed {
  public:
-  // Events up to `last_sequence` are in the store; nothing is held in memory yet.
-  SolveFeed(SolveStore& store, std::string id, int64_t last_sequence, bool terminal);
+  // Events up to `last_sequence` are in the store; nothing is held in memory yet. Outlived by the store and the
+  // iterates.
+  SolveFeed(SolveStore& store, const IterateFiles& iterates, std::string id, int64_t last_sequence, bool terminal);
 
   const std::string& id() const { return id_; }
   // Reads what is new in the store into memory. True if there was something new. One thread at a time.
   Outcome<bool> Refresh();
+  // Reads the newest iterate, if there is a newer one. True if there was. One thread at a time.
+  bool RefreshIterate();
+  // The one that was read last, null where there is none, and its number here, from 1; 0: none.
+  std::shared_ptr<const v1::Iterate> iterate() const;
+  int64_t iterate_number() const { return iterate_number_; }
   // At most max_events events after `position`, from memory if they are all there. May read the store.
   Outcome<std::vector<EventPtr>> After(int64_t position, int max_events);
   // Number of the newest event known here.
@@ -36,11 +45,15 @@ class SolveFeed {
   Outcome<EventPtr> Decode(const StoredEvent& event);
 
   SolveStore& store_;
+  const IterateFiles& iterates_;
   const std::string id_;
   mutable std::mutex mutex_;  // protects what follows
   std::deque<EventPtr> held_;
   int64_t last_sequence_;
   bool terminal_;
+  std::shared_ptr<const v1::Iterate> iterate_;
+  std::atomic<int64_t> iterate_number_{0};
+  IterateFiles::Version iterate_version_;  // of the one thread that refreshes
 };
 
 }  // namespace rollgait::server

@@ -3,6 +3,7 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace rollgait::server {
@@ -82,7 +83,13 @@ Outcome<v1::SolveEvent> ToEvent(const std::string& id, const StoredEvent& event)
   return message;
 }
 
-std::vector<EventPtr> MergeIterations(const std::vector<EventPtr>& events) {
+std::vector<EventPtr> MergeIterations(const std::vector<EventPtr>& all) {
+  const auto is_iterate = [](const EventPtr& event) { return event->has_iterate(); };
+  const auto newest = std::find_if(all.rbegin(), all.rend(), is_iterate);
+  std::vector<EventPtr> events;
+  for (const EventPtr& event : all) {
+    if (!is_iterate(event) || event == *newest) events.push_back(event);
+  }
   std::vector<EventPtr> merged;
   int skipped = 0;
   for (size_t i = 0; i < events.size(); ++i) {

@@ -34,7 +34,8 @@ using EventPtr = std::shared_ptr<const v1::SolveEvent>;
 // A stored event as clients see it, except that a terminal event still lacks `finished`. kInternal as above.
 Outcome<v1::SolveEvent> ToEvent(const std::string& id, const StoredEvent& event);
 
-// Merges each run of iterations into its last one, whose skipped_count says how many were left out. All else stays.
+// Merges each run of iterations into its last one, whose skipped_count says how many were left out, and leaves out
+// iterates before the last one. All else stays.
 std::vector<EventPtr> MergeIterations(const std::vector<EventPtr>& events);
 
 }  // namespace rollgait::server

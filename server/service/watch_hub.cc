@@ -29,17 +29,34 @@ void Ring(int event_fd) {
 
 }  // namespace
 
-Watch::Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::function<void()> wake)
+Watch::Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::chrono::nanoseconds iterate_pause,
+             std::function<void()> wake)
     : hub_(hub),
       feed_(std::move(feed)),
       wake_(std::make_shared<const std::function<void()>>(std::move(wake))),
       position_(position),
-      last_taken_ns_(SteadyNanos()) {}
+      last_taken_ns_(SteadyNanos()),
+      iterate_pause_(iterate_pause) {}
 
 Watch::~Watch() { hub_.Close(this); }
 
 bool Watch::HeartbeatDue() const {
   return SteadyNanos() - last_taken_ns_ >= std::chrono::nanoseconds(hub_.heartbeat_interval_).count();
+}
+
+bool Watch::IterateDue() const {
+  return wants_iterates() && feed_->iterate_number() > iterate_taken_ &&
+         SteadyNanos() - iterate_taken_ns_ >= iterate_pause_.count();
+}
+
+// With what every event of this moment has that is not stored.
+std::shared_ptr<v1::SolveEvent> Watch::NewEvent() const {
+  auto event = std::make_shared<v1::SolveEvent>();
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  event->mutable_time()->set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+  event->set_sequence(position_);
+  event->set_name(SolveName(feed_->id()));
+  return event;
 }
 
 Outcome<WatchBatch> Watch::Take() {
@@ -53,22 +70,27 @@ Outcome<WatchBatch> Watch::Take() {
     last_taken_ns_ = SteadyNanos();
   }
   batch.ended = batch.ended || feed_->EndedBy(position_);
+  if (!batch.ended && IterateDue()) {
+    iterate_taken_ = feed_->iterate_number();
+    iterate_taken_ns_ = last_taken_ns_ = SteadyNanos();
+    const std::shared_ptr<v1::SolveEvent> shown = NewEvent();
+    *shown->mutable_iterate() = *feed_->iterate();
+    batch.events.push_back(shown);
+  }
   if (batch.events.empty() && !batch.ended && HeartbeatDue()) {
-    auto heartbeat = std::make_shared<v1::SolveEvent>();
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    heartbeat->mutable_time()->set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now).count());
-    heartbeat->set_sequence(position_);
-    heartbeat->set_name(SolveName(feed_->id()));
+    const std::shared_ptr<v1::SolveEvent> heartbeat = NewEvent();
     heartbeat->mutable_heartbeat();
-    batch.events.push_back(std::move(heartbeat));
+    batch.events.push_back(heartbeat);
     last_taken_ns_ = SteadyNanos();
   }
   return batch;
 }
 
-WatchHub::WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval)
+WatchHub::WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval,
+                   IterateFiles iterates)
     : store_(store),
       hints_(hints),
+      iterates_(std::move(iterates)),
       heartbeat_interval_(heartbeat_interval),
       event_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   ROLLGAIT_CHECK(event_fd_ >= 0);
@@ -81,7 +103,7 @@ WatchHub::~WatchHub() {
   close(event_fd_);
 }
 
-Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t after_sequence,
+Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t after_sequence, int iterates_per_second,
                                                std::function<void()> wake) {
   if (stopped_) return Stopping();
   const Outcome<EventPage> page = store_.ReadEvents(id, after_sequence, 0);
@@ -91,9 +113,11 @@ Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t af
     const std::lock_guard<std::mutex> lock(mutex_);
     Entry& entry = entries_[id];
     if (entry.feed == nullptr) {
-      entry.feed = std::make_shared<SolveFeed>(store_, id, page.value().last_sequence, IsTerminal(page.value().state));
+      entry.feed = std::make_shared<SolveFeed>(store_, iterates_, id, page.value().last_sequence,
+                                               IsTerminal(page.value().state));
     }
-    watch.reset(new Watch(*this, entry.feed, after_sequence, std::move(wake)));
+    const std::chrono::nanoseconds pause(iterates_per_second > 0 ? 1'000'000'000 / iterates_per_second : 0);
+    watch.reset(new Watch(*this, entry.feed, after_sequence, pause, std::move(wake)));
     entry.watches.push_back(watch.get());
     // The feed may be older than the page just read.
     changed_.push_back(id);
@@ -153,15 +177,18 @@ std::vector<std::string> WatchHub::WatchedIds() {
 
 void WatchHub::Refresh(const std::string& id) {
   std::shared_ptr<SolveFeed> feed;
+  bool wants_iterates = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto entry = entries_.find(id);
     if (entry == entries_.end()) return;
     feed = entry->second.feed;
+    for (const Watch* watch : entry->second.watches) wants_iterates = wants_iterates || watch->wants_iterates();
   }
   const Outcome<bool> changed = feed->Refresh();
   if (!changed.ok()) spdlog::warn("reading new events of solves/{} failed: {}", id, changed.error().message);
-  if (!changed.ok() || !changed.value()) return;
+  const bool has_iterate = wants_iterates && feed->RefreshIterate();
+  if (!has_iterate && (!changed.ok() || !changed.value())) return;
   Wakes wakes;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -173,13 +200,13 @@ void WatchHub::Refresh(const std::string& id) {
   for (const auto& wake : wakes) (*wake)();
 }
 
-void WatchHub::WakeForHeartbeats() {
+void WatchHub::WakeTheDue() {
   Wakes wakes;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& [id, entry] : entries_) {
       for (const Watch* watch : entry.watches) {
-        if (watch->HeartbeatDue()) wakes.push_back(watch->wake_);
+        if (watch->HeartbeatDue() || watch->IterateDue()) wakes.push_back(watch->wake_);
       }
     }
   }
@@ -202,7 +229,7 @@ void WatchHub::Loop() {
     if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
       last_poll_ns = SteadyNanos();
       ids = WatchedIds();
-      WakeForHeartbeats();
+      WakeTheDue();
     }
     for (const std::string& id : ids) Refresh(id);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/base/hint_channel.h"
+#include "server/base/iterate_files.h"
 #include "server/service/solve_feed.h"
 #include "server/service/solve_message.h"
 #include "server/store/solve_store.h"
@@ -20,6 +21,9 @@
 namespace rollgait::server {
 
 class WatchHub;
+
+// Of WatchSolveRequest.iterates_per_second: as many as a solver sends (kIteratePause).
+inline constexpr int kMostIteratesPerSecond = 4;
 
 // What a reader gets next.
 struct WatchBatch {
@@ -34,23 +38,31 @@ class Watch {
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  // Events that follow those taken before, at most kMaxBatch; none if there is nothing new, or a heartbeat if nothing
-  // was taken for the heartbeat interval. May read the store. kUnavailable: the server is stopping. kNotFound: it was
-  // deleted.
+  // Events that follow those taken before, at most kMaxBatch, and the newest iterate if the reader wants one now; none
+  // if there is nothing new, or a heartbeat if nothing was taken for the heartbeat interval. May read the store.
+  // kUnavailable: the server is stopping. kNotFound: it was deleted.
   Outcome<WatchBatch> Take();
 
   static constexpr int kMaxBatch = 64;
 
  private:
   friend class WatchHub;
-  Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::function<void()> wake);
+  Watch(WatchHub& hub, std::shared_ptr<SolveFeed> feed, int64_t position, std::chrono::nanoseconds iterate_pause,
+        std::function<void()> wake);
   bool HeartbeatDue() const;
+  bool wants_iterates() const { return iterate_pause_.count() > 0; }
+  // There is one that the reader has not taken, and its pause is over.
+  bool IterateDue() const;
+  std::shared_ptr<v1::SolveEvent> NewEvent() const;
 
   WatchHub& hub_;
   const std::shared_ptr<SolveFeed> feed_;
   const std::shared_ptr<const std::function<void()>> wake_;
   std::atomic<int64_t> position_;  // number of the last event taken
   std::atomic<int64_t> last_taken_ns_;
+  const std::chrono::nanoseconds iterate_pause_;  // 0: none are wanted
+  std::atomic<int64_t> iterate_taken_{0};         // SolveFeed::iterate_number
+  std::atomic<int64_t> iterate_taken_ns_{0};
 };
 
 // Tells readers of new events. A thread learns of them from the agent's notifications and, should one be lost, by
@@ -58,12 +70,15 @@ class Watch {
 class WatchHub {
  public:
   // Store and hints outlive the hub, which alone receives from them. Heartbeats come within a poll of their time.
-  WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval);
+  // `iterates`: where the agents of this machine keep those of running solves.
+  WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval, IterateFiles iterates);
   ~WatchHub();
 
   // A reader after a sequence number. `wake` is called, from any thread, when Take may have something: soon after
-  // opening too. It must not block, nor call the hub. kNotFound, kOutOfRange, kUnavailable when stopped.
-  Outcome<std::unique_ptr<Watch>> Open(const std::string& id, int64_t after_sequence, std::function<void()> wake);
+  // opening too. It must not block, nor call the hub. iterates_per_second: at most so many, 0: none. kNotFound,
+  // kOutOfRange, kUnavailable when stopped.
+  Outcome<std::unique_ptr<Watch>> Open(const std::string& id, int64_t after_sequence, int iterates_per_second,
+                                       std::function<void()> wake);
   // This process has changed a solve: look at once.
   void Changed(const std::string& id);
   // Wakes every reader; from now on Take and Open answer kUnavailable.
@@ -85,12 +100,14 @@ class WatchHub {
 
   void Loop();
   void Refresh(const std::string& id);
-  void WakeForHeartbeats();
+  // Wakes those for whom a heartbeat or an iterate is due.
+  void WakeTheDue();
   void Close(Watch* watch);
   std::vector<std::string> WatchedIds();
 
   SolveStore& store_;
   HintChannel& hints_;
+  const IterateFiles iterates_;
   const std::chrono::milliseconds heartbeat_interval_;
   const int event_fd_;
   std::atomic<bool> stopped_{false};

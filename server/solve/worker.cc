@@ -11,12 +11,14 @@
 
 #include "core/nlp/solve_journal.h"
 #include "server/base/framing.h"
+#include "server/base/iterate_files.h"
 #include "server/base/journal_limits.h"
 #include "server/base/solver_build.h"
 #include "server/base/wire.pb.h"
 #include "server/convert/gait_request_convert.h"
 #include "server/convert/result_convert.h"
 #include "server/convert/warm_start_convert.h"
+#include "server/solve/iterate_sender.h"
 
 namespace rollgait::server {
 namespace {
@@ -79,6 +81,11 @@ class Sender {
     *message.mutable_iteration() = EncodeIteration(iteration);
     Send(message);
   }
+  void Send(v1::Iterate iterate) {
+    wire::SolverMessage message;
+    *message.mutable_iterate() = std::move(iterate);
+    Send(message);
+  }
   void Send(const Continuation& continuation) {
     wire::SolverMessage message;
     message.mutable_continuation()->set_programs(continuation.programs);
@@ -116,6 +123,8 @@ WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource&
   control.stop = &stop;
   control.journal = &journal;
   control.observer = [&](const IterationInfo& iteration) { sender.Send(iteration); };
+  IterateSender iterates(spec.scene, kIteratePause, [&](v1::Iterate iterate) { sender.Send(std::move(iterate)); });
+  control.iterates = &iterates;
   wire::SolverMessage message;
   const GaitSolution solution = solver.Solve(spec, control);
   *message.mutable_result() = EncodeResult(solution, spec);

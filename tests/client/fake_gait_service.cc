@@ -148,6 +148,7 @@ grpc::Status FakeGaitService::WatchSolve(grpc::ServerContext* context, const v1:
         heartbeat.mutable_heartbeat();
         return heartbeat;
       }());
+      if (request->iterates_per_second() > 0) writer->Write(IterateOf(*request, static_cast<int64_t>(next)));
       changed_.wait_for(lock, std::chrono::milliseconds(20));
       continue;
     }
@@ -161,6 +162,12 @@ grpc::Status FakeGaitService::WatchSolve(grpc::ServerContext* context, const v1:
     }
   }
   return grpc::Status::CANCELLED;
+}
+
+v1::SolveEvent FakeGaitService::IterateOf(const v1::WatchSolveRequest& request, int64_t sequence) {
+  v1::SolveEvent event = NewEvent(request.name(), sequence);
+  *event.mutable_iterate() = SampleIterate(SampleModel(), 4, 0);
+  return event;
 }
 
 grpc::Status FakeGaitService::GetSolve(grpc::ServerContext*, const v1::GetSolveRequest* request, v1::Solve* solve) {
@@ -248,7 +255,8 @@ grpc::Status FakeGaitService::DeleteModel(grpc::ServerContext*, const v1::Delete
 }
 
 grpc::Status FakeGaitService::GetModel(grpc::ServerContext*, const v1::GetModelRequest* request, v1::Model* model) {
-  if (request->model().name() != "planar") return {grpc::StatusCode::NOT_FOUND, "no such model"};
+  if (request->model().name() != "planar" && request->model().name() != "endless")
+    return {grpc::StatusCode::NOT_FOUND, "no such model"};
   *model = SampleModel();
   *model->mutable_selection() = request->model();
   return grpc::Status::OK;

@@ -16,7 +16,7 @@
 
 namespace rollgait::client {
 
-// Model "planar" walks; "infeasible" and "crash" end as they say; "endless" runs until cancelled;
+// Model "planar" walks; "infeasible" and "crash" end as they say; "endless" runs until cancelled, with iterates;
 // "refused" is INVALID_ARGUMENT with two violations; every other model is refused as unknown. The id of a solve is its
 // model's name. Thread-safe.
 class FakeGaitService : public v1::GaitService::Service {
@@ -54,6 +54,8 @@ class FakeGaitService : public v1::GaitService::Service {
     std::vector<v1::SolveEvent> events;
   };
   void Finish(Record& record, v1::SolveState state);
+  // Of a running solve, as often as it is asked.
+  static v1::SolveEvent IterateOf(const v1::WatchSolveRequest& request, int64_t sequence);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

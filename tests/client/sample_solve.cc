@@ -251,4 +251,24 @@ v1::Solve SampleSolve(const std::string& name, double slope_rad) {
   return solve;
 }
 
+v1::Iterate SampleIterate(const v1::Model& model, int index, int mesh) {
+  const v1::Trajectory trajectory = SampleTrajectory(model);
+  v1::Iterate iterate;
+  iterate.set_index(index);
+  iterate.set_mesh(mesh);
+  *iterate.mutable_joint_names() = trajectory.joint_names();
+  iterate.set_cycle(trajectory.cycle());
+  iterate.set_duration_s(trajectory.duration_s());
+  iterate.set_displacement_m(trajectory.displacement_m());
+  for (const v1::TrajectoryPhase& phase : trajectory.phases()) {
+    v1::Iterate::Phase& part = *iterate.add_phases();
+    *part.mutable_contacts() = phase.contacts();
+    part.set_start_s(phase.start_s());
+    part.set_duration_s(phase.duration_s());
+    for (const double time : phase.node_times_s()) part.add_times_s(static_cast<float>(time));
+    for (const double value : phase.node_positions().values()) part.add_positions(static_cast<float>(value));
+  }
+  return iterate;
+}
+
 }  // namespace rollgait::client

@@ -17,6 +17,9 @@ constexpr double kSampleSpan_s = 0.55;
 constexpr double kSampleDisplacement_m = 0.715;
 v1::Trajectory SampleTrajectory(const v1::Model& model);
 
+// The same motion as an iterate with these numbers: its nodes.
+v1::Iterate SampleIterate(const v1::Model& model, int index, int mesh);
+
 // Its events: right heel strike at 0 %, left toe off at 10, left heel strike at 50, right toe off at 60.
 v1::GaitEvents SampleGaitEvents(const v1::Model& model);
 

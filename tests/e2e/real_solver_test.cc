@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 #include "tests/e2e/daemon.h"
 #include "tests/server/store/temporary_directory.h"
@@ -76,6 +77,55 @@ TEST(RealSolverTest, AGaitComesBackWithItsAccuracy) {
   EXPECT_TRUE(again.solve.from_cache());
   EXPECT_EQ(again.iterations, 0);
   EXPECT_EQ(again.solve.result().termination(), v1::TERMINATION_OPTIMAL);
+}
+
+TEST(RealSolverTest, IteratesComeWhileTheSolverRunsToThoseWhoAsk) {
+  const TemporaryDirectory directory;
+  Daemon::Options options;
+  options.data_dir = directory.path() + "/data";
+  const Daemon daemon(options);
+  ASSERT_NE(daemon.address(), "");
+  const auto stub = daemon.NewStub();
+  v1::CreateSolveRequest create;
+  create.mutable_spec()->mutable_model()->set_name("human29");
+  create.mutable_spec()->set_slope_rad(0.05);
+  v1::Solve solve;
+  grpc::ClientContext creating;
+  const Clock::time_point start = Clock::now();
+  ASSERT_TRUE(stub->CreateSolve(&creating, create, &solve).ok());
+  v1::WatchSolveRequest watch;
+  watch.set_name(solve.name());
+  watch.set_iterates_per_second(4);
+  grpc::ClientContext context;
+  const auto stream = stub->WatchSolve(&context, watch);
+  v1::SolveEvent event;
+  int iterates = 0;
+  while (stream->Read(&event)) {
+    if (!event.has_iterate()) continue;
+    const v1::Iterate& iterate = event.iterate();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (iterates++ == 0) {
+      std::printf("first iterate after %.0f ms\n", 1000 * seconds);
+      EXPECT_LT(seconds, 20) << "it need not wait for the end";
+    }
+    EXPECT_LE(iterates, 1 + 4 * seconds);
+    EXPECT_LT(iterate.ByteSizeLong(), size_t{64} << 10);
+    EXPECT_EQ(iterate.joint_names_size(), 29);
+    EXPECT_GT(iterate.phases_size(), 0);
+    for (const v1::Iterate::Phase& phase : iterate.phases()) {
+      EXPECT_EQ(phase.positions_size(), 29 * phase.times_s_size());
+    }
+  }
+  EXPECT_TRUE(stream->Finish().ok());
+  EXPECT_GT(iterates, 0);
+  ASSERT_TRUE(event.has_finished());
+  EXPECT_EQ(event.finished().result().termination(), v1::TERMINATION_OPTIMAL);
+  EXPECT_TRUE(std::filesystem::is_empty(options.data_dir + "/iterates"));
+  watch.set_iterates_per_second(0);
+  grpc::ClientContext again;
+  const auto stored = stub->WatchSolve(&again, watch);
+  while (stored->Read(&event)) EXPECT_FALSE(event.has_iterate());
+  EXPECT_TRUE(stored->Finish().ok());
 }
 
 TEST(RealSolverTest, ANeighbourStartsFromAStoredSolve) {

@@ -2,6 +2,7 @@
 // Elements of the page, sections and tables.
 const SVG = "http://www.w3.org/2000/svg";
 const page = document.getElementById("page");
+const { nonce: NONCE } = document.currentScript; // without which a page that is served runs no script
 
 // An element with attributes and children; strings become text. The attribute `on` holds handlers by event.
 function el(name, attributes = {}, ...children) {

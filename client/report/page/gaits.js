@@ -7,6 +7,7 @@ const MOVING = SOLVES.filter((solve) => solve.stride);
 const ROLLING = SOLVES.filter((solve) => solve.path);
 const SHOWN = [...MOVING, ...ROLLING]; // those with a motion
 const MANY = SHOWN.length > FEW;
+const LIVE = Boolean(DATA.live); // the solve runs: its motion comes later, without forces
 const DASHES = ["", "7 4", "2 3", "9 3 2 3"];
 
 // Rows of PackedRows; unknown numbers are NaN.
@@ -21,7 +22,7 @@ function unpack({ columns, scales, data }) {
   );
 }
 
-for (const solve of SHOWN) {
+function unpackMotion(solve) {
   const motion = solve.stride || solve.path;
   solve.motion = motion;
   solve.duration = motion.duration;
@@ -29,6 +30,7 @@ for (const solve of SHOWN) {
   motion.scene.tracks = unpack(motion.scene.tracks);
   if (motion.curves) motion.curves = unpack(motion.curves);
 }
+for (const solve of SHOWN) unpackMotion(solve);
 
 // Light and dark colours of many gaits run with the slope, or with the speed where the slopes are equal.
 const RAMPS = [

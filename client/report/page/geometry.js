@@ -6,6 +6,7 @@ async function loadThree() {
   const bytes = Uint8Array.from(atob(document.getElementById("three").textContent.trim()), (c) => c.charCodeAt(0));
   const text = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
   const script = el("script");
+  if (NONCE) script.nonce = NONCE;
   script.textContent = text;
   document.head.append(script);
   if (!window.THREE) throw new Error("three.js did not start");

@@ -139,9 +139,10 @@ function sceneControls(scene) {
     { class: "controls" },
     views,
     together,
-    part("forces", "forces"),
+    ...(LIVE ? [] : [part("forces", "forces")]),
     part("tracks", "contact tracks"),
-    ...(ROLLING.length ? [] : [part("pressure", "centre of pressure"), part("center", "centre of mass")]),
+    ...(ROLLING.length || LIVE ? [] : [part("pressure", "centre of pressure")]),
+    ...(ROLLING.length ? [] : [part("center", "centre of mass")]),
     gaits,
   );
 }

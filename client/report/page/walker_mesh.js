@@ -150,6 +150,15 @@ class WalkerMesh {
     this.world.add(this.tracks);
   }
 
+  // The scene has another motion of the same body now.
+  takeMotion() {
+    const shown = this.tracks.visible;
+    this.tracks.traverse((part) => part.geometry && part.geometry.dispose());
+    this.world.remove(this.tracks);
+    this.addTracks();
+    this.tracks.visible = shown;
+  }
+
   // Colours of the page's style.
   paint() {
     const color = colorValue(solveColor(this.solve.index)),

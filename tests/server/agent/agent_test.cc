@@ -57,6 +57,53 @@ TEST_F(AgentTest, ASolverThatSendsTooMuchFillsNoStore) {
   EXPECT_GT(CountIterations(many), 1000);
 }
 
+TEST_F(AgentTest, KeepsTheNewestIterateWhileTheSolveRunsAndStoresNone) {
+  std::string words;
+  for (int i = 0; i < 40; ++i) words += "iterates 1 sleep 20 ";
+  const std::string id = Queue(words + "obey");
+  const auto agent = MakeAgent();
+  const auto start = std::chrono::steady_clock::now();
+  const IterateFiles files(DataDir{directory_}.IteratesDir());
+  std::vector<v1::Iterate> kept;
+  IterateFiles::Version version;
+  const auto look = [&] {
+    const std::optional<std::string> bytes = files.ReadNewer(id, &version);
+    v1::Iterate iterate;
+    if (bytes && iterate.ParseFromString(*bytes)) kept.push_back(iterate);
+    return CountIterations(id) == 1;  // the solver obeys now
+  };
+  ASSERT_TRUE(StepUntil(*agent, look));
+  ASSERT_GE(kept.size(), 2u);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start, pace = kIteratePause / 2;
+  EXPECT_LE(static_cast<double>(kept.size()), 1 + elapsed / pace) << "those that come too fast are dropped";
+  EXPECT_EQ(kept.front().joint_names(0), "hip");
+  EXPECT_TRUE(store_->RequestCancel(id).ok());
+  RunToEnd(*agent, id);
+  EXPECT_TRUE(std::filesystem::is_empty(DataDir{directory_}.IteratesDir()));
+  for (const v1::SolveEvent& event : Events(id)) EXPECT_FALSE(event.has_iterate());
+}
+
+TEST_F(AgentTest, AnIterateThatIsTooLongIsNotShownAndHarmsNothing) {
+  const std::string id = Queue("long-iterate iterations 2 obey");
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return CountIterations(id) == 3; }));  // two, and that it obeys now
+  EXPECT_TRUE(std::filesystem::is_empty(DataDir{directory_}.IteratesDir()));
+  EXPECT_TRUE(store_->RequestCancel(id).ok());
+  EXPECT_EQ(RunToEnd(*agent, id).state, SolveState::kCancelled);
+}
+
+TEST_F(AgentTest, IteratesOfSolvesThatRunNoMoreAreRemovedAtTheStart) {
+  const IterateFiles files(DataDir{directory_}.IteratesDir());
+  ASSERT_TRUE(files.MakeDirectory().ok());
+  const std::string id = Queue("result");
+  ASSERT_TRUE(files.Put(id, "left").ok());
+  ASSERT_TRUE(files.Put("deleted", "left").ok());
+  const auto agent = MakeAgent();
+  close(std::exchange(lifeline_[1], -1));  // it claims nothing and goes
+  agent->Run();
+  EXPECT_TRUE(std::filesystem::is_empty(DataDir{directory_}.IteratesDir()));
+}
+
 TEST_F(AgentTest, ANumericalFailureIsAResult) {
   const auto agent = MakeAgent();
   const SolveRecord record = RunToEnd(*agent, Queue("infeasible"));

@@ -6,6 +6,7 @@
 //   hang           waits for ever, deaf to kCancelSignal
 //   close          closes its stream and waits for ever
 //   flood N        sends N iterations of 1 MiB each, most of it unknown fields
+//   iterates N     sends N iterates            long-iterate  sends one of more than kMaxIterateBytes
 //   print WORD     prints                      crash      dies by SIGSEGV
 //   xcpu           dies by SIGXCPU             once FILE  dies by SIGSEGV unless FILE exists; makes it
 // After the last word it exits with status 0.
@@ -24,6 +25,7 @@
 
 #include "server/base/cancel_signal.h"
 #include "server/base/framing.h"
+#include "server/base/iterate_files.h"
 #include "server/base/wire.pb.h"
 
 namespace rollgait::server {
@@ -36,6 +38,13 @@ void Send(const wire::SolverMessage& message) { WriteFrame(stream, message.Seria
 void SendResult(v1::Termination termination) {
   wire::SolverMessage message;
   message.mutable_result()->set_termination(termination);
+  Send(message);
+}
+
+void SendIterate(int index, const std::string& joint) {
+  wire::SolverMessage message;
+  message.mutable_iterate()->set_index(index);
+  message.mutable_iterate()->add_joint_names(joint);
   Send(message);
 }
 
@@ -94,6 +103,10 @@ void Obey(std::istringstream& words) {
           ->MutableUnknownFields(message.mutable_iteration())
           ->AddLengthDelimited(1000, std::string(1 << 20, 'x'));
       for (int i = 0; i < count; ++i) Send(message);
+    } else if (word == "iterates" && words >> count) {
+      for (int i = 0; i < count; ++i) SendIterate(i, "hip");
+    } else if (word == "long-iterate") {
+      SendIterate(0, std::string(kMaxIterateBytes, 'x'));
     } else if (word == "sleep" && words >> count) {
       usleep(static_cast<useconds_t>(count) * 1000);
     } else if (word == "result") {

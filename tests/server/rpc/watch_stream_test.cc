@@ -94,6 +94,40 @@ TEST(WatchStreamTest, BadPlacesHaveTheirCodes) {
   EXPECT_EQ(ViolatedField(status), "spec");
 }
 
+TEST(WatchStreamTest, IteratesComeToAClientThatAsksAndNoMoreThanFourASecond) {
+  RpcBench bench;
+  ASSERT_TRUE(bench.bench().iterates().MakeDirectory().ok());
+  const std::string id = bench.bench().Create();
+  const Lease lease = bench.bench().Claim();
+  v1::Iterate iterate;
+  iterate.set_index(3);
+  ASSERT_TRUE(bench.bench().iterates().Put(id, iterate.SerializeAsString()).ok());
+  v1::WatchSolveRequest request;
+  request.set_name("solves/" + id);
+  v1::SolveEvent event;
+  for (const int refused : {-1, 5}) {
+    request.set_iterates_per_second(refused);
+    grpc::ClientContext context;
+    const auto stream = bench.stub().WatchSolve(&context, request);
+    EXPECT_FALSE(stream->Read(&event));
+    const grpc::Status status = stream->Finish();
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    EXPECT_EQ(ViolatedField(status), "iterates_per_second");
+  }
+  request.set_iterates_per_second(4);
+  grpc::ClientContext context;
+  const auto stream = bench.stub().WatchSolve(&context, request);
+  do {
+    ASSERT_TRUE(stream->Read(&event));
+  } while (!event.has_iterate());
+  EXPECT_EQ(event.iterate().index(), 3);
+  bench.bench().Finish(lease);
+  while (stream->Read(&event)) {
+  }
+  EXPECT_TRUE(event.has_finished());
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
 TEST(WatchStreamTest, AClientThatGoesAwayCancelsOnlyIfItSaidSo) {
   RpcBench bench;
   for (const bool cancel : {false, true}) {

@@ -94,7 +94,8 @@ class ServiceBench {
   explicit ServiceBench(std::chrono::milliseconds heartbeat = std::chrono::hours(1), ServiceOptions options = {})
       : store_(OpenStore({directory_.path() + "/rollgait.db"}, clock_).value()),
         channel_(SocketHints::Create(directory_.path(), kServerSocket, kAgentSocket).value()),
-        hub_(*store_, *channel_, heartbeat),
+        iterates_(directory_.path() + "/iterates"),
+        hub_(*store_, *channel_, heartbeat, iterates_),
         hints_(NotifySender::Create(directory_.path(), kServerSocket).value()),
         service_(*store_, *store_, SmallKnowledge(), std::move(options),
                  [this](const std::string& id) { hub_.Changed(id); }) {}
@@ -102,6 +103,7 @@ class ServiceBench {
   SqlStore& store() { return *store_; }
   WatchHub& hub() { return hub_; }
   SolveService& service() { return service_; }
+  const IterateFiles& iterates() const { return iterates_; }
   void Hint(const std::string& id) { hints_.Send(id); }
 
   // The id of a new solve.
@@ -135,6 +137,7 @@ class ServiceBench {
   SystemClock clock_;
   std::unique_ptr<SqlStore> store_;
   std::unique_ptr<HintChannel> channel_;
+  IterateFiles iterates_;
   WatchHub hub_;
   NotifySender hints_;
   SolveService service_;

@@ -98,6 +98,21 @@ TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
   EXPECT_EQ(ToSolveBytes(record).error().code, ErrorCode::kInternal);
 }
 
+TEST(MergeIterationsTest, LeavesOutIteratesBeforeTheLast) {
+  const auto iterate = [](int index) {
+    v1::SolveEvent event;
+    event.mutable_iterate()->set_index(index);
+    return std::make_shared<v1::SolveEvent>(event);
+  };
+  const auto merged = MergeIterations({Iteration(1), iterate(1), Iteration(2), iterate(2), Iteration(3), Change(4)});
+  ASSERT_EQ(merged.size(), 4u);
+  EXPECT_EQ(merged[0]->sequence(), 2);
+  EXPECT_EQ(merged[0]->skipped_count(), 1);
+  EXPECT_EQ(merged[1]->iterate().index(), 2);
+  EXPECT_EQ(merged[2]->sequence(), 3);
+  EXPECT_EQ(merged[3]->sequence(), 4);
+}
+
 TEST(MergeIterationsTest, KeepsTheLastOfEachRunAndAllElse) {
   const auto merged = MergeIterations({Iteration(1), Iteration(2, 3), Iteration(3), Change(4), Iteration(5), Change(6),
                                        Change(7), Iteration(8), Iteration(9)});

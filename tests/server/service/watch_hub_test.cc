@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
+#include <thread>
 
 #include "tests/server/service/service_fixture.h"
 
@@ -12,8 +14,8 @@ namespace {
 // Reads one watch as a stream would: sleeps until woken, then takes.
 class Reader {
  public:
-  Reader(ServiceBench& bench, const std::string& id, int64_t after)
-      : watch_(bench.hub().Open(id, after, [this] { Wake(); }).value()) {}
+  Reader(ServiceBench& bench, const std::string& id, int64_t after, int iterates_per_second = 0)
+      : watch_(bench.hub().Open(id, after, iterates_per_second, [this] { Wake(); }).value()) {}
 
   // Adds what comes until `done(events)`; false if the watch ended or failed before.
   template <typename Condition>
@@ -133,9 +135,9 @@ TEST(WatchHubTest, AFinishedSolveEndsAtOnce) {
 TEST(WatchHubTest, BadPlacesAreRefused) {
   ServiceBench bench;
   const std::string id = bench.Create();
-  EXPECT_EQ(bench.hub().Open(id, 2, [] {}).error().code, ErrorCode::kOutOfRange);
-  EXPECT_EQ(bench.hub().Open(id, -1, [] {}).error().code, ErrorCode::kOutOfRange);
-  EXPECT_EQ(bench.hub().Open("none", 0, [] {}).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.hub().Open(id, 2, 0, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open(id, -1, 0, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open("none", 0, 0, [] {}).error().code, ErrorCode::kNotFound);
 }
 
 TEST(WatchHubTest, HeartbeatsRepeatTheLastNumber) {
@@ -149,6 +151,73 @@ TEST(WatchHubTest, HeartbeatsRepeatTheLastNumber) {
   EXPECT_EQ(reader.events[2]->sequence(), 1);
 }
 
+void PutIterate(ServiceBench& bench, const std::string& id, int index) {
+  v1::Iterate iterate;
+  iterate.set_index(index);
+  ASSERT_TRUE(bench.iterates().Put(id, iterate.SerializeAsString()).ok());
+}
+
+TEST(WatchHubTest, TheNewestIterateComesToThoseWhoAskAndToNobodyElse) {
+  ServiceBench bench;
+  ASSERT_TRUE(bench.iterates().MakeDirectory().ok());
+  const std::string id = bench.Create();
+  const Lease lease = bench.Claim();
+  PutIterate(bench, id, 7);
+  PutIterate(bench, id, 8);
+  Reader asks(bench, id, 0, 4), asks_not(bench, id, 0);
+  ASSERT_TRUE(asks.Until([](const std::vector<EventPtr>& all) { return !all.empty() && all.back()->has_iterate(); }));
+  EXPECT_EQ(asks.events.back()->iterate().index(), 8);
+  EXPECT_EQ(asks.events.back()->name(), "solves/" + id);
+  EXPECT_GT(asks.events.back()->time().seconds(), 0);
+  PutIterate(bench, id, 9);
+  ASSERT_TRUE(asks.Until([](const std::vector<EventPtr>& all) { return all.back()->iterate().index() == 9; }));
+  bench.AppendIterations(lease, 0, 3);
+  bench.Finish(lease);
+  for (Reader* reader : {&asks, &asks_not}) {
+    EXPECT_TRUE(reader->UntilEnd());
+    std::vector<EventPtr> stored = reader->events;
+    std::erase_if(stored, [](const EventPtr& event) { return event->has_iterate(); });
+    EXPECT_EQ(reader->events.size() - stored.size(), reader == &asks ? 2u : 0u);
+    ExpectDenseAfter(stored, 0);
+    EXPECT_TRUE(reader->events.back()->has_finished());
+    for (size_t i = 1; i < reader->events.size(); ++i) {
+      if (reader->events[i]->has_iterate()) {
+        EXPECT_EQ(reader->events[i]->sequence(), reader->events[i - 1]->sequence()) << "repeats the last number";
+      }
+    }
+  }
+}
+
+TEST(WatchHubTest, IteratesComeNoFasterThanTheyAreAskedFor) {
+  ServiceBench bench;
+  ASSERT_TRUE(bench.iterates().MakeDirectory().ok());
+  const std::string id = bench.Create();
+  const Lease lease = bench.Claim();
+  const auto start = std::chrono::steady_clock::now();
+  Reader once(bench, id, 0, 1), often(bench, id, 0, 4);
+  std::vector<std::thread> readers;
+  for (Reader* reader : {&once, &often}) readers.emplace_back([reader] { reader->UntilEnd(); });
+  int index = 0;
+  while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(1500)) {
+    PutIterate(bench, id, ++index);
+    bench.Hint(id);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  bench.Finish(lease);
+  for (std::thread& reader : readers) reader.join();
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto shown = [](const Reader& reader) {
+    EXPECT_TRUE(reader.ended);
+    return static_cast<double>(std::count_if(reader.events.begin(), reader.events.end(),
+                                             [](const EventPtr& event) { return event->has_iterate(); }));
+  };
+  EXPECT_GE(shown(once), 1);
+  EXPECT_LE(shown(once), 1 + elapsed_s);
+  EXPECT_GT(shown(often), shown(once));
+  EXPECT_LE(shown(often), 1 + 4 * elapsed_s);
+  EXPECT_GT(index, 10) << "more than were shown";
+}
+
 TEST(WatchHubTest, StopWakesReadersAndRefusesNewOnes) {
   ServiceBench bench;
   const std::string id = bench.Create();
@@ -158,7 +227,7 @@ TEST(WatchHubTest, StopWakesReadersAndRefusesNewOnes) {
   EXPECT_FALSE(reader.UntilCount(2));
   ASSERT_TRUE(reader.failure.has_value());
   EXPECT_EQ(reader.failure->code, ErrorCode::kUnavailable);
-  EXPECT_EQ(bench.hub().Open(id, 0, [] {}).error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(bench.hub().Open(id, 0, 0, [] {}).error().code, ErrorCode::kUnavailable);
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
+#include "core/gait/iterate_sink.h"
 #include "server/base/framing.h"
 #include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
@@ -59,6 +61,42 @@ class WorkerTest : public ::testing::Test {
 };
 
 GaitSolution Optimal(const GaitSpec&, const SolveControl&) { return EndedWith(Termination::kOptimal); }
+
+TEST_F(WorkerTest, SendsAnIterateAtOnceAndNoneInThePauseAfterIt) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec& spec, const SolveControl& control) {
+              CoarseMotion motion;
+              motion.duration = 0.5;
+              motion.phases.push_back({{0}, 0, 0.5, {0, 0.5}, MatrixX::Zero(spec.scene.model.size(), 2)});
+              for (int i = 0; i < 3; ++i) {
+                IterationInfo iteration;
+                iteration.index = i;
+                if (control.iterates->Wants()) control.iterates->Take(iteration, motion);
+              }
+              return EndedWith(Termination::kOptimal);
+            }),
+            kWorkerDone);
+  const wire::SolverMessage first = Receive();
+  ASSERT_TRUE(first.has_iterate());
+  EXPECT_EQ(first.iterate().index(), 0);
+  EXPECT_EQ(first.iterate().duration_s(), 0.5);
+  EXPECT_EQ(first.iterate().phases(0).positions_size(), 2 * first.iterate().joint_names_size());
+  EXPECT_TRUE(Receive().has_result());
+}
+
+TEST_F(WorkerTest, SendsNoIterateThatIsNotFinite) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec& spec, const SolveControl& control) {
+              CoarseMotion motion;
+              motion.phases.push_back({{0}, 0, 0.5, {0, 0.5}, MatrixX::Zero(spec.scene.model.size(), 2)});
+              motion.phases[0].positions(0, 1) = std::nan("");
+              EXPECT_TRUE(control.iterates->Wants());
+              control.iterates->Take({}, motion);
+              return EndedWith(Termination::kOptimal);
+            }),
+            kWorkerDone);
+  EXPECT_TRUE(Receive().has_result());
+}
 
 TEST_F(WorkerTest, SendsIterationsAndThenTheResult) {
   SendRequest();

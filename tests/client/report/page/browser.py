@@ -105,12 +105,16 @@ class Browser:
 
     def open(self, page: pathlib.Path, width: int = 1280, height: int = 900, scheme: str = "light"):
         """Opens a report and waits until its scene, or its flat view, stands."""
+        self.open_address(page.resolve().as_uri(), width, height, scheme)
+
+    def open_address(self, address: str, width: int = 1280, height: int = 900, scheme: str = "light"):
+        """The same of a page that a server hands out."""
         self.problems.clear()
         self.requests.clear()
         self.resize(width, height)
         self.call("Emulation.setEmulatedMedia", media="", features=[{"name": "prefers-color-scheme", "value": scheme}])
         self.call("Page.navigate", url="about:blank")
-        self.call("Page.navigate", url=page.resolve().as_uri())
+        self.call("Page.navigate", url=address)
         self.wait_for("document.readyState === 'complete'")
         stands = "window.rollgaitScene || document.querySelector('.flatview') || !document.querySelector('.stage')"
         self.wait_for(stands)
