@@ -35,7 +35,7 @@ class Solver {
         options_(options),
         control_(control),
         resumption_(resumption),
-        barrier_(problem),
+        barrier_(problem, options.BoundRelaxation()),
         newton_(barrier_, options),
         begin_(Clock::now()) {}
 

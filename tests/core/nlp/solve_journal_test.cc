@@ -192,7 +192,7 @@ TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   SolveJournal(JournalRecords(), sink, {1, 1e9}).Solve(problem, start, options, {});
   StartedProgram good;
   ASSERT_TRUE(Decode(kept, &good));
-  ASSERT_TRUE(Fits(good.state, problem));
+  ASSERT_TRUE(Fits(good.state, problem, options));
   using Spoil = void (*)(InteriorPointState&);
   const Spoil spoils[] = {
       [](InteriorPointState& s) { s.w.conservativeResize(s.w.size() - 1); },
@@ -222,7 +222,7 @@ TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   for (const Spoil& spoil : spoils) {
     StartedProgram spoilt = good;
     spoil(spoilt.state);
-    EXPECT_FALSE(Fits(spoilt.state, problem)) << &spoil - spoils;
+    EXPECT_FALSE(Fits(spoilt.state, problem, options)) << &spoil - spoils;
     Continuation continuation;
     sink.continued = [&](const Continuation& c) { continuation = c; };
     SolveJournal journal({{}, Encode(spoilt)}, sink);
