@@ -17,10 +17,15 @@ struct Interval {
   double max = kInfinity;
 };
 
-// One phase: the contacts that roll without slipping in it, and bounds on its free duration.
+// One phase: the contacts that roll without slipping in it, and bounds on its free duration. Within every interval of
+// the mesh efforts are polynomials through their values at the s points of the scheme; `effort_degree`, if set, is the
+// most that their degree may be (at least 0; s − 1 and more hold nothing). Where the optimal efforts are singular, or
+// jump at the ends of phases, values that are free at every point follow the discretisation's errors: objectives come
+// out too low by a share of first order in the intervals' length.
 struct PhaseDescription {
   std::vector<int> active;
   Interval duration;  // s
+  std::optional<int> effort_degree = std::nullopt;
 };
 
 // Bounds on the state (q, v) at one end of a motion that is not periodic, 2n values each; equal ones prescribe it.
