@@ -4,7 +4,9 @@ namespace rollgait {
 
 std::vector<KnownProblem> KnownProblems() {
   std::vector<KnownProblem> all;
-  for (KnownProblem (*make)() : {&BlockMove, &BrysonDenham, &Brachistochrone, &MoonLander}) all.push_back(make());
+  for (KnownProblem (*make)() :
+       {&BlockMove, &BrysonDenham, &Brachistochrone, &MoonLander, &VanDerPol, &CartPole, &Hypersensitive})
+    all.push_back(make());
   return all;
 }
 

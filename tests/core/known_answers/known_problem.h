@@ -19,8 +19,9 @@ struct KnownAnswer {
   double asked = 1e-9;     // relative error
 };
 
-// A scheme on a coarse mesh, from the guess of the problem, and on meshes that halve its intervals, each from the
-// solution on the one before.
+// A scheme on a coarse mesh, from the guess of the problem; then, `splits` times, on meshes that halve the intervals in
+// which a control reaches or leaves a bound; then on meshes that halve all intervals. Each starts from the solution on
+// the one before.
 struct KnownRun {
   Scheme scheme = Scheme::kRadau3;
   Mesh coarse;
@@ -28,6 +29,7 @@ struct KnownRun {
   // In which the objective's error falls in the last halving, where the solution is smooth within intervals.
   std::optional<double> order = std::nullopt;
   bool reaches = true;  // the error that is asked; else the run is there for its order
+  int splits = 0;
 };
 
 // A problem, where its solution is looked for, its known answer, and how it is put on meshes.
@@ -36,6 +38,7 @@ struct KnownProblem {
   std::unique_ptr<OptimalControlProblem> problem;
   AddedConstraints added;
   MotionGuess guess;
+  double tolerance = 1e-10;  // of the solver; what rounding allows on the finest mesh
   std::vector<KnownRun> runs;
 };
 
@@ -44,6 +47,9 @@ KnownProblem BlockMove();
 KnownProblem BrysonDenham();
 KnownProblem Brachistochrone();
 KnownProblem MoonLander();
+KnownProblem VanDerPol();
+KnownProblem CartPole();
+KnownProblem Hypersensitive();
 
 // All of them, in this order.
 std::vector<KnownProblem> KnownProblems();

@@ -1,7 +1,9 @@
 #include "tests/core/known_answers/solve_known.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/gait/initial_guess.h"
@@ -17,7 +19,7 @@ constexpr double kRounding = 2e-11;
 
 NlpResult Solve(CollocationNlp& nlp, const KnownProblem& known, const KnownSolution* from, KnownSolver solver) {
   NlpOptions options;
-  options.tolerance = 1e-10;
+  options.tolerance = known.tolerance;
   NlpStart start;
   if (from != nullptr) {
     start.x = nlp.MakeStart(GuessFromTrajectory(from->nlp->Extract(from->result.x.data())));
@@ -30,6 +32,41 @@ NlpResult Solve(CollocationNlp& nlp, const KnownProblem& known, const KnownSolut
   InteriorPointResult own = SolveWithInteriorPoint(nlp, start, options, {});
   if (own.needs_restoration) own.result.termination = Termination::kNumericalDifficulty;
   return std::move(own.result);
+}
+
+// Which bound an effort is at.
+enum class Side { kLower, kNone, kUpper };
+Side SideOf(double effort, const Joint& joint) {
+  const double near = 1e-6 * std::max(1.0, std::abs(effort));
+  if (effort < joint.effort_min + near) return Side::kLower;
+  return effort > joint.effort_max - near ? Side::kUpper : Side::kNone;
+}
+
+// The mesh with those intervals halved at whose points, or between whose first one and the point before it, an effort
+// changes its side.
+Mesh SplitAtBounds(const OptimalControlProblem& problem, const KnownSolution& solution) {
+  const Trajectory trajectory = solution.nlp->Extract(solution.result.x.data());
+  const std::vector<int>& actuated = problem.model.actuated();
+  Mesh mesh;
+  std::vector<std::optional<Side>> last(actuated.size());
+  for (size_t p = 0; p < trajectory.phases.size(); ++p) {
+    std::vector<double>& fractions = mesh.fractions.emplace_back();
+    int point = 0;
+    for (const double fraction : solution.nlp->mesh().fractions[p]) {
+      bool changes = false;
+      for (int i = 0; i < trajectory.points_per_interval; ++i, ++point) {
+        for (size_t a = 0; a < actuated.size(); ++a) {
+          const double effort = trajectory.phases[p].point_efforts(static_cast<int>(a), point);
+          const Side side = SideOf(effort, problem.model.joint(actuated[a]));
+          changes |= last[a].value_or(side) != side;
+          last[a] = side;
+        }
+      }
+      const int parts = changes ? 2 : 1;
+      fractions.insert(fractions.end(), static_cast<size_t>(parts), fraction / parts);
+    }
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -64,9 +101,10 @@ KnownError MeasureError(const KnownProblem& known, const KnownRun& run) {
   KnownError measured;
   std::vector<KnownSolution>& solutions = measured.solutions;
   solutions.push_back(SolveKnown(known, run.scheme, run.coarse));
-  for (int halving = 0; halving <= run.halvings; ++halving) {
+  for (int step = -run.splits; step <= run.halvings; ++step) {
     const KnownSolution& last = solutions.back();
-    solutions.push_back(SolveKnown(known, run.scheme, Halved(last.nlp->mesh()), &last));
+    const Mesh mesh = step < 0 ? SplitAtBounds(*known.problem, last) : Halved(last.nlp->mesh());
+    solutions.push_back(SolveKnown(known, run.scheme, mesh, &last));
   }
   for (const KnownSolution& solution : solutions) {
     measured.converged &= solution.result.termination == Termination::kOptimal;

@@ -13,7 +13,7 @@ struct KnownSolution {
   NlpResult result;
   double objective = 0;
 };
-// One solve to a tolerance of 1e-10, from the problem's guess or, with its multipliers, from a solution on another
+// One solve, from the problem's guess or, with its multipliers, from a solution on another
 // mesh. The own solver takes no help from Ipopt: where it finds no acceptable step it ends with kNumericalDifficulty.
 // The problem must outlive the solution.
 KnownSolution SolveKnown(const KnownProblem& known, Scheme scheme, const Mesh& mesh,
