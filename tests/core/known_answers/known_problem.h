@@ -50,6 +50,7 @@ KnownProblem MoonLander();
 KnownProblem VanDerPol();
 KnownProblem CartPole();
 KnownProblem Hypersensitive();
+KnownProblem FiveLinkBiped();
 
 // All of them, in this order.
 std::vector<KnownProblem> KnownProblems();
