@@ -26,6 +26,9 @@ struct PhaseDescription {
   std::vector<int> active;
   Interval duration;  // s
   std::optional<int> effort_degree = std::nullopt;
+  // Bounds that the efforts of the actuated joints have in this phase besides those of the joints, one for each or
+  // none, N m (N of a prismatic joint); equal ones prescribe an effort. Contract: they leave every effort a value.
+  std::vector<Interval> efforts = {};
 };
 
 // Bounds on the state (q, v) at one end of a motion that is not periodic, 2n values each; equal ones prescribe it.
@@ -116,6 +119,8 @@ struct OptimalControlProblem {
   std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
+  // What the effort of an actuated joint (its place in Model::actuated) may be in a phase, N m (N).
+  Interval EffortBounds(int phase, int effort) const;
 
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
   // (first point of a Lobatto scheme). The last rows keep the pairs

@@ -69,7 +69,7 @@ IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const A
   const std::vector<int>& actuated = problem.model.actuated();
   for (int joint : between.effort) {
     const auto place = std::find(actuated.begin(), actuated.end(), joint);
-    if (place != actuated.end()) AddEfforts(problem, joint, static_cast<int>(place - actuated.begin()), locals);
+    if (place != actuated.end()) AddEfforts(problem, phase, static_cast<int>(place - actuated.begin()), locals);
   }
   for (int joint : between.velocity) AddStates(problem, joint, true, scheme, locals);
   for (int joint : between.range) AddStates(problem, joint, false, scheme, locals);
@@ -189,8 +189,10 @@ void IntervalPathRows::AddDegree(const OptimalControlProblem& problem, int degre
   }
 }
 
-void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals) {
+void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int phase, int effort, const Locals& locals) {
+  const int joint = problem.model.actuated()[static_cast<size_t>(effort)];
   const Joint& limits = problem.model.joint(joint);
+  const Interval bounds = problem.EffortBounds(phase, effort);
   for (int k = 0; k < from_points_.rows(); ++k) {
     if (from_points_.row(k).cwiseAbs().sum() == 1) continue;
     const double size = problem.effort_size();
@@ -198,8 +200,8 @@ void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int join
             "effort " + limits.name,
             limits.type == JointType::kPrismatic ? "N" : "N m",
             size,
-            limits.effort_min / size,
-            limits.effort_max / size,
+            bounds.min / size,
+            bounds.max / size,
             {}};
     for (int i = 0; i < from_points_.cols(); ++i) {
       if (from_points_(k, i) != 0) row.terms.push_back({locals.controls[i] + effort, from_points_(k, i) / size, 0});

@@ -96,7 +96,7 @@ class IntervalPathRows {
   void AddPyramids(int k, const std::vector<int>& forces, const std::vector<ActiveContact>& active,
                    const std::vector<ForceRow>& friction);
   void AddDegree(const OptimalControlProblem& problem, int degree, const VectorX& c, const Locals& locals);
-  void AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals);
+  void AddEfforts(const OptimalControlProblem& problem, int phase, int effort, const Locals& locals);
   void AddStates(const OptimalControlProblem& problem, int joint, bool velocity, const EliminatedScheme& scheme,
                  const Locals& locals);
 

@@ -1,6 +1,6 @@
 // Bryson and Denham's double integrator ẍ = u that returns to where it was with the opposite velocity, in 1 s, and may
 // not go beyond 1/9 in between: x(0) = x(1) = 0, ẋ = 1 → −1, least ½ ∫ u² dt. With ℓ = 1/9 the bound holds from 3ℓ to
-// 1 − 3ℓ, u = −(2/3ℓ)(1 − t/3ℓ) before, and the cost is 4/(9ℓ) = 4 (Bryson and Ho, Applied Optimal Control, 3.11).
+// 1 − 3ℓ, u = −(2/3ℓ)(1 − t/3ℓ) before, and the cost is 4/(9ℓ) = 4 (Bryson and Ho, Applied Optimal Control).
 #include "tests/core/known_answers/formula_problem.h"
 #include "tests/core/known_answers/known_problem.h"
 

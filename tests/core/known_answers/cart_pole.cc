@@ -1,4 +1,4 @@
-// The swing-up of a cart-pole (Kelly, SIAM Review 59, 2017, section 6 and appendix E.1): cart of 1 kg, bob of 0.3 kg on
+// The swing-up of a cart-pole (Kelly, SIAM Review 59, 2017): cart of 1 kg, bob of 0.3 kg on
 // a rod of 0.5 m, g = 9.81 m/s², from rest at q = (0, 0) to rest at (1 m, π) in 2 s with |u| ≤ 20 N, least ∫ u² dt.
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// A step of the five-link biped RABBIT (Kelly, SIAM Review 59, 2017, section 6.3 and appendix E.3): 0.5 m in 0.7 s on
+// A step of the five-link biped RABBIT (Kelly, SIAM Review 59, 2017): 0.5 m in 0.7 s on
 // point feet, with torques at hips and knees, none at the stance foot and a plastic impact of the other foot, after
 // which the next step starts as the mirror image; knees do not overextend; least ∫ Σ τ² dt. As in Kelly's program
 // (OptimTraj, demo/fiveLinkBiped) the 0.2 m of the trunk are from its upper end. It is built as one of our walkers,

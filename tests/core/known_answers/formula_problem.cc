@@ -50,19 +50,30 @@ void PrescribeEnds(OptimalControlProblem* problem, const std::vector<double>& st
 
 MotionGuess StraightGuess(std::vector<double> durations, std::vector<double> start, std::vector<double> end,
                           std::vector<double> controls) {
-  double total = 0;
-  for (double duration : durations) total += duration;
+  double total = 0, time = 0;
+  for (const double duration : durations) total += duration;
+  std::vector<std::vector<double>> states{start};
+  for (const double duration : durations) {
+    time += duration;
+    std::vector<double>& state = states.emplace_back(start);
+    for (size_t i = 0; i < state.size(); ++i) state[i] += time / total * (end[i] - start[i]);
+  }
+  const size_t phases = durations.size();
+  return PiecewiseGuess(std::move(durations), std::move(states), std::vector<std::vector<double>>(phases, controls));
+}
+
+MotionGuess PiecewiseGuess(std::vector<double> durations, std::vector<std::vector<double>> states,
+                           std::vector<std::vector<double>> controls) {
   MotionGuess guess;
   guess.durations = durations;
   guess.motion = [=](int phase, double fraction) {
-    double time = fraction * durations[static_cast<size_t>(phase)];
-    for (int p = 0; p < phase; ++p) time += durations[static_cast<size_t>(p)];
-    const int n = static_cast<int>(start.size()) / 2;
-    const VectorX a = Eigen::Map<const VectorX>(start.data(), 2 * n), b = Eigen::Map<const VectorX>(end.data(), 2 * n);
-    const VectorX state = a + time / total * (b - a);
-    MotionSample sample{state.head(n), state.tail(n), (b - a).tail(n) / total, VectorX(), VectorX(0)};
-    sample.efforts = Eigen::Map<const VectorX>(controls.data(), static_cast<Eigen::Index>(controls.size()));
-    return sample;
+    const auto vector = [](const std::vector<double>& values) {
+      return VectorX(Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size())));
+    };
+    const size_t p = static_cast<size_t>(phase);
+    const VectorX a = vector(states[p]), b = vector(states[p + 1]), state = a + fraction * (b - a);
+    const Eigen::Index n = state.size() / 2;
+    return MotionSample{state.head(n), state.tail(n), (b - a).tail(n) / durations[p], vector(controls[p]), VectorX(0)};
   };
   return guess;
 }

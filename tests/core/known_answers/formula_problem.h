@@ -29,6 +29,10 @@ inline constexpr double kFree = kInfinity;
 // States (q, v) that run from one to the other through all phases on a straight line, with constant controls.
 MotionGuess StraightGuess(std::vector<double> durations, std::vector<double> start, std::vector<double> end,
                           std::vector<double> controls);
+// The same with states at both ends of every phase, in this order, straight lines between them, and controls that are
+// constant in every phase.
+MotionGuess PiecewiseGuess(std::vector<double> durations, std::vector<std::vector<double>> states,
+                           std::vector<std::vector<double>> controls);
 
 }  // namespace rollgait
 

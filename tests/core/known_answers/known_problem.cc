@@ -4,8 +4,8 @@ namespace rollgait {
 
 std::vector<KnownProblem> KnownProblems() {
   std::vector<KnownProblem> all;
-  for (KnownProblem (*make)() : {&BlockMove, &BrysonDenham, &Brachistochrone, &MoonLander, &VanDerPol, &CartPole,
-                                 &Hypersensitive, &FiveLinkBiped})
+  for (KnownProblem (*make)() : {&BlockMove, &BrysonDenham, &Brachistochrone, &MoonLander, &Goddard, &VanDerPol,
+                                 &CartPole, &Hypersensitive, &FiveLinkBiped})
     all.push_back(make());
   return all;
 }

@@ -47,6 +47,7 @@ KnownProblem BlockMove();
 KnownProblem BrysonDenham();
 KnownProblem Brachistochrone();
 KnownProblem MoonLander();
+KnownProblem Goddard();
 KnownProblem VanDerPol();
 KnownProblem CartPole();
 KnownProblem Hypersensitive();
