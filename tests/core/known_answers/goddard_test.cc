@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "tests/core/known_answers/expect_known_answer.h"
@@ -25,6 +26,21 @@ TEST(GoddardTest, HasItsKnownObjectiveAndArcs) {
     const double drag = 310 * v * v * std::exp(-500 * (h - 1)), weight = arc.node_velocities(1, k) / (h * h);
     EXPECT_NEAR(drag * (1 + 2 * v) / weight, 1, 1e-3) << k;
   }
+}
+
+// Thrust that is free at every point of the singular arc follows the errors of the discretisation: the rocket seems to
+// climb higher than it can, by far more than the scheme's own error.
+TEST(GoddardTest, FreeThrustOnTheSingularArcGainsHeightThatDoesNotExist) {
+  const KnownProblem known = Goddard();
+  const auto excess = [&known](std::optional<int> degree) {
+    known.problem->phases[1].effort_degree = degree;
+    const KnownError measured = MeasureError(known, {Scheme::kRadau2, Mesh::Uniform({4, 4, 4}), 2});
+    EXPECT_TRUE(measured.converged);
+    return (known.answer.objective - measured.solutions.back().objective) / std::abs(known.answer.objective);
+  };
+  const double constant = excess(0), free = excess(std::nullopt);
+  EXPECT_GT(free, 1e-3);
+  EXPECT_GT(free, 5 * std::abs(constant));
 }
 
 }  // namespace
