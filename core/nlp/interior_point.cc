@@ -122,8 +122,10 @@ class Solver {
       if (is_stopped) return Termination::kCancelled;
       if (Elapsed() > options_.max_wall_time_s) return Termination::kTimeLimit;
       if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
+      // While the barrier parameter can still fall, steps that do not move the point improve the multipliers.
+      const double mu_before = mu_;
       ReduceBarrier(tiny_steps_ > 1);
-      if (tiny_steps_ > 3) return Termination::kNumericalDifficulty;
+      if (tiny_steps_ > 3 && mu_ == mu_before) return Termination::kNumericalDifficulty;
       if (!newton_.Compute(point_, multipliers_, lagrangian_, mu_, &step_)) {
         needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;
