@@ -7,17 +7,16 @@ namespace rollgait {
 namespace {
 
 constexpr double kNoBound = 1e19;
-constexpr double kRelaxation = 1e-8;
 constexpr double kDamping = 1e-5;
 
-double Relaxed(double bound, double sign) {
+double Relaxed(double bound, double by) {
   if (std::abs(bound) >= kNoBound) return bound > 0 ? kInfinity : -kInfinity;
-  return bound + sign * kRelaxation * std::max(1.0, std::abs(bound));
+  return bound + by * std::max(1.0, std::abs(bound));
 }
 
 }  // namespace
 
-BarrierProblem::BarrierProblem(NlpProblem& problem)
+BarrierProblem::BarrierProblem(NlpProblem& problem, double relaxation)
     : problem_(problem), n_(problem.variables()), m_(problem.constraints()), target_(VectorX::Zero(m_)), fixed_(n_, 0) {
   for (int r = 0; r < m_; ++r) {
     const double lower = problem.constraint_lower()(r), upper = problem.constraint_upper()(r);
@@ -41,8 +40,8 @@ BarrierProblem::BarrierProblem(NlpProblem& problem)
       upper_(i) = kInfinity;
       continue;
     }
-    lower_(i) = Relaxed(lower, -1);
-    upper_(i) = Relaxed(upper, 1);
+    lower_(i) = Relaxed(lower, -relaxation);
+    upper_(i) = Relaxed(upper, relaxation);
   }
   moved_.assign(static_cast<size_t>(size), 0);
 }

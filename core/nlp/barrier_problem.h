@@ -11,11 +11,11 @@ namespace rollgait {
 //   minimise f(x)  subject to  c(w) = 0,  l ≤ w ≤ u,   w = (x, s),   c_i = g_i − target_i  or  g_i − s_i  or, without
 //   bounds, 0,
 // and its barrier function  φ_μ(w) = f − μ Σ ln(w − l) − μ Σ ln(u − w) + κ_d μ Σ (distance to a bound without an
-// opposite one). Bounds are moved outwards by a relative 1e-8, so that every problem has an interior. The problem must
-// outlive this object.
+// opposite one). Bounds are moved outwards by `relaxation` (NlpOptions::BoundRelaxation). The problem must outlive this
+// object.
 class BarrierProblem {
  public:
-  explicit BarrierProblem(NlpProblem& problem);
+  BarrierProblem(NlpProblem& problem, double relaxation);
 
   struct Point {
     VectorX w;  // unknowns()

@@ -35,7 +35,7 @@ class Solver {
         options_(options),
         control_(control),
         resumption_(resumption),
-        barrier_(problem),
+        barrier_(problem, options.BoundRelaxation()),
         newton_(barrier_, options),
         parameter_(options),
         begin_(Clock::now()) {}
@@ -122,8 +122,10 @@ class Solver {
       if (is_stopped) return Termination::kCancelled;
       if (Elapsed() > options_.max_wall_time_s) return Termination::kTimeLimit;
       if (iteration_ >= options_.max_iterations) return Termination::kIterationLimit;
+      // While the barrier parameter can still fall, steps that do not move the point improve the multipliers.
+      const double mu_before = parameter_.mu();
       ReduceBarrier(tiny_steps_ > 1);
-      if (tiny_steps_ > 3) return Termination::kNumericalDifficulty;
+      if (tiny_steps_ > 3 && parameter_.mu() == mu_before) return Termination::kNumericalDifficulty;
       if (!newton_.Compute(point_, multipliers_, lagrangian_, parameter_.mu(), &step_)) {
         needs_restoration_ = !HasAcceptableError();
         return Termination::kNumericalDifficulty;

@@ -24,8 +24,8 @@ bool IsInside(const InteriorPointState& state, const BarrierProblem& barrier) {
 
 }  // namespace
 
-bool Fits(const InteriorPointState& state, NlpProblem& problem) {
-  BarrierProblem barrier(problem);
+bool Fits(const InteriorPointState& state, NlpProblem& problem, const NlpOptions& options) {
+  BarrierProblem barrier(problem, options.BoundRelaxation());
   const Multipliers& multipliers = state.multipliers;
   if (state.w.size() != barrier.unknowns() || multipliers.y.size() != barrier.rows() ||
       multipliers.lower.size() != barrier.unknowns() || multipliers.upper.size() != barrier.unknowns()) {

@@ -25,9 +25,9 @@ struct InteriorPointState {
   bool asked = false;  // NlpOptions::worth_finishing has been asked
 };
 
-// Whether a solve of the problem can go on from a state: every size is right, every number finite, w within its bounds,
-// multipliers of bounds positive, and the functions have values there.
-bool Fits(const InteriorPointState& state, NlpProblem& problem);
+// Whether a solve of the problem with these options can go on from a state: every size is right, every number finite, w
+// within its bounds, multipliers of bounds positive, and the functions have values there.
+bool Fits(const InteriorPointState& state, NlpProblem& problem, const NlpOptions& options);
 
 // Who keeps the states of a running solve.
 class StateKeeper {

@@ -147,7 +147,8 @@ void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const NlpOp
   // The transcription scales unknowns, rows and objective itself.
   o.SetStringValue("nlp_scaling_method", "none");
   o.SetStringValue("fixed_variable_treatment", "make_parameter");
-  // Moving a solution onto a bound that was relaxed by 1e-8 would break the dynamics by that times 1/h².
+  // Moving a solution onto a bound that was relaxed would break the dynamics by that times 1/h².
+  o.SetNumericValue("bound_relax_factor", options.BoundRelaxation());
   o.SetStringValue("honor_original_bounds", "no");
   o.SetNumericValue("mu_init", options.initial_barrier);
   o.SetNumericValue("barrier_tol_factor", options.barrier_tolerance);

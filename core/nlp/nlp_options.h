@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_NLP_NLP_OPTIONS_H_
 #define ROLLGAIT_CORE_NLP_NLP_OPTIONS_H_
 
+#include <algorithm>
 #include <functional>
 
 #include "core/base/types.h"
@@ -40,6 +41,11 @@ struct NlpOptions {
   std::function<bool(const VectorX& x)> worth_finishing = nullptr;
   double rough_tolerance = 0;
   int mesh = 0;  // passed on with every iteration
+
+  // How far a solver moves bounds outwards, relative to their size where that is above 1, so that every problem has an
+  // interior: 1e-8, and with a tolerance below 1e-6 a hundredth of that, since an objective cannot be more exact than
+  // the bounds that hold it.
+  double BoundRelaxation() const { return std::min(1e-8, tolerance / 100); }
 };
 
 }  // namespace rollgait

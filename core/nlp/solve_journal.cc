@@ -65,12 +65,12 @@ std::optional<NlpResult> SolveJournal::FromRecord(int program, const NlpFingerpr
 }
 
 std::optional<InteriorPointState> SolveJournal::StateFor(int program, const NlpFingerprint& fingerprint,
-                                                         NlpProblem& problem) {
+                                                         NlpProblem& problem, const NlpOptions& options) {
   if (program != static_cast<int>(past_.finished.size()) || past_.started.empty()) return std::nullopt;
   StartedProgram record;
   if (!Decode(past_.started, &record)) {
     Ignore(program, "is damaged or of another version");
-  } else if (!IsSame(record.fingerprint, fingerprint) || !Fits(record.state, problem)) {
+  } else if (!IsSame(record.fingerprint, fingerprint) || !Fits(record.state, problem, options)) {
     Ignore(program, "is of another program than the one that is to be solved");
   } else {
     continuation_.iteration = record.state.iteration;
@@ -85,7 +85,7 @@ NlpResult SolveJournal::Solve(NlpProblem& problem, const NlpStart& start, const 
   const int program = programs_++;
   const NlpFingerprint fingerprint = FingerprintOf(problem, start, options);
   if (std::optional<NlpResult> known = FromRecord(program, fingerprint)) return std::move(*known);
-  const std::optional<InteriorPointState> state = StateFor(program, fingerprint, problem);
+  const std::optional<InteriorPointState> state = StateFor(program, fingerprint, problem, options);
   past_ = {};
   if (control.stop != nullptr && control.stop->requested()) {
     // What a search asks for on its way out is no part of it: nothing is reported or recorded.

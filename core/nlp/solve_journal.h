@@ -61,7 +61,8 @@ class SolveJournal {
  private:
   class Keeper;
   std::optional<NlpResult> FromRecord(int program, const NlpFingerprint& fingerprint);
-  std::optional<InteriorPointState> StateFor(int program, const NlpFingerprint& fingerprint, NlpProblem& problem);
+  std::optional<InteriorPointState> StateFor(int program, const NlpFingerprint& fingerprint, NlpProblem& problem,
+                                             const NlpOptions& options);
   void Ignore(int program, const std::string& why);
 
   JournalRecords past_;

@@ -121,6 +121,19 @@ PointLayout OptimalControlProblem::Layout(int phase) const {
   return layout;
 }
 
+Interval OptimalControlProblem::EffortBounds(int phase, int effort) const {
+  const Joint& joint = model.joint(model.actuated()[static_cast<size_t>(effort)]);
+  Interval bounds{joint.effort_min, joint.effort_max};
+  const std::vector<Interval>& own = phases[phase].efforts;
+  if (!own.empty()) {
+    ROLLGAIT_CHECK(own.size() == model.actuated().size());
+    bounds.min = std::max(bounds.min, own[static_cast<size_t>(effort)].min);
+    bounds.max = std::min(bounds.max, own[static_cast<size_t>(effort)].max);
+    ROLLGAIT_CHECK(bounds.min <= bounds.max);
+  }
+  return bounds;
+}
+
 std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(
     int phase, bool at_node, const std::vector<int>& separated) const {
   std::vector<std::unique_ptr<PointConstraint>> constraints;

@@ -17,10 +17,18 @@ struct Interval {
   double max = kInfinity;
 };
 
-// One phase: the contacts that roll without slipping in it, and bounds on its free duration.
+// One phase: the contacts that roll without slipping in it, and bounds on its free duration. Within every interval of
+// the mesh efforts are polynomials through their values at the s points of the scheme; `effort_degree`, if set, is the
+// most that their degree may be (at least 0; s − 1 and more hold nothing). Where the optimal efforts are singular, or
+// jump at the ends of phases, values that are free at every point follow the discretisation's errors: objectives come
+// out too low by a share of first order in the intervals' length.
 struct PhaseDescription {
   std::vector<int> active;
   Interval duration;  // s
+  std::optional<int> effort_degree = std::nullopt;
+  // Bounds that the efforts of the actuated joints have in this phase besides those of the joints, one for each or
+  // none, N m (N of a prismatic joint); equal ones prescribe an effort. Contract: they leave every effort a value.
+  std::vector<Interval> efforts = {};
 };
 
 // Bounds on the state (q, v) at one end of a motion that is not periodic, 2n values each; equal ones prescribe it.
@@ -111,6 +119,8 @@ struct OptimalControlProblem {
   std::vector<ContactSurface> PhaseContacts(int phase) const;
   std::vector<ActiveContact> ActiveContacts(int phase) const;
   PointLayout Layout(int phase) const;
+  // What the effort of an actuated joint (its place in Model::actuated) may be in a phase, N m (N).
+  Interval EffortBounds(int phase, int effort) const;
 
   // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
   // (first point of a Lobatto scheme). The last rows keep the pairs

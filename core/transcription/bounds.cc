@@ -60,11 +60,11 @@ void CollocationNlp::TightenNode(int k, const EndBounds& bounds) {
 
 void CollocationNlp::SetControlBounds() {
   for (int k = 0; k < layout_.intervals(); ++k) {
-    for (int i = 0; i < scheme_.points(); ++i) {
-      for (size_t j = 0; j < problem_.model.actuated().size(); ++j) {
-        const Joint& joint = problem_.model.joint(problem_.model.actuated()[j]);
-        lower_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_min / problem_.effort_size();
-        upper_(layout_.efforts(k, i) + static_cast<int>(j)) = joint.effort_max / problem_.effort_size();
+    for (int j = 0; j < static_cast<int>(problem_.model.actuated().size()); ++j) {
+      const Interval bounds = problem_.EffortBounds(layout_.phase(k), j);
+      for (int i = 0; i < scheme_.points(); ++i) {
+        lower_(layout_.efforts(k, i) + j) = bounds.min / problem_.effort_size();
+        upper_(layout_.efforts(k, i) + j) = bounds.max / problem_.effort_size();
       }
     }
     SetForceBounds(k);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/check.h"
 #include "core/math/bernstein.h"
 
 namespace rollgait {
@@ -60,12 +61,15 @@ IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const A
                                    const EliminatedScheme& scheme, const Locals& locals, const VectorX& scale)
     : from_points_(BernsteinFromValues(scheme.tableau().c)), scale_(scale) {
   AddForces(problem, phase, added.Edges(phase), locals);
+  if (problem.phases[phase].effort_degree) {
+    AddDegree(problem, *problem.phases[phase].effort_degree, scheme.tableau().c, locals);
+  }
   if (phase >= static_cast<int>(added.between.size())) return;
   const BoundedBetween& between = added.between[phase];
   const std::vector<int>& actuated = problem.model.actuated();
   for (int joint : between.effort) {
     const auto place = std::find(actuated.begin(), actuated.end(), joint);
-    if (place != actuated.end()) AddEfforts(problem, joint, static_cast<int>(place - actuated.begin()), locals);
+    if (place != actuated.end()) AddEfforts(problem, phase, static_cast<int>(place - actuated.begin()), locals);
   }
   for (int joint : between.velocity) AddStates(problem, joint, true, scheme, locals);
   for (int joint : between.range) AddStates(problem, joint, false, scheme, locals);
@@ -156,8 +160,39 @@ std::vector<IntervalPathRows::HeldForce> IntervalPathRows::HeldForces(const doub
   return held;
 }
 
-void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals) {
+// Divided differences of a higher order than the degree, over the largest of their coefficients.
+void IntervalPathRows::AddDegree(const OptimalControlProblem& problem, int degree, const VectorX& c,
+                                 const Locals& locals) {
+  ROLLGAIT_CHECK(degree >= 0);
+  for (int order = degree + 1; order < static_cast<int>(c.size()); ++order) {
+    VectorX difference = VectorX::Ones(order + 1);
+    for (int i = 0; i <= order; ++i) {
+      for (int j = 0; j <= order; ++j) {
+        if (j != i) difference(i) /= c(i) - c(j);
+      }
+    }
+    difference /= difference.cwiseAbs().maxCoeff();
+    for (int effort = 0; effort < static_cast<int>(problem.model.actuated().size()); ++effort) {
+      const int joint = problem.model.actuated()[static_cast<size_t>(effort)];
+      const Joint& limits = problem.model.joint(joint);
+      const double size = problem.effort_size();
+      Row row{KeyOf("degree", joint, order),
+              "degree of effort " + limits.name,
+              limits.type == JointType::kPrismatic ? "N" : "N m",
+              size,
+              0,
+              0,
+              {}};
+      for (int i = 0; i <= order; ++i) row.terms.push_back({locals.controls[i] + effort, difference(i) / size, 0});
+      rows_.push_back(std::move(row));
+    }
+  }
+}
+
+void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int phase, int effort, const Locals& locals) {
+  const int joint = problem.model.actuated()[static_cast<size_t>(effort)];
   const Joint& limits = problem.model.joint(joint);
+  const Interval bounds = problem.EffortBounds(phase, effort);
   for (int k = 0; k < from_points_.rows(); ++k) {
     if (from_points_.row(k).cwiseAbs().sum() == 1) continue;
     const double size = problem.effort_size();
@@ -165,8 +200,8 @@ void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int join
             "effort " + limits.name,
             limits.type == JointType::kPrismatic ? "N" : "N m",
             size,
-            limits.effort_min / size,
-            limits.effort_max / size,
+            bounds.min / size,
+            bounds.max / size,
             {}};
     for (int i = 0; i < from_points_.cols(); ++i) {
       if (from_points_(k, i) != 0) row.terms.push_back({locals.controls[i] + effort, from_points_(k, i) / size, 0});

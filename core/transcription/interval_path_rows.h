@@ -19,7 +19,7 @@ struct IntervalPlace {
 // polynomial lies in the convex hull of its coefficients. Bounded are the normal forces and the friction of all active
 // contacts (pyramids with the edges that AddedConstraints names besides the usual ones), and of the joints that it
 // names range, velocity and effort. Coefficients that are unknowns themselves have bounds in place of rows, but for
-// friction.
+// friction. Further rows hold the degree of the efforts in a phase that has one (PhaseDescription).
 //   A row is  lower <= Σ coefficient · h^power · y_local · scale_local <= upper,  with the interval's length h in s.
 // At the ends of a phase the forces of contacts that are taken up or given up at rest vanish where the problem says so
 // (OptimalControlProblem::ForcesVanish). Source: docs/explanation/contact_changes.md.
@@ -95,7 +95,8 @@ class IntervalPathRows {
                  const Locals& locals);
   void AddPyramids(int k, const std::vector<int>& forces, const std::vector<ActiveContact>& active,
                    const std::vector<ForceRow>& friction);
-  void AddEfforts(const OptimalControlProblem& problem, int joint, int effort, const Locals& locals);
+  void AddDegree(const OptimalControlProblem& problem, int degree, const VectorX& c, const Locals& locals);
+  void AddEfforts(const OptimalControlProblem& problem, int phase, int effort, const Locals& locals);
   void AddStates(const OptimalControlProblem& problem, int joint, bool velocity, const EliminatedScheme& scheme,
                  const Locals& locals);
 

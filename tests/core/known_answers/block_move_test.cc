@@ -1,31 +1,41 @@
-// A block that a force moves by 1 m in 1 s from rest to rest with least ∫ u² dt: u = 6 − 12 t, cost 12.
 #include <gtest/gtest.h>
 
-#include "tests/core/known_answers/known_problem.h"
+#include <utility>
+
+#include "tests/core/known_answers/expect_known_answer.h"
 
 namespace rollgait {
 namespace {
 
-class BlockMoveTest : public ::testing::TestWithParam<Scheme> {};
-
-TEST_P(BlockMoveTest, HasItsKnownObjective) {
-  KnownProblem known;
-  known.answer = {"block move", 12};
-  known.problem = CoordinatesWithFormula(1, 1, [](const FormulaPoint& z) { return std::vector<Jet>{z.u(0)}; });
-  known.problem->phases[0].duration = {1, 1};
-  known.problem->displacement = {1, 1};
-  PrescribeEnds(known.problem.get(), {0, 0}, {1, 0});
-  AddCost(known.problem.get(), 12, [](const FormulaPoint& z) { return z.u(0) * z.u(0); });
-  known.guess = StraightGuess({1}, {0, 0}, {1, 0}, {0});
-  const Computed computed = ExpectKnownAnswer(known, GetParam(), Mesh::Uniform({4}));
-  const TrajectoryPhase& phase = computed.trajectory.phases[0];
+TEST(BlockMoveTest, HasItsKnownObjectiveAndEfforts) {
+  const KnownProblem known = BlockMove();
+  const KnownSolution solution = std::move(ExpectKnownAnswer(known).solutions.back());
+  const Trajectory trajectory = solution.nlp->Extract(solution.result.x.data());
+  const TrajectoryPhase& phase = trajectory.phases[0];
   for (size_t i = 0; i < phase.point_times.size(); ++i) {
     EXPECT_NEAR(phase.point_efforts(0, static_cast<int>(i)), 6 - 12 * phase.point_times[i], 1e-8);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, BlockMoveTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+// With efforts that are constant within N equal intervals the least cost is 12/(1 − 1/N²): that of Σ u_k² h with
+// Σ u_k h = 0 and Σ u_k (½ − t_k) h = 1, t_k the middles. Linear ones cost what free ones do.
+TEST(BlockMoveTest, EffortsHaveTheDegreeThatThePhaseAllows) {
+  const KnownProblem known = BlockMove();
+  for (const KnownRun& run : known.runs) {
+    for (const int degree : {0, 1, 2}) {
+      known.problem->phases[0].effort_degree = degree;
+      const KnownSolution solution = SolveKnown(known, run.scheme, Mesh::Uniform({4}));
+      EXPECT_EQ(solution.result.termination, Termination::kOptimal) << solution.result.message;
+      EXPECT_NEAR(solution.objective, degree == 0 ? 12 / (1 - 1.0 / 16) : 12, 1e-9) << NameOf(run.scheme) << degree;
+      const Trajectory trajectory = solution.nlp->Extract(solution.result.x.data());
+      for (int k = 0; degree == 0 && k < 4; ++k) {
+        const int s = trajectory.points_per_interval;
+        const auto efforts = trajectory.phases[0].point_efforts.row(0).segment(k * s, s);
+        EXPECT_LT(efforts.maxCoeff() - efforts.minCoeff(), 1e-9) << NameOf(run.scheme) << k;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace rollgait

@@ -2,12 +2,12 @@
 #define ROLLGAIT_TESTS_CORE_KNOWN_ANSWERS_KNOWN_PROBLEM_H_
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/ocp/problem.h"
 #include "core/transcription/collocation_nlp.h"
-#include "tests/support/formula.h"
 
 namespace rollgait {
 
@@ -19,39 +19,42 @@ struct KnownAnswer {
   double asked = 1e-9;     // relative error
 };
 
-// A problem, where its solution is looked for, and its known answer.
+// A scheme on a coarse mesh, from the guess of the problem; then, `splits` times, on meshes that halve the intervals in
+// which a control reaches or leaves a bound; then on meshes that halve all intervals. Each starts from the solution on
+// the one before.
+struct KnownRun {
+  Scheme scheme = Scheme::kRadau3;
+  Mesh coarse;
+  int halvings = 0;
+  // In which the objective's error falls in the last halving, where the solution is smooth within intervals.
+  std::optional<double> order = std::nullopt;
+  bool reaches = true;  // the error that is asked; else the run is there for its order
+  int splits = 0;
+};
+
+// A problem, where its solution is looked for, its known answer, and how it is put on meshes.
 struct KnownProblem {
   KnownAnswer answer;
   std::unique_ptr<OptimalControlProblem> problem;
+  AddedConstraints added;
   MotionGuess guess;
+  double tolerance = 1e-10;  // of the solver; what rounding allows on the finest mesh
+  std::vector<KnownRun> runs;
 };
 
-// A problem between given ends whose n coordinates move by a formula; the first `efforts` of them carry the controls.
-// Unbounded in everything, one phase, no denominator: the caller sets what it needs.
-std::unique_ptr<OptimalControlProblem> CoordinatesWithFormula(int n, int efforts, FormulaOfMotion::Accelerations f);
-void AddCost(OptimalControlProblem* problem, double typical, FormulaCost::Integrand integrand);
-// (q, v) at both ends, infinite where free.
-void PrescribeEnds(OptimalControlProblem* problem, const std::vector<double>& start, const std::vector<double>& end);
-inline constexpr double kFree = kInfinity;
+// One a source file, which says what it is.
+KnownProblem BlockMove();
+KnownProblem BrysonDenham();
+KnownProblem Brachistochrone();
+KnownProblem MoonLander();
+KnownProblem Goddard();
+KnownProblem VanDerPol();
+KnownProblem CartPole();
+KnownProblem Hypersensitive();
+KnownProblem FiveLinkBiped();
 
-// States (q, v) that run from one to the other through all phases on a straight line, with constant efforts.
-MotionGuess StraightGuess(std::vector<double> durations, std::vector<double> start, std::vector<double> end,
-                          std::vector<double> efforts);
-
-// A computed objective and what it took. Fails the test where the interior point method did not end at an optimum or
-// wanted a restoration phase.
-struct Computed {
-  double objective = 0;
-  int iterations = 0;
-  double seconds = 0;
-  Trajectory trajectory;
-};
-Computed SolveOnce(const KnownProblem& known, Scheme scheme, const Mesh& mesh, const MotionGuess& guess);
-
-// Solves on a mesh and on the halved one. The error bar is what the two differ by, times 2^p / (2^p − 1) for the order
-// p of the scheme, and the share of rounding. Expects the error against the known answer to be as asked and within the
-// bar, the bar not to exceed what is asked, and prints both.
-Computed ExpectKnownAnswer(const KnownProblem& known, Scheme scheme, const Mesh& mesh);
+// All of them, in this order.
+std::vector<KnownProblem> KnownProblems();
 
 }  // namespace rollgait
 

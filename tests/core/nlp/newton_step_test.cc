@@ -14,7 +14,7 @@ namespace {
 // A point of HS071 near two of its bounds, away from its constraints, with its linearisation.
 class NewtonStepTest : public ::testing::Test {
  protected:
-  NewtonStepTest() : barrier_(problem_), newton_(barrier_, {}) {
+  NewtonStepTest() : barrier_(problem_, NlpOptions().BoundRelaxation()), newton_(barrier_, {}) {
     EXPECT_TRUE(barrier_.MakeInterior(Eigen::Vector4d(1.02, 4.97, 3.5, 1.6), 1e-3, &point_));
     at_.y = Eigen::Vector2d(-0.6, 0.2);
     at_.lower = VectorX::Zero(5);

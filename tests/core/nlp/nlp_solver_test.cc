@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/nlp/interior_point.h"
@@ -48,6 +49,18 @@ TEST_P(NlpSolverTest, FindsTheKnownOptimumAndItsMultipliers) {
   EXPECT_LE(result.kkt_error, 1e-8);
   EXPECT_LE(result.constraint_violation, 1e-8);
   EXPECT_GT(result.iterations, 0);
+}
+
+// x₀ ≥ 1 holds it. At the usual tolerance bounds are moved outwards by 1e-8.
+TEST_P(NlpSolverTest, KeepsBoundsAsExactlyAsTheToleranceAsks) {
+  for (const auto& [tolerance, excess] : {std::pair(1e-6, 1e-8), std::pair(1e-8, 1e-10), std::pair(1e-10, 1e-12)}) {
+    NlpOptions options;
+    options.tolerance = tolerance;
+    const NlpResult result = SolveHs071(40, options);
+    ASSERT_EQ(result.termination, Termination::kOptimal) << result.message;
+    EXPECT_GE(result.x(0), 1 - 1.001 * excess) << tolerance;
+    EXPECT_LE(result.x(0), 1 + tolerance) << tolerance;
+  }
 }
 
 // With x ≤ 5 the squares add up to at most 100.

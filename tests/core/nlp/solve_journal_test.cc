@@ -179,6 +179,25 @@ TEST(SolveJournalTest, AStoppedSearchLeavesNothingMore) {
   EXPECT_EQ(kept, 2);
 }
 
+// Bounds are moved outwards by less where the tolerance is small: a state of a rough solve may be outside those of an
+// exact one.
+TEST(SolveJournalTest, StatesFitTheToleranceThatTheyAreOf) {
+  Hs071 problem;
+  const NlpStart start{Hs071::Start(), {}, {}, {}};
+  NlpOptions rough, exact;
+  exact.tolerance = 1e-10;
+  std::string kept;
+  SolveJournal::Sink sink;
+  sink.started = [&](int, std::string record) { kept = std::move(record); };
+  SolveJournal(JournalRecords(), sink, {1, 1e9}).Solve(problem, start, exact, {});
+  StartedProgram program;
+  ASSERT_TRUE(Decode(kept, &program));
+  EXPECT_TRUE(Fits(program.state, problem, exact));
+  program.state.w(0) = 1 - 5e-9;  // its bound is 1
+  EXPECT_TRUE(Fits(program.state, problem, rough));
+  EXPECT_FALSE(Fits(program.state, problem, exact));
+}
+
 // With a checksum that is right, since whoever forges records computes it.
 TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   Hs071 problem;
@@ -192,7 +211,7 @@ TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   SolveJournal(JournalRecords(), sink, {1, 1e9}).Solve(problem, start, options, {});
   StartedProgram good;
   ASSERT_TRUE(Decode(kept, &good));
-  ASSERT_TRUE(Fits(good.state, problem));
+  ASSERT_TRUE(Fits(good.state, problem, options));
   using Spoil = void (*)(InteriorPointState&);
   const Spoil spoils[] = {
       [](InteriorPointState& s) { s.w.conservativeResize(s.w.size() - 1); },
@@ -225,7 +244,7 @@ TEST(SolveJournalTest, StatesThatNoSolveCanHaveAreLeft) {
   for (const Spoil& spoil : spoils) {
     StartedProgram spoilt = good;
     spoil(spoilt.state);
-    EXPECT_FALSE(Fits(spoilt.state, problem)) << &spoil - spoils;
+    EXPECT_FALSE(Fits(spoilt.state, problem, options)) << &spoil - spoils;
     Continuation continuation;
     sink.continued = [&](const Continuation& c) { continuation = c; };
     SolveJournal journal({{}, Encode(spoilt)}, sink);

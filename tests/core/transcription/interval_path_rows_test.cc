@@ -66,6 +66,32 @@ TEST_P(IntervalPathRowsTest, HaveTheBoundsOfTheRequest) {
   EXPECT_NEAR(nlp_->lower_bounds()(unknown) * problem_->force_size(), least, 1e-9);
 }
 
+// A phase may narrow the efforts of joints, at points and between them.
+TEST_P(IntervalPathRowsTest, EffortsHaveTheBoundsOfTheirPhase) {
+  Build(Preset::kHuman);
+  const std::vector<int>& actuated = problem_->model.actuated();
+  const size_t effort = static_cast<size_t>(std::find(actuated.begin(), actuated.end(), knee_) - actuated.begin());
+  std::vector<Interval>& bounds = problem_->phases[1].efforts;
+  bounds.resize(actuated.size());
+  bounds[effort] = {-200, 10};  // the joint has at least -90
+  nlp_ = std::make_unique<CollocationNlp>(*problem_, GetParam().scheme, nlp_->mesh(), added_);
+  for (const int phase : {0, 1}) {
+    const double most = phase == 0 ? 80 : 10;
+    const Rows rows = Named("effort knee_r", phase, 1);
+    ASSERT_FALSE(rows.upper.empty());
+    for (size_t r = 0; r < rows.upper.size(); ++r) {
+      EXPECT_NEAR(rows.lower[r], -90, 1e-9);
+      EXPECT_NEAR(rows.upper[r], most, 1e-9);
+    }
+    const DecisionLayout& layout = nlp_->layout();
+    for (int i = 0; i < layout.points(); ++i) {
+      const int unknown = layout.efforts(layout.first_interval(phase), i) + static_cast<int>(effort);
+      EXPECT_NEAR(nlp_->lower_bounds()(unknown) * problem_->effort_size(), -90, 1e-9);
+      EXPECT_NEAR(nlp_->upper_bounds()(unknown) * problem_->effort_size(), most, 1e-9);
+    }
+  }
+}
+
 // What the points and nodes have as bounds of unknowns: efforts at every point, ranges and velocities at every node.
 TEST_P(IntervalPathRowsTest, UnknownsHaveTheBoundsOfTheRequest) {
   Build(Preset::kHuman);

@@ -115,6 +115,19 @@ TEST_P(KnownAnswersTest, DoubleIntegratorWithLeastEffort) {
   }
 }
 
+// With efforts that are constant within N equal intervals it costs 1/(1 − 1/N²) times as much. The limits of the effort
+// are so far away that they do not move the solution while the barrier parameter falls.
+TEST_P(KnownAnswersTest, DoubleIntegratorWithConstantEffortsInIntervals) {
+  const double distance = 0.7;
+  const auto problem = MassOnRail(distance, {0, 0, -9.81});
+  problem->phases[0].effort_degree = 0;
+  CollocationNlp nlp(*problem, GetParam(), Mesh::Uniform({4}));
+  FromRestToRest at_rest(nlp);
+  const NlpResult result = Solve(nlp, at_rest);
+  const double cost = 12 * kMass * kMass * distance * distance / std::pow(kDuration, 3) / (1 - 1.0 / 16);
+  EXPECT_NEAR(nlp.CostIntegrals(result.x.data())(0), cost, 1e-9 * cost);
+}
+
 // Against a slope at any periodic motion the least effort is the constant m g sin(slope).
 TEST_P(KnownAnswersTest, SlopeTakesAConstantEffort) {
   const double along = 9.81 * std::sin(0.2);
