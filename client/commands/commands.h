@@ -68,10 +68,12 @@ struct ModelsOptions {
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct CreateModelOptions {
-  std::string file;  // rollgait.v1.Model as proto3 JSON
-  std::string id;    // "ID" or "models/ID"; empty: the name in the file
+  std::string file;       // rollgait.v1.Model as proto3 JSON, or a URDF
+  std::string side_file;  // of a URDF: rollgait.v1.ModelSideFile as proto3 JSON
+  std::string id;         // "ID" or "models/ID"; empty: the name in the file
 };
-// Stores a model and writes its name, or with --json the whole model, to terminal.out.
+// Stores a model and writes its name, or with --json the whole model, to terminal.out; what was read of a URDF to
+// terminal.err.
 ExitCode RunCreateModel(const CreateModelOptions& options, const GlobalOptions& global, const Terminal& terminal);
 // As RunDelete.
 ExitCode RunDeleteModels(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);

@@ -93,7 +93,8 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     grpc::ClientContext context;
     connection.SetDeadline(context);
     v1::GetModelRequest request;
-    ApplyBodyFlags(flags, *request.mutable_model());
+    const std::string explanation = ApplyBodyFlags(flags, *request.mutable_model());
+    if (!global.quiet) terminal.err << explanation << std::flush;
     v1::Model model;
     RequireOk(connection.stub().GetModel(&context, request, &model), "get model " + *flags.model, connection.server());
     if (!options.format.empty()) {

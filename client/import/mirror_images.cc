@@ -1,0 +1,88 @@
+#include "client/import/mirror_images.h"
+
+#include <map>
+
+#include "client/failure.h"
+#include "client/import/mirror_names.h"
+#include "client/report/kinematics.h"
+
+namespace rollgait::client {
+namespace {
+
+template <typename Parts>
+std::map<std::string, int> IndexByName(const Parts& parts) {
+  std::map<std::string, int> index;
+  for (int i = 0; i < parts.size(); ++i) index.emplace(parts[i].name(), i);
+  return index;
+}
+
+// The given mirror image or, where there is none, the part whose name has the sides exchanged, or `otherwise`.
+std::string ImageName(const std::string& field, const std::string& given, const std::string& name,
+                      const std::map<std::string, int>& known, const std::string& otherwise) {
+  if (given.empty()) {
+    const std::string other = MirrorNameOf(name).other;
+    return known.count(other) != 0 ? other : otherwise;
+  }
+  if (known.count(given) == 0) {
+    throw Failure(ExitCode::kUsage, field + " of \"" + name + "\" is \"" + given.substr(0, 64) +
+                                        "\", which is no such part of the model (a locked joint is none)");
+  }
+  return given;
+}
+
+}  // namespace
+
+double MirrorSign(const v1::Model& model, int joint, int image) {
+  const std::vector<Pose> poses = LinkPoses(model, std::vector<double>(static_cast<size_t>(model.joints_size()), 0.0));
+  const auto axis = [&](int i) {
+    return Eigen::Vector3d(poses[static_cast<size_t>(i)].rotation * ToVector(model.joints(i).axis()));
+  };
+  Eigen::Vector3d mirrored = axis(image).cwiseProduct(Eigen::Vector3d(1, -1, 1));
+  // The axis of a turn is a pseudovector.
+  if (model.joints(joint).type() == v1::Joint::TYPE_REVOLUTE) mirrored = -mirrored;
+  return axis(joint).dot(mirrored) < 0 ? -1 : 1;
+}
+
+std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1::ModelSideFile& side,
+                                         v1::Model* model) {
+  const bool none = side.mirror() == v1::ModelSideFile::MIRROR_NONE;
+  std::map<std::string, const v1::SideJoint*> given;
+  for (const v1::SideJoint& joint : side.joints()) given.emplace(joint.name(), &joint);
+  const auto joints = IndexByName(model->joints());
+  std::string proposed;
+  for (int i = 0; i < model->joints_size(); ++i) {
+    v1::Joint& joint = *model->mutable_joints(i);
+    joint.set_mirror_joint(i);
+    joint.set_mirror_sign(1);
+    if (none) continue;
+    const auto found = given.find(joint.name());
+    const v1::SideJoint unsaid;
+    const v1::SideJoint& said = found == given.end() ? unsaid : *found->second;
+    const int image =
+        joints.at(ImageName(side_path + ": mirrorJoint", said.mirror_joint(), joint.name(), joints, joint.name()));
+    joint.set_mirror_joint(image);
+    joint.set_mirror_sign(said.mirror_sign() != 0 ? said.mirror_sign() : MirrorSign(*model, i, image));
+    const bool is_base = joint.role() >= v1::Joint::ROLE_BASE_FORWARD && joint.role() <= v1::Joint::ROLE_BASE_PITCH;
+    if (is_base || image < i || (!said.mirror_joint().empty() && said.mirror_sign() != 0)) continue;
+    proposed += (proposed.empty() ? "" : "; ") + joint.name() +
+                (image == i ? std::string(" itself") : " and " + model->joints(image).name()) +
+                (joint.mirror_sign() < 0 ? " with opposite signs" : " with the same sign");
+  }
+  const auto contacts = IndexByName(model->contacts());
+  for (v1::ContactSurface& contact : *model->mutable_contacts()) {
+    contact.set_mirror_contact(
+        none ? std::string()
+             : ImageName(side_path + ": mirrorContact", contact.mirror_contact(), contact.name(), contacts, ""));
+  }
+  const auto bodies = IndexByName(model->bodies());
+  for (v1::BodySurface& body : *model->mutable_bodies()) {
+    body.set_mirror_body(
+        none ? std::string()
+             : ImageName(side_path + ": mirrorBody", body.mirror_body(), body.name(), bodies, body.name()));
+  }
+  if (none) return {"no mirror images: left and right differ, the body walks in full cycles (--cycle full)"};
+  if (proposed.empty()) return {};
+  return {"mirror images proposed from names and axes: " + proposed};
+}
+
+}  // namespace rollgait::client
