@@ -110,6 +110,8 @@ void AddModels(CLI::App& app, Arguments& arguments) {
       "Print this model: joints, links, limits, contact surfaces; models/ID is one of your own, models/ID@2 "
       "its second version; or check the one in FILE.json or FILE.urdf");
   AddBodyFlags(*models, arguments.models.flags);
+  models->add_flag("--propose-side", arguments.models.propose_side,
+                   "Of FILE.urdf: print a side file to begin with, and say why on standard error; asks no server");
   models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
   models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");
   models->add_option("--slope", arguments.models.slope_deg, "With --format: of the ground, degrees; uphill is positive")

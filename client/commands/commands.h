@@ -63,6 +63,7 @@ struct ModelsOptions {
   std::string format;               // of format_table.h; empty: a table for people
   std::string output;               // with a format: a file; empty or "-": terminal.out
   std::optional<double> slope_deg;  // of the ground that the model stands on, with a format
+  bool propose_side = false;        // of a model in a URDF file: print a side file to begin with
 };
 // Without a model name in the flags: the list; with one: the whole model.
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal);

@@ -54,7 +54,7 @@ const std::vector<Format>& Formats() {
        .of_solve = ToStrideCsv},
       {.name = "mjcf", .ending = ".xml", .what = "the model for MuJoCo", .of_model = ToMjcf},
       {.name = "urdf", .ending = ".urdf", .what = "the model as URDF", .of_model = Urdf},
-      {.name = "urdf-side", .ending = "", .what = "what the URDF does not say, for --side", .of_model = UrdfSide},
+      {.name = "urdf-side", .ending = ".json", .what = "what the URDF does not say, for --side", .of_model = UrdfSide},
       {.name = "opensim",
        .ending = "",
        .what = "model, motion, ground reaction, loads, markers",

@@ -1,10 +1,14 @@
 #include "client/import/mirror_images.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "client/failure.h"
+#include "client/formats/body_links.h"
 #include "client/import/mirror_names.h"
 #include "client/report/kinematics.h"
+#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -83,6 +87,43 @@ std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1:
   if (none) return {"no mirror images: left and right differ, the body walks in full cycles (--cycle full)"};
   if (proposed.empty()) return {};
   return {"mirror images proposed from names and axes: " + proposed};
+}
+
+std::string MirrorDifference(const v1::Model& model) {
+  constexpr double kTolerance = 1e-6;
+  const std::vector<Pose> poses = LinkPoses(model, std::vector<double>(static_cast<size_t>(model.joints_size()), 0.0));
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
+  for (int i = 0; i < model.joints_size(); ++i) {
+    const int j = model.joints(i).mirror_joint();
+    const LinkMass ours = MassOf(model.joints(i)), image = MassOf(model.joints(j));
+    const Pose &place = poses[static_cast<size_t>(i)], &other = poses[static_cast<size_t>(j)];
+    const std::string who = "\"" + model.joints(i).link_name() + "\" and \"" + model.joints(j).link_name() + "\"";
+    const auto same_place = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return (a - mirror * b).norm() <= kTolerance * std::max(1.0, a.norm());
+    };
+    if (std::abs(ours.mass - image.mass) > kTolerance * ours.mass) {
+      return "masses of " + who + ", " + FormatNumber(ours.mass, 8) + " and " + FormatNumber(image.mass, 8) + " kg";
+    }
+    if (!same_place(place.position, other.position)) return "origins of the joints of " + who;
+    if (!same_place(place.position + place.rotation * ours.center_of_mass,
+                    other.position + other.rotation * image.center_of_mass)) {
+      return "centres of mass of " + who;
+    }
+    const Eigen::Matrix3d inertia = place.rotation * ours.inertia * place.rotation.transpose();
+    const Eigen::Matrix3d reflected = mirror * other.rotation * image.inertia * other.rotation.transpose() * mirror;
+    if ((inertia - reflected).norm() > kTolerance * inertia.norm()) return "inertias of " + who;
+    const v1::Joint &joint = model.joints(i), &twin = model.joints(j);
+    const bool same = joint.mirror_sign() > 0;
+    if (joint.position_min() != (same ? twin.position_min() : -twin.position_max()) ||
+        joint.position_max() != (same ? twin.position_max() : -twin.position_min())) {
+      return "ranges of joints \"" + joint.name() + "\" and \"" + twin.name() + "\"";
+    }
+    if (joint.effort_max() != (same ? twin.effort_max() : -twin.effort_min()) ||
+        joint.velocity_max() != twin.velocity_max()) {
+      return "limits of joints \"" + joint.name() + "\" and \"" + twin.name() + "\"";
+    }
+  }
+  return {};
 }
 
 }  // namespace rollgait::client

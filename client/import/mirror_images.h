@@ -18,6 +18,10 @@ double MirrorSign(const v1::Model& model, int joint, int image);
 // what was proposed, a sentence each. Throws Failure(kUsage) for a mirror image that is no part of the model.
 std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1::ModelSideFile& side, v1::Model* model);
 
+// The first link or joint whose mirror image is not one, with both values; empty: left and right are mirror images to
+// 1e-6 of masses, inertias and of the distance between the world's origin and the part (at least 1 m).
+std::string MirrorDifference(const v1::Model& model);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_IMPORT_MIRROR_IMAGES_H_
