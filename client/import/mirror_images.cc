@@ -72,18 +72,21 @@ std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1:
                 (image == i ? std::string(" itself") : " and " + model->joints(image).name()) +
                 (joint.mirror_sign() < 0 ? " with opposite signs" : " with the same sign");
   }
-  const auto contacts = IndexByName(model->contacts());
-  for (v1::ContactSurface& contact : *model->mutable_contacts()) {
-    contact.set_mirror_contact(
-        none ? std::string()
-             : ImageName(side_path + ": mirrorContact", contact.mirror_contact(), contact.name(), contacts, ""));
-  }
-  const auto bodies = IndexByName(model->bodies());
-  for (v1::BodySurface& body : *model->mutable_bodies()) {
-    body.set_mirror_body(
-        none ? std::string()
-             : ImageName(side_path + ": mirrorBody", body.mirror_body(), body.name(), bodies, body.name()));
-  }
+  // Where left and right differ, contacts and bodies have the images that are named, and no others.
+  const auto set = [&](auto* parts, const char* field, auto get, auto assign, bool itself) {
+    const auto known = IndexByName(*parts);
+    for (auto& part : *parts) {
+      const std::string said = get(part);
+      if (none && said.empty()) continue;
+      assign(&part, ImageName(side_path + ": " + field, said, part.name(), known, itself ? part.name() : ""));
+    }
+  };
+  set(
+      model->mutable_contacts(), "mirrorContact", [](const auto& part) { return part.mirror_contact(); },
+      [](auto* part, const std::string& name) { part->set_mirror_contact(name); }, false);
+  set(
+      model->mutable_bodies(), "mirrorBody", [](const auto& part) { return part.mirror_body(); },
+      [](auto* part, const std::string& name) { part->set_mirror_body(name); }, true);
   if (none) return {"no mirror images: left and right differ, the body walks in full cycles (--cycle full)"};
   if (proposed.empty()) return {};
   return {"mirror images proposed from names and axes: " + proposed};

@@ -39,7 +39,9 @@ MirrorName MirrorNameOf(const std::string& name) {
     const bool begins = i == 0 || IsSeparator(name[i - 1]), ends = i + 1 == name.size() || IsSeparator(name[i + 1]);
     if (begins && ends && OtherLetter(name[i]) != '\0') return WithOtherLetter(name, i);
   }
-  if (name.size() >= 2 && OtherLetter(name[0]) != '\0' && IsUpper(name[1])) return WithOtherLetter(name, 0);
+  if (name.size() >= 3 && OtherLetter(name[0]) != '\0' && IsUpper(name[1]) && IsLower(name[2])) {
+    return WithOtherLetter(name, 0);
+  }
   const size_t last = name.size() - 1;
   if (name.size() >= 2 && (name[last] == 'L' || name[last] == 'R') && IsLower(name[last - 1])) {
     return WithOtherLetter(name, last);

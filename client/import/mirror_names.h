@@ -15,8 +15,8 @@ struct MirrorName {
 
 // Knows "left" and "right" in lower, upper and mixed case anywhere; "l" and "r" in either case between separators (_,
 // -,
-// ., space) or the ends: "hip_l", "L_KNEE"; and as first letter before a capital or as last after a small letter:
-// "LHipPitch", "KneeR". The first of these that applies decides.
+// ., space) or the ends: "hip_l", "L_KNEE"; and as first letter before a capital and a small letter or as last after a
+// small letter: "LHipPitch", "KneeR". The first of these that applies decides.
 MirrorName MirrorNameOf(const std::string& name);
 
 }  // namespace rollgait::client

@@ -14,6 +14,7 @@
 
 #include "client/failure.h"
 #include "client/formats/exact_number.h"
+#include "client/import/xml_guard.h"
 
 namespace rollgait::client {
 namespace {
@@ -282,30 +283,10 @@ class UrdfCleaner {
   int meshes_ = 0, dynamics_ = 0;
 };
 
-// What a parser must not see.
-void CheckUrdfBytes(const std::string& path, const std::string& text) {
-  const auto refuse = [&](const std::string& reason) { throw Failure(ExitCode::kUsage, path + ": " + reason); };
-  if (text.size() > kMaxUrdfBytes) {
-    refuse("has more than " + std::to_string(kMaxUrdfBytes >> 20) +
-           " MiB, which no URDF needs; meshes are files of their own");
-  }
-  if (text.find('\0') != std::string::npos) refuse("holds a zero byte; a URDF is text in UTF-8");
-  const size_t tags = static_cast<size_t>(std::count(text.begin(), text.end(), '<'));
-  if (tags > kMaxUrdfTags) {
-    refuse("has " + std::to_string(tags) + " tags; at most " + std::to_string(kMaxUrdfTags) + " are accepted");
-  }
-  for (size_t at = text.find("<!"); at != std::string::npos; at = text.find("<!", at + 1)) {
-    if (text.compare(at, 4, "<!--") == 0 || text.compare(at, 9, "<![CDATA[") == 0) continue;
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    throw Failure(ExitCode::kUsage, path + ":" + std::to_string(line) +
-                                        ": has a document type or entity declaration; a URDF needs none, remove it");
-  }
-}
-
 }  // namespace
 
 UrdfDocument CheckUrdfText(const std::string& path, const std::string& text) {
-  CheckUrdfBytes(path, text);
+  RequireSafeXml(path, text);
   tinyxml2::XMLDocument xml;
   if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     const bool deep = xml.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;

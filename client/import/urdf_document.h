@@ -9,8 +9,9 @@ namespace rollgait::client {
 
 // Bounds of a file: together they keep the memory that reading takes below 150 MB.
 constexpr size_t kMaxUrdfBytes = size_t{4} << 20;
-constexpr size_t kMaxUrdfTags = 100000;  // start and end tags, comments
-constexpr size_t kMaxUrdfLinks = 1000;   // and as many joints
+constexpr size_t kMaxUrdfTags = 100000;    // start and end tags, comments
+constexpr size_t kMaxUrdfAttributes = 64;  // of a tag; parsers take a time that grows with their square
+constexpr size_t kMaxUrdfLinks = 1000;     // and as many joints
 // The largest number that any attribute may have, in its unit.
 constexpr double kMaxUrdfNumber = 1e9;
 

@@ -216,7 +216,7 @@ class ModelMaker {
     if (!said.has_velocity_max() && (unlimited(velocity) || (!actuated && velocity == 0))) velocity = kUnbounded;
     to->set_velocity_max(velocity);
     if (actuated) {
-      to->set_effort_min(said.has_effort_min() ? said.effort_min() : -joint.effort);
+      to->set_effort_min(said.has_effort_min() ? said.effort_min() : 0.0 - joint.effort);
       to->set_effort_max(said.has_effort_max() ? said.effort_max() : joint.effort);
       if (!(to->effort_min() < 0 && to->effort_max() > 0 && velocity > 0)) {
         Refuse(joint, "effort is limited to " + FormatNumber(to->effort_min()) + " … " +
