@@ -1,5 +1,7 @@
 #include "client/import/lumped_links.h"
 
+#include <Eigen/Eigenvalues>
+
 namespace rollgait::client {
 
 Pose Compose(const Pose& a, const Pose& b) { return {a.rotation * b.rotation, a.position + a.rotation * b.position}; }
@@ -38,6 +40,10 @@ UrdfMass Lump(const std::vector<UrdfMass>& masses) {
     sum.inertia += part.inertia + part.mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
   }
   return sum;
+}
+
+Eigen::Vector3d PrincipalMoments(const UrdfMass& mass) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 }  // namespace rollgait::client

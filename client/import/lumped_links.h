@@ -22,6 +22,9 @@ UrdfMass Placed(const UrdfMass& mass, const Pose& place);
 // centre of mass by the parallel-axis theorem. One body alone is returned to the bit; without mass: zero.
 UrdfMass Lump(const std::vector<UrdfMass>& masses);
 
+// Principal moments about the centre of mass, kg m², in ascending order.
+Eigen::Vector3d PrincipalMoments(const UrdfMass& mass);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_IMPORT_LUMPED_LINKS_H_

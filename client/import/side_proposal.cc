@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "client/failure.h"
 #include "client/import/foot_fit.h"
 #include "client/import/limb_roles.h"
 #include "client/import/mirror_images.h"
@@ -50,6 +51,7 @@ class Proposer {
     }
     SetRoles();
     for (const auto& [side, chain] : legs_) AddFoot(side, chain);
+    LockUnlimited();
     AddJoints();
     AddFeetPair();
     CheckMirror();
@@ -224,6 +226,21 @@ class Proposer {
     to->set_z(rounded(from.z()));
   }
 
+  // A sensor that turns, a gripper: what has no limits and is of no limb.
+  void LockUnlimited() {
+    for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
+      const UrdfJoint& joint = Joint(i);
+      const bool in_leg = std::any_of(legs_.begin(), legs_.end(), [i](const auto& leg) {
+        return std::find(leg.second.begin(), leg.second.end(), i) != leg.second.end();
+      });
+      if (!IsMoving(joint) || locked_[static_cast<size_t>(i)] || in_leg || roles_.count(i) != 0) continue;
+      if (joint.effort > 0 && joint.velocity > 0) continue;
+      locked_[static_cast<size_t>(i)] = true;
+      proposal_.reasons.push_back("joint \"" + joint.name +
+                                  "\" is locked: it has no limit of effort or velocity and is in no leg");
+    }
+  }
+
   void AddJoints() {
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
       const UrdfJoint& joint = Joint(i);
@@ -272,8 +289,13 @@ class Proposer {
 
   void CheckMirror() {
     if (!proposal_.missing.empty() || legs_.size() != 2) return;
-    const UrdfModel model = ModelOfUrdf(tree_, "the proposed side file", proposal_.side);
-    const std::string difference = MirrorDifference(model.model);
+    std::string difference;
+    try {
+      difference = MirrorDifference(ModelOfUrdf(tree_, "the side file", proposal_.side).model);
+    } catch (const Failure& failure) {
+      proposal_.missing.push_back(failure.what());
+      return;
+    }
     if (difference.empty()) return;
     proposal_.side.set_mirror(v1::ModelSideFile::MIRROR_NONE);
     proposal_.reasons.push_back("left and right differ, so the body walks in full cycles (--cycle full): " +

@@ -19,7 +19,9 @@ struct SideProposal {
 // For a robot that stands upright with straight legs where the URDF's joints are zero (or at the end of their range
 // that is nearest to zero), its legs being the chains that reach lowest on each side:
 //   base       turned about z so that the left leg is in +y
-//   locked     joints that mimic another, planar joints, joints that move no mass
+//   locked     joints that mimic another, planar joints, joints that move no mass, joints without limits that are in no
+//   leg
+//              and have no role
 //   roles      of each leg's joints that turn within 60° of y: by "hip", "knee" and "ankle" in their names, else by
 //              order; trunk, shoulder and elbow by name
 //   contacts   one ellipsoid a foot (foot_fit.h)

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "client/failure.h"
-#include "client/formats/urdf.h"
 #include "client/import/lumped_links.h"
 #include "client/import/mirror_images.h"
 #include "client/import/side_file.h"
+#include "client/import/urdf_limits.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -131,7 +131,7 @@ class ModelMaker {
     }
     if (floats || joint.type == UrdfJoint::Type::kFixed || said.locked()) {
       Of(joint.child) = {parent.joint, frame};
-      if (said.locked()) RequireReference(joint, said, joint.lower, joint.upper);
+      if (said.locked()) RequireReference(tree_, joint, side_path_, said, joint.lower, joint.upper);
       if (!floats) {
         result_.merged.push_back("\"" + Link(joint.child).name + "\" into \"" + Link(joint.parent).name +
                                  "\": joint \"" + joint.name + "\" is " +
@@ -160,7 +160,7 @@ class ModelMaker {
     to.set_role(said.role());
     to.set_side(said.side());
     to.set_passive(said.passive());
-    SetLimits(joint, said, &to);
+    SetLimits(tree_, joint, side_path_, said, &to, &result_);
   }
 
   bool IsMassless(int link) const {
@@ -176,59 +176,6 @@ class ModelMaker {
       }
     }
     return weightless(tree_.root);
-  }
-
-  void RequireReference(const UrdfJoint& joint, const v1::SideJoint& said, double least, double most) const {
-    const bool bounded = joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kPrismatic;
-    const double at = said.reference();
-    if ((bounded && !(at >= least && at <= most)) || (!bounded && !(std::abs(at) <= 2 * kPi))) {
-      Refuse(joint, "its reference in " + side_path_ + " is " + FormatNumber(at) + ", out of its range " +
-                        (bounded ? FormatNumber(least) + " to " + FormatNumber(most) : std::string("±2π")));
-    }
-  }
-
-  void SetLimits(const UrdfJoint& joint, const v1::SideJoint& said, v1::Joint* to) {
-    const bool base = IsBaseRole(said.role());
-    double least = joint.lower, most = joint.upper;
-    if (joint.type == UrdfJoint::Type::kContinuous) {
-      least = base ? -kUnbounded : said.reference() - kPi;
-      most = base ? kUnbounded : said.reference() + kPi;
-      if (!base && !(said.has_position_min() && said.has_position_max())) {
-        result_.assumed.push_back("range of joint \"" + joint.name +
-                                  "\", which is continuous: ±π around the reference");
-      }
-    }
-    const auto unlimited = [base](double value) { return base && std::abs(value) >= kUrdfUnlimited; };
-    if (unlimited(least)) least = -kUnbounded;
-    if (unlimited(most)) most = kUnbounded;
-    if (said.has_position_min()) least = said.position_min();
-    if (said.has_position_max()) most = said.position_max();
-    if (!(least < most)) {
-      Refuse(joint, "its range with " + side_path_ + " is " + FormatNumber(least) + " to " + FormatNumber(most) +
-                        "; the lower end must be below the upper");
-    }
-    RequireReference(joint, said, least, most);
-    to->set_position_min(least - said.reference());
-    to->set_position_max(most - said.reference());
-    const bool actuated = said.has_actuated() ? said.actuated() : !base;
-    to->set_actuated(actuated);
-    double velocity = said.has_velocity_max() ? said.velocity_max() : joint.velocity;
-    if (!said.has_velocity_max() && (unlimited(velocity) || (!actuated && velocity == 0))) velocity = kUnbounded;
-    to->set_velocity_max(velocity);
-    if (actuated) {
-      to->set_effort_min(said.has_effort_min() ? said.effort_min() : 0.0 - joint.effort);
-      to->set_effort_max(said.has_effort_max() ? said.effort_max() : joint.effort);
-      if (!(to->effort_min() < 0 && to->effort_max() > 0 && velocity > 0)) {
-        Refuse(joint, "effort is limited to " + FormatNumber(to->effort_min()) + " … " +
-                          FormatNumber(to->effort_max()) + " and velocity to " + FormatNumber(velocity) +
-                          "; give effortMin < 0 < effortMax and velocityMax > 0 in " + side_path_ +
-                          ", or \"actuated\": false");
-      }
-    }
-    const std::string what = said.has_position_min() || said.has_position_max()                          ? "range"
-                             : said.has_velocity_max() || said.has_effort_min() || said.has_effort_max() ? "limits"
-                                                                                                         : "";
-    if (!what.empty()) result_.read.push_back(what + " of joint \"" + joint.name + "\" from the side file");
   }
 
   void AddMasses() {
@@ -248,6 +195,16 @@ class ModelMaker {
     for (int i = 0; i < result_.model.joints_size(); ++i) {
       const UrdfMass mass = Lump(parts[static_cast<size_t>(i)]);
       v1::Joint& joint = *result_.model.mutable_joints(i);
+      const Eigen::Vector3d moments = PrincipalMoments(mass);
+      if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6)) {
+        throw Failure(ExitCode::kUsage,
+                      tree_.document.path + ": <link name=\"" + joint.link_name() +
+                          "\">: with what is merged into it, it has the principal moments " + FormatNumber(moments(0)) +
+                          ", " + FormatNumber(moments(1)) + " and " + FormatNumber(moments(2)) +
+                          " kg m²; no body has one above the sum of the two others. Correct <inertia>, or "
+                          "lock joint \"" +
+                          joint.name() + "\" in the side file, which merges the link");
+      }
       joint.set_mass_kg(mass.mass);
       SetXyz(mass.center, joint.mutable_center_of_mass_m());
       const Eigen::Matrix3d& inertia = mass.inertia;

@@ -107,12 +107,9 @@ class TreeReader {
     }
     RequireLength("link", link, "the centre of mass", place.position);
     const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
-    const double slack = 1e-6 * moments.cwiseAbs().maxCoeff();
-    if (moments(0) < -slack || moments(2) > moments(0) + moments(1) + slack) {
+    if (moments(0) < -1e-6 * moments.cwiseAbs().maxCoeff()) {
       Refuse("link", link,
-             "<inertia> has the principal moments " + FormatNumber(moments(0)) + ", " + FormatNumber(moments(1)) +
-                 " and " + FormatNumber(moments(2)) +
-                 " kg m²; no body has them: each must be >= 0 and at most the sum of the two others");
+             "<inertia> has the principal moment " + FormatNumber(moments(0)) + " kg m²; none may be negative");
     }
     const bool turned = !place.rotation.isIdentity(0);
     return {from.mass, place.position,

@@ -57,8 +57,8 @@ struct UrdfTree {
 };
 
 // Reads and checks a file. Throws Failure(kUsage) with file, element and reason for what CheckUrdfText refuses, and
-// for: negative masses and masses beyond 1e6 kg, inertias that no body has (a principal moment below 0 or above the sum
-// of the two others, to 1e-6 of the largest), an inertia without mass; origins, centres of mass and shapes beyond 10 m,
+// for: negative masses and masses beyond 1e6 kg, inertias with a negative principal
+// moment, an inertia without mass; origins, centres of mass and shapes beyond 10 m,
 // which look like millimetres; axes of length 0; ranges with lower >= upper; negative limits.
 UrdfTree ReadUrdf(const std::string& path);
 // The same for text. `path` is for messages only.

@@ -228,7 +228,16 @@ TEST(UrdfModelTest, SaysWhatAModelCannotHave) {
               HasSubstr("a floating joint must be the first of the tree"));
   EXPECT_THAT(RefusalOf(With("joint name=\"slide\"", "joint name=\"slide it\""), good),
               HasSubstr("\"slide\" is no joint"));
+  // An inertia that no body has is no harm where its link is merged.
+  const std::string thin = With("<inertia ixx=\"0.001\" ixy=\"0\" ixz=\"0\" iyy=\"0.002\" iyz=\"0\" izz=\"0.0015\"/>",
+                                "<inertia ixx=\"0.001\" ixy=\"0\" ixz=\"0\" iyy=\"0.002\" iyz=\"0\" izz=\"0.004\"/>");
+  EXPECT_EQ(RefusalOf(thin, good), "accepted");
   v1::ModelSideFile side = good;
+  side.mutable_joints(0)->set_locked(false);
+  EXPECT_THAT(RefusalOf(thin, side),
+              HasSubstr("<link name=\"motor\">: with what is merged into it, it has the principal moments 0.001, "
+                        "0.002 and 0.004 kg m²; no body has one above the sum of the two others"));
+  side = good;
   side.mutable_joints(1)->set_reference(2.5);
   EXPECT_THAT(RefusalOf(kTwistedRobot, side), HasSubstr("its reference in x.json is 2.5, out of its range -1 to 2"));
   side = good;
