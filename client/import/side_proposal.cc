@@ -9,6 +9,7 @@
 #include "client/failure.h"
 #include "client/import/foot_fit.h"
 #include "client/import/limb_roles.h"
+#include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/mirror_names.h"
 #include "client/import/urdf_model.h"
@@ -289,17 +290,27 @@ class Proposer {
 
   void CheckMirror() {
     if (!proposal_.missing.empty() || legs_.size() != 2) return;
-    std::string difference;
+    v1::Model model;
     try {
-      difference = MirrorDifference(ModelOfUrdf(tree_, "the side file", proposal_.side).model);
+      model = ModelOfUrdf(tree_, "the side file", proposal_.side).model;
     } catch (const Failure& failure) {
       proposal_.missing.push_back(failure.what());
       return;
     }
+    const std::string difference = MirrorDifference(model);
     if (difference.empty()) return;
-    proposal_.side.set_mirror(v1::ModelSideFile::MIRROR_NONE);
-    proposal_.reasons.push_back("left and right differ, so the body walks in full cycles (--cycle full): " +
-                                difference);
+    const MirrorChange change = AverageMirrorImages(&model);
+    const std::string left = MirrorDifference(model);
+    if (change.IsSmall() && left.empty()) {
+      proposal_.side.set_mirror(v1::ModelSideFile::MIRROR_AVERAGED);
+      proposal_.reasons.push_back("left and right differ little and are averaged (" + change.Describe() +
+                                  "), so that a step and its mirror image make the gait: " + difference);
+    } else {
+      proposal_.side.set_mirror(v1::ModelSideFile::MIRROR_NONE);
+      proposal_.reasons.push_back(
+          "left and right differ, so the body walks in full cycles (--cycle full): " + difference +
+          "; MIRROR_AVERAGED would change " + change.Describe() + (left.empty() ? "" : " and leave different " + left));
+    }
   }
 
   const UrdfTree& tree_;

@@ -25,7 +25,8 @@ struct SideProposal {
 //   roles      of each leg's joints that turn within 60° of y: by "hip", "knee" and "ankle" in their names, else by
 //              order; trunk, shoulder and elbow by name
 //   contacts   one ellipsoid a foot (foot_fit.h)
-//   mirror     by names; none if links that should be mirror images are not, to the server's tolerance
+//   mirror     by names; averaged if links that should be mirror images are not quite (mirror_average.h), none if they
+//              are not at all
 SideProposal ProposeSideFile(const UrdfTree& tree);
 
 }  // namespace rollgait::client

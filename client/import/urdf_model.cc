@@ -8,6 +8,7 @@
 
 #include "client/failure.h"
 #include "client/import/lumped_links.h"
+#include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/side_file.h"
 #include "client/import/urdf_limits.h"
@@ -50,6 +51,9 @@ class ModelMaker {
     AddContacts();
     AddBodies();
     for (const std::string& line : SetMirrorImages(side_path_, side_, &result_.model)) result_.assumed.push_back(line);
+    if (side_.mirror() == v1::ModelSideFile::MIRROR_AVERAGED) {
+      result_.assumed.push_back("left and right averaged: " + AverageMirrorImages(&result_.model).Describe());
+    }
     AddSummary();
     return std::move(result_);
   }

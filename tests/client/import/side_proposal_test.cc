@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "client/import/foot_fit.h"
 #include "client/import/limb_roles.h"
+#include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/mirror_names.h"
 #include "client/import/side_file.h"
@@ -149,9 +152,23 @@ TEST(SideProposalTest, SaysWhatDiffersAndWhatIsMissing) {
   const std::string heavy = "<mass value=\"2.6\"/>";
   std::string text = ReadUrdfBytes(kBiped);
   text.replace(text.find(heavy), heavy.size(), "<mass value=\"2.7\"/>");
-  const SideProposal uneven = ProposeSideFile(ReadUrdfText("x.urdf", text));
-  EXPECT_EQ(uneven.side.mirror(), v1::ModelSideFile::MIRROR_NONE);
+  const UrdfTree uneven_tree = ReadUrdfText("x.urdf", text);
+  const SideProposal uneven = ProposeSideFile(uneven_tree);
+  EXPECT_EQ(uneven.side.mirror(), v1::ModelSideFile::MIRROR_AVERAGED);
   EXPECT_THAT(uneven.reasons, Contains(HasSubstr("masses of \"left_shank\" and \"right_shank\", 2.7 and 2.6 kg")));
+  const UrdfModel averaged = ModelOfUrdf(uneven_tree, "s.json", uneven.side);
+  EXPECT_EQ(MirrorDifference(averaged.model), "");
+  EXPECT_THAT(averaged.model.sources(), Contains(HasSubstr("left and right averaged: masses by up to 1.9 %")));
+  for (const v1::Joint& joint : averaged.model.joints()) {
+    if (joint.link_name().find("shank") != std::string::npos) {
+      EXPECT_NEAR(joint.mass_kg(), 2.65, 1e-12);
+    }
+  }
+  text = ReadUrdfBytes(kBiped);
+  text.replace(text.find(heavy), heavy.size(), "<mass value=\"5\"/>");
+  const SideProposal lame = ProposeSideFile(ReadUrdfText("x.urdf", text));
+  EXPECT_EQ(lame.side.mirror(), v1::ModelSideFile::MIRROR_NONE);
+  EXPECT_THAT(lame.reasons, Contains(HasSubstr("walks in full cycles")));
 
   const SideProposal meshes = ProposeSideFile(
       ReadUrdfText("x.urdf", BipedWith("<box size=\"0.22 0.1 0.06\"/>", "<mesh filename=\"foot.stl\"/>")));
@@ -164,6 +181,34 @@ TEST(SideProposalTest, SaysWhatDiffersAndWhatIsMissing) {
       ProposeSideFile(ReadUrdfText("x.urdf", BipedWith("lower=\"0\" upper=\"2.2\"", "lower=\"0.1\" upper=\"2.2\"")));
   EXPECT_THAT(bent.reasons, Contains(HasSubstr("reference of joint \"left_knee\"")));
   EXPECT_THAT(bent.missing, IsEmpty());
+}
+
+// Whatever two sides are given, what is averaged is symmetric, weighs the same, and is unchanged by averaging again.
+TEST(MirrorAverageTest, MakesLeftAndRightMirrorImages) {
+  const UrdfTree tree = ReadUrdf(kBiped);
+  v1::Model model = ModelOfUrdf(tree, "s.json", ProposeSideFile(tree).side).model;
+  double mass = 0, averaged_mass = 0;
+  double shift = 0.001;
+  for (v1::Joint& joint : *model.mutable_joints()) {
+    if (joint.mass_kg() == 0) continue;
+    shift = -1.3 * shift;
+    joint.set_mass_kg(joint.mass_kg() * (1 + 5 * shift));
+    joint.mutable_center_of_mass_m()->set_y(joint.center_of_mass_m().y() + shift);
+    joint.set_inertia_kg_m2(3, shift * joint.inertia_kg_m2(0));
+    joint.set_position_max(joint.position_max() + shift);
+    joint.set_effort_max(joint.effort_max() * (1 + shift));
+    mass += joint.mass_kg();
+  }
+  EXPECT_NE(MirrorDifference(model), "");
+  const MirrorChange change = AverageMirrorImages(&model);
+  EXPECT_EQ(MirrorDifference(model), "");
+  EXPECT_GT(change.mass, 1e-3);
+  EXPECT_GT(change.center, 1e-4);
+  EXPECT_GT(change.limits, 1e-4);
+  for (const v1::Joint& joint : model.joints()) averaged_mass += joint.mass_kg();
+  EXPECT_NEAR(averaged_mass, mass, 1e-12);
+  const MirrorChange again = AverageMirrorImages(&model);
+  EXPECT_LT(std::max({again.mass, again.center, again.inertia, again.limits}), 1e-12);
 }
 
 }  // namespace
