@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
+#include <string_view>
 
 #include "client/failure.h"
 #include "client/import/lumped_links.h"
@@ -68,7 +70,7 @@ class ModelMaker {
   [[noreturn]] void Refuse(const UrdfJoint& joint, const std::string& reason) const {
     throw Failure(ExitCode::kUsage, tree_.document.path + ": <joint name=\"" + joint.name + "\">: " + reason);
   }
-  const v1::SideJoint& Said(const std::string& joint) const {
+  const v1::SideJoint& Said(std::string_view joint) const {
     static const v1::SideJoint nothing;
     const auto found = said_.find(joint);
     return found == said_.end() ? nothing : *found->second;
@@ -289,7 +291,7 @@ class ModelMaker {
   const UrdfTree& tree_;
   const std::string& side_path_;
   const v1::ModelSideFile& side_;
-  std::map<std::string, const v1::SideJoint*> said_;
+  std::map<std::string, const v1::SideJoint*, std::less<>> said_;
   std::vector<Carried> carried_;  // of each link of the URDF
   UrdfModel result_;
 };
