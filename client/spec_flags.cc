@@ -6,6 +6,7 @@
 #include "client/bound_flags.h"
 #include "client/failure.h"
 #include "client/flag_values.h"
+#include "client/import/model_file.h"
 #include "client/json.h"
 #include "client/spec_words.h"
 #include "client/text.h"
@@ -88,13 +89,10 @@ void ApplyManoeuvre(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.duration_s) spec.mutable_manoeuvre()->set_duration_s(*flags.duration_s);
 }
 
-// No model of a server is called so.
-bool IsModelFile(const std::string& model) { return model.ends_with(".json"); }
-
 bool HasBodyFlags(const SpecFlags& flags) {
-  return flags.model || flags.sex || flags.stature_m || flags.mass_kg || flags.feet || flags.ranges || flags.toes ||
-         flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes || !flags.locks.empty() ||
-         !flags.segments.empty();
+  return flags.model || !flags.side_file.empty() || flags.sex || flags.stature_m || flags.mass_kg || flags.feet ||
+         flags.ranges || flags.toes || flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes ||
+         !flags.locks.empty() || !flags.segments.empty();
 }
 
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
@@ -138,6 +136,10 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
 }  // namespace
 
 void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
+  command
+      .add_option("--side", flags.side_file,
+                  "Of a model in FILE.urdf: rollgait.v1.ModelSideFile as JSON, with feet, roles, reference posture")
+      ->group("Body");
   command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
   command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
@@ -164,7 +166,8 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   command
       .add_option(
           "--model", flags.model,
-          "Model name, see `rollgait models`; models/ID is one of your own on the server, FILE.json one in a file")
+          "Model name, see `rollgait models`; models/ID is one of your own on the server, FILE.json or FILE.urdf "
+          "one in a file")
       ->group("Body");
   AddBodyFlags(command, flags);
   const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {
@@ -219,11 +222,17 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
 }
 
-void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
+std::string ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
+  std::string explanation;
+  if (!flags.side_file.empty() && !(flags.model && IsModelFile(*flags.model))) {
+    throw Failure(ExitCode::kUsage, "--side: needs a model in a .urdf file");
+  }
   // One or the other, whatever a file of the whole request says.
   if (flags.model && IsModelFile(*flags.model)) {
     selection.Clear();
-    ReadJsonFile(*flags.model, *selection.mutable_own());
+    ModelFile file = ReadModelFile(*flags.model, flags.side_file);
+    *selection.mutable_own() = std::move(file.model);
+    explanation = std::move(file.explanation);
   } else if (flags.model) {
     selection.clear_own();
     selection.set_name(*flags.model);
@@ -256,6 +265,7 @@ void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
     const auto [joint, degrees] = ParseAssignment("--lock", text);
     (*selection.mutable_locked_joints_rad())[joint] = degrees * kPi / 180.0;
   }
+  return explanation;
 }
 
 v1::SolveSpec BuildSpec(const SpecFlags& flags) {

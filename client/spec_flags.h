@@ -17,6 +17,7 @@ namespace rollgait::client {
 // What was given on the command line; unset values are left to the file or to the server's defaults.
 struct SpecFlags {
   std::string file;
+  std::string side_file;  // of a model in a URDF file; empty: none
   std::optional<std::string> model, sex, scheme, cycle, accuracy, normalization;
   std::optional<std::string> preset, warm_start;
   std::optional<double> duty_factor;
@@ -43,8 +44,9 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags);
 // Only the flags of model selection but the name (--sex, --stature, --lock …), for other commands.
 void AddBodyFlags(CLI::App& command, SpecFlags& flags);
 
-// The model selection of the flags, on top of `selection`.
-void ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection);
+// The model selection of the flags, on top of `selection`. Returns what reading a URDF found, lines for people; empty
+// for other models. Throws Failure(kUsage) for a word that is not in a flag's list and for files that are no model.
+std::string ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection);
 
 // The request: the file's content, if a file is named, overridden by the flags. Ranges are checked by the server.
 // Throws Failure(kUsage) for a word that is not in a flag's list, and for a file that is not a SolveSpec.

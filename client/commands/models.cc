@@ -1,4 +1,6 @@
 #include "client/commands/commands.h"
+#include "client/import/model_file.h"
+#include "client/import/side_proposal.h"
 #include "client/json.h"
 #include "client/output.h"
 #include "client/text.h"
@@ -77,6 +79,22 @@ std::vector<v1::ModelSummary> ListModels(Connection& connection) {
   return models;
 }
 
+ExitCode ProposeSide(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  const SpecFlags& flags = options.flags;
+  if (!flags.model || !IsUrdfFile(*flags.model) || !flags.side_file.empty() || !options.format.empty()) {
+    throw Failure(ExitCode::kUsage, "--propose-side: needs a FILE.urdf, and neither --side nor --format");
+  }
+  const SideProposal proposal = ProposeSideFile(ReadUrdf(*flags.model));
+  if (!global.quiet) {
+    terminal.err << "Proposed, to be checked:\n";
+    for (const std::string& reason : proposal.reasons) terminal.err << "  " << reason << "\n";
+    if (!proposal.missing.empty()) terminal.err << "Missing, to be added:\n";
+    for (const std::string& line : proposal.missing) terminal.err << "  " << line << "\n";
+  }
+  terminal.out << ToJsonText(proposal.side) << std::flush;
+  return ExitCode::kSuccess;
+}
+
 }  // namespace
 
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal) {
@@ -88,12 +106,14 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     if (!flags.model) throw Failure(ExitCode::kUsage, "--format: needs the NAME of a model");
     RequireOutput(options.output, FindModelFormat(options.format));
   }
+  if (options.propose_side) return ProposeSide(options, global, terminal);
   Connection connection(global);
   if (flags.model) {
     grpc::ClientContext context;
     connection.SetDeadline(context);
     v1::GetModelRequest request;
-    ApplyBodyFlags(flags, *request.mutable_model());
+    const std::string explanation = ApplyBodyFlags(flags, *request.mutable_model());
+    if (!global.quiet) terminal.err << explanation << std::flush;
     v1::Model model;
     RequireOk(connection.stub().GetModel(&context, request, &model), "get model " + *flags.model, connection.server());
     if (!options.format.empty()) {

@@ -1,5 +1,6 @@
 // models create, models delete: the caller's own models on the server.
 #include "client/commands/commands.h"
+#include "client/import/model_file.h"
 #include "client/json.h"
 #include "client/output.h"
 #include "client/text.h"
@@ -16,7 +17,9 @@ std::string ModelName(const std::string& name) { return name.rfind(kPrefix, 0) =
 
 ExitCode RunCreateModel(const CreateModelOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   v1::CreateModelRequest request;
-  ReadJsonFile(options.file, *request.mutable_model());
+  ModelFile file = ReadModelFile(options.file, options.side_file);
+  *request.mutable_model() = std::move(file.model);
+  if (!global.quiet) terminal.err << file.explanation << std::flush;
   if (!options.id.empty()) request.set_model_id(ModelName(options.id).substr(sizeof(kPrefix) - 1));
   Connection connection(global);
   grpc::ClientContext context;

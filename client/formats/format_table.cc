@@ -13,6 +13,7 @@
 #include "client/formats/sto.h"
 #include "client/formats/stride_csv.h"
 #include "client/formats/urdf.h"
+#include "client/formats/urdf_side.h"
 #include "client/json.h"
 #include "client/suggestion.h"
 #include "client/text.h"
@@ -21,6 +22,7 @@ namespace rollgait::client {
 namespace {
 
 std::string Urdf(const v1::Model& model, const Ground&) { return ToUrdf(model); }
+std::string UrdfSide(const v1::Model& model, const Ground&) { return ToUrdfSide(model); }
 std::string Json(const v1::Solve& solve) { return ToJsonText(solve); }
 
 template <typename Chosen>
@@ -52,6 +54,7 @@ const std::vector<Format>& Formats() {
        .of_solve = ToStrideCsv},
       {.name = "mjcf", .ending = ".xml", .what = "the model for MuJoCo", .of_model = ToMjcf},
       {.name = "urdf", .ending = ".urdf", .what = "the model as URDF", .of_model = Urdf},
+      {.name = "urdf-side", .ending = ".json", .what = "what the URDF does not say, for --side", .of_model = UrdfSide},
       {.name = "opensim",
        .ending = "",
        .what = "model, motion, ground reaction, loads, markers",

@@ -105,6 +105,53 @@ TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
   EXPECT_THAT(Run("models " + file).err, HasSubstr("has more than 64 MiB"));
 }
 
+// A model that was written as URDF and side file gives the gait of its name, and a robot from elsewhere walks with the
+// side file that is proposed for it.
+TEST_F(CommandLineTest, ARobotInAUrdfWalks) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string urdf = directory_.path() + "/walker.urdf", side = directory_.path() + "/side.json";
+  const std::string rest = " --preset torque --intervals 8 --accuracy draft --slope 2";
+  for (const std::string model : {"planar", "human29"}) {
+    ASSERT_EQ(Run("models " + model + " --format urdf -o " + urdf).code, 0);
+    std::ofstream(side) << Run("models " + model + " --format urdf-side").out;
+    const v1::Solve named = Solve("--model " + model + rest), own = Solve("--model " + urdf + " --side " + side + rest);
+    ASSERT_EQ(named.result().termination(), v1::TERMINATION_OPTIMAL) << named.result().message();
+    EXPECT_TRUE(own.spec().model().has_own());
+    EXPECT_FALSE(own.from_cache());
+    EXPECT_NEAR(own.result().objective(), named.result().objective(), 1e-9 * named.result().objective());
+    ASSERT_EQ(own.result().trajectory().phases_size(), named.result().trajectory().phases_size());
+    for (int p = 0; p < named.result().trajectory().phases_size(); ++p) {
+      const v1::TrajectoryPhase &a = named.result().trajectory().phases(p), &b = own.result().trajectory().phases(p);
+      const auto &expected = a.node_positions().values(), &found = b.node_positions().values();
+      ASSERT_EQ(expected.size(), found.size());
+      for (int i = 0; i < expected.size(); ++i) EXPECT_NEAR(expected[i], found[i], 1e-9);
+    }
+  }
+
+  const std::string biped = ROLLGAIT_SOURCE "/examples/biped/biped.urdf";
+  const Ended proposed = Run("models " + biped + " --propose-side");
+  EXPECT_EQ(proposed.code, 0);
+  EXPECT_THAT(proposed.err, HasSubstr("joint \"left_knee\" is ROLE_KNEE_FLEXION"));
+  std::ofstream(side) << proposed.out;
+  const Ended checked = Run("models " + biped + " --side " + side);
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_THAT(checked.err, HasSubstr("\"imu\" into \"torso\": joint \"imu_mount\" is fixed"));
+  EXPECT_THAT(checked.out, HasSubstr("leg length  0.84  m"));
+  const v1::Solve walk = Solve("--model " + biped + " --side " + side + " --preset human --speed 0.8 --accuracy draft");
+  EXPECT_EQ(walk.result().termination(), v1::TERMINATION_OPTIMAL) << walk.result().message();
+
+  EXPECT_EQ(Run("models create " + biped + " --side " + side + " --id biped").out, "models/biped@1\n");
+  EXPECT_EQ(Run("solve --model " + biped).code, 2) << "no side file";
+  EXPECT_EQ(Run("solve --model planar --side " + side).code, 2) << "no URDF";
+  EXPECT_EQ(Run("models planar --propose-side").code, 2) << "no URDF";
+  std::ofstream(urdf) << "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/></robot>";
+  const Ended refused = Run("models " + urdf + " --side " + side);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_THAT(refused.err,
+              HasSubstr("walker.urdf:1: <robot name=\"r\">: has several links that are the child of no joint"));
+}
+
 // A model that is stored once walks like the one in the file, and a solve outlives the model it used.
 TEST_F(CommandLineTest, AStoredModelWalksLikeTheOneInTheFile) {
   ASSERT_NE(daemon_.address(), "");

@@ -70,7 +70,7 @@ TEST_F(ExportCommandTest, RefusesBeforeItAsksTheServer) {
       {{"export", "planar", "--format", "opensim"}, "--format opensim: several files; name their folder"},
       {{"export", "planar", "-o", "walk.fbx"}, "--output walk.fbx: the name must end in one of .json"},
       {{"export", "planar", "-o", folder_ + "/nowhere/a.trc"}, "cannot write in"},
-      {{"models", "planar", "-o", "a.xml"}, "need --format, one of mjcf, urdf, osim"},
+      {{"models", "planar", "-o", "a.xml"}, "need --format, one of mjcf, urdf, urdf-side, osim"},
       {{"models", "--format", "mjcf"}, "--format: needs the NAME of a model"},
       {{"models", "planar", "--format", "trc"}, "--format trc: needs a solve"},
       {{"models", "planar", "--format", "mjcf", "--slope", "60"}, "--slope"},

@@ -52,7 +52,7 @@ TEST(FormatTableTest, SaysWhatIsMissing) {
   v1::Solve solve = SampleSolve("solves/a", 0);
   EXPECT_THROW(FindModelFormat("bvh"), Failure);
   EXPECT_NE(FindModelFormat("osim").of_model, nullptr);
-  EXPECT_EQ(ModelFormatNames(), "mjcf, urdf, osim");
+  EXPECT_EQ(ModelFormatNames(), "mjcf, urdf, urdf-side, osim");
   solve.mutable_result()->clear_trajectory();
   for (const Format& format : Formats()) {
     if (format.name == "json") continue;

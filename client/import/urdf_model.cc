@@ -1,0 +1,310 @@
+#include "client/import/urdf_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "client/failure.h"
+#include "client/import/lumped_links.h"
+#include "client/import/mirror_average.h"
+#include "client/import/mirror_images.h"
+#include "client/import/side_file.h"
+#include "client/import/urdf_limits.h"
+#include "client/text.h"
+
+namespace rollgait::client {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+void SetXyz(const Eigen::Vector3d& from, v1::Vector3* to) {
+  to->set_x(from.x());
+  to->set_y(from.y());
+  to->set_z(from.z());
+}
+
+// Left unset for the identity.
+template <typename Part>
+void SetOrientation(const Eigen::Matrix3d& rotation, Part* part) {
+  if (rotation.isIdentity(0)) return;
+  const Eigen::Quaterniond q = Eigen::Quaterniond(rotation).normalized();
+  v1::Quaternion* const to = part->mutable_orientation();
+  to->set_w(q.w());
+  to->set_x(q.x());
+  to->set_y(q.y());
+  to->set_z(q.z());
+}
+
+class ModelMaker {
+ public:
+  ModelMaker(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side)
+      : tree_(tree), side_path_(side_path), side_(side), carried_(tree.links.size()) {
+    for (const v1::SideJoint& joint : side.joints()) said_.emplace(joint.name(), &joint);
+  }
+
+  UrdfModel Make() {
+    AddBase();
+    for (const UrdfJoint& joint : tree_.joints) AddUrdfJoint(joint);
+    AddMasses();
+    AddContacts();
+    AddBodies();
+    for (const std::string& line : SetMirrorImages(side_path_, side_, &result_.model)) result_.assumed.push_back(line);
+    if (side_.mirror() == v1::ModelSideFile::MIRROR_AVERAGED) {
+      result_.assumed.push_back("left and right averaged: " + AverageMirrorImages(&result_.model).Describe());
+    }
+    AddSummary();
+    return std::move(result_);
+  }
+
+ private:
+  // Where a link of the URDF is: in the link frame of a joint of the model, -1 the world.
+  struct Carried {
+    int joint = -1;
+    Pose place{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+  };
+
+  [[noreturn]] void Refuse(const UrdfJoint& joint, const std::string& reason) const {
+    throw Failure(ExitCode::kUsage, tree_.document.path + ": <joint name=\"" + joint.name + "\">: " + reason);
+  }
+  const v1::SideJoint& Said(std::string_view joint) const {
+    static const v1::SideJoint nothing;
+    const auto found = said_.find(joint);
+    return found == said_.end() ? nothing : *found->second;
+  }
+  void RequireName(const std::string& what, const std::string& name) const {
+    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+    if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), allowed)) return;
+    throw Failure(ExitCode::kUsage, tree_.document.path + ": the " + what + " \"" + name.substr(0, 80) +
+                                        "\" must be 1 to 64 letters, digits, \"_\", \"-\" or \".\"; rename it");
+  }
+
+  Carried& Of(int link) { return carried_[static_cast<size_t>(link)]; }
+  const UrdfLink& Link(int link) const { return tree_.links[static_cast<size_t>(link)]; }
+
+  // The base that the URDF does not have; its last joint carries the root link.
+  void AddBase() {
+    if (HasOwnBase(side_, tree_)) {
+      result_.read.push_back("floating base: the joints of the URDF that have base roles");
+      return;
+    }
+    Carried& root = Of(tree_.root);
+    const v1::Quaternion& q = side_.base_orientation();
+    if (side_.has_base_orientation()) {
+      root.place.rotation = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
+    }
+    const std::vector<BaseJoint> base = BaseJoints(side_.base());
+    for (const BaseJoint& from : base) {
+      if (tree_.FindJoint(from.name) >= 0) {
+        Refuse(tree_.joints[static_cast<size_t>(tree_.FindJoint(from.name))],
+               "has the name of a joint of the floating base; give it a base role in the side file, or rename it");
+      }
+      v1::Joint& joint = *result_.model.add_joints();
+      joint.set_name(from.name);
+      joint.set_role(from.role);
+      joint.set_type(from.type);
+      joint.set_parent(result_.model.joints_size() - 2);
+      SetXyz(from.axis, joint.mutable_axis());
+      const v1::SideJoint& said = Said(from.name);
+      joint.set_position_min(said.has_position_min() ? said.position_min() : from.least);
+      joint.set_position_max(said.has_position_max() ? said.position_max() : from.most);
+      joint.set_velocity_max(said.has_velocity_max() ? said.velocity_max() : kUnbounded);
+      joint.set_link_name(std::string(from.name) + "_link");
+    }
+    if (side_.has_base_position_m()) *result_.model.mutable_joints(0)->mutable_origin_m() = side_.base_position_m();
+    root.joint = result_.model.joints_size() - 1;
+    result_.model.mutable_joints(root.joint)->set_link_name(Link(tree_.root).name);
+    result_.read.push_back("floating base: " + std::to_string(base.size()) + " joints added, which carry link \"" +
+                           Link(tree_.root).name + "\"");
+  }
+
+  void AddUrdfJoint(const UrdfJoint& joint) {
+    const v1::SideJoint& said = Said(joint.name);
+    const Carried& parent = Of(joint.parent);
+    const Pose frame = Compose(Compose(parent.place, joint.origin), MotionOf(joint, said.reference()));
+    const bool floats = joint.type == UrdfJoint::Type::kFloating;
+    if (floats && (result_.model.joints_size() > 6 || !IsMassless(joint.parent) || HasOwnBase(side_, tree_))) {
+      Refuse(joint,
+             "a floating joint must be the first of the tree, below links without mass: it is the floating base");
+    }
+    if (floats) {
+      result_.read.push_back("joint \"" + joint.name + "\" is the floating base, \"" + Link(joint.child).name +
+                             "\" its link");
+      result_.model.mutable_joints(parent.joint)->set_link_name(Link(joint.child).name);
+    }
+    if (floats || joint.type == UrdfJoint::Type::kFixed || said.locked()) {
+      Of(joint.child) = {parent.joint, frame};
+      if (said.locked()) RequireReference(tree_, joint, side_path_, said, joint.lower, joint.upper);
+      if (!floats) {
+        result_.merged.push_back("\"" + Link(joint.child).name + "\" into \"" + Link(joint.parent).name +
+                                 "\": joint \"" + joint.name + "\" is " +
+                                 (said.locked() ? "locked at " + FormatNumber(said.reference()) : "fixed"));
+      }
+      return;
+    }
+    if (joint.type == UrdfJoint::Type::kPlanar) {
+      Refuse(joint, "is planar, which a model does not have; lock it in the side file: \"locked\": true");
+    }
+    if (!joint.mimics.empty()) {
+      Refuse(joint, "mimics \"" + joint.mimics.substr(0, 64) +
+                        "\", which a model cannot express; lock it in the side file: \"locked\": true");
+    }
+    v1::Joint& to = *result_.model.add_joints();
+    to.set_parent(parent.joint);
+    Of(joint.child) = {result_.model.joints_size() - 1, Carried().place};
+    RequireName("joint", joint.name);
+    RequireName("link", Link(joint.child).name);
+    to.set_name(joint.name);
+    to.set_link_name(Link(joint.child).name);
+    to.set_type(joint.type == UrdfJoint::Type::kPrismatic ? v1::Joint::TYPE_PRISMATIC : v1::Joint::TYPE_REVOLUTE);
+    SetXyz(frame.position, to.mutable_origin_m());
+    SetOrientation(frame.rotation, &to);
+    SetXyz(joint.axis, to.mutable_axis());
+    to.set_role(said.role());
+    to.set_side(said.side());
+    to.set_passive(said.passive());
+    SetLimits(tree_, joint, side_path_, said, &to, &result_);
+  }
+
+  bool IsMassless(int link) const {
+    const auto weightless = [&](int at) { return Link(at).mass.mass == 0; };
+    // What is between the world and the floating joint are the links before it in the tree.
+    for (; link != tree_.root;) {
+      if (!weightless(link)) return false;
+      for (const UrdfJoint& joint : tree_.joints) {
+        if (joint.child == link) {
+          link = joint.parent;
+          break;
+        }
+      }
+    }
+    return weightless(tree_.root);
+  }
+
+  void AddMasses() {
+    std::vector<std::vector<UrdfMass>> parts(static_cast<size_t>(result_.model.joints_size()));
+    double total = 0;
+    for (size_t i = 0; i < tree_.links.size(); ++i) {
+      const UrdfLink& link = tree_.links[i];
+      if (link.mass.mass == 0) continue;
+      if (carried_[i].joint < 0) {
+        throw Failure(ExitCode::kUsage,
+                      tree_.document.path + ": <link name=\"" + link.name +
+                          "\">: has mass, but no joint of the base carries it: it would be fixed to the world");
+      }
+      parts[static_cast<size_t>(carried_[i].joint)].push_back(Placed(link.mass, carried_[i].place));
+      total += link.mass.mass;
+    }
+    for (int i = 0; i < result_.model.joints_size(); ++i) {
+      const UrdfMass mass = Lump(parts[static_cast<size_t>(i)]);
+      v1::Joint& joint = *result_.model.mutable_joints(i);
+      const Eigen::Vector3d moments = PrincipalMoments(mass);
+      if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6)) {
+        throw Failure(ExitCode::kUsage,
+                      tree_.document.path + ": <link name=\"" + joint.link_name() +
+                          "\">: with what is merged into it, it has the principal moments " + FormatNumber(moments(0)) +
+                          ", " + FormatNumber(moments(1)) + " and " + FormatNumber(moments(2)) +
+                          " kg m²; no body has one above the sum of the two others. Correct <inertia>, or "
+                          "lock joint \"" +
+                          joint.name() + "\" in the side file, which merges the link");
+      }
+      joint.set_mass_kg(mass.mass);
+      SetXyz(mass.center, joint.mutable_center_of_mass_m());
+      const Eigen::Matrix3d& inertia = mass.inertia;
+      for (const double entry :
+           {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2), inertia(1, 2)}) {
+        joint.add_inertia_kg_m2(entry);
+      }
+    }
+    result_.read.insert(result_.read.begin(),
+                        "robot \"" + tree_.document.robot + "\": " + std::to_string(tree_.links.size()) + " links, " +
+                            std::to_string(tree_.joints.size()) + " joints, " + FormatNumber(total) + " kg");
+  }
+
+  // Index of the joint that carries a part of the side file, and where on its link.
+  template <typename From>
+  Carried PlaceOf(const char* list, const From& from) {
+    const Carried& link = Of(tree_.FindLink(from.link()));
+    if (link.joint < 0) {
+      throw Failure(ExitCode::kUsage, side_path_ + ": " + list + " \"" + from.name() + "\": link \"" + from.link() +
+                                          "\" is fixed to the world, no joint carries it");
+    }
+    return {link.joint, Compose(link.place, {ToRotation(from.orientation()), ToVector(from.center_m())})};
+  }
+
+  void AddContacts() {
+    const bool in_plane =
+        std::none_of(result_.model.joints().begin(), result_.model.joints().end(),
+                     [](const v1::Joint& joint) { return joint.role() == v1::Joint::ROLE_BASE_LATERAL; });
+    for (const v1::SideContact& from : side_.contacts()) {
+      v1::ContactSurface& to = *result_.model.add_contacts();
+      const Carried carried = PlaceOf("contact", from);
+      to.set_name(from.name());
+      to.set_joint(carried.joint);
+      *to.mutable_surface() = from.surface();
+      SetXyz(carried.place.position, to.mutable_center_m());
+      SetOrientation(carried.place.rotation, &to);
+      to.set_mirror_contact(from.mirror_contact());
+      for (const int axis : {0, 1, 2}) {
+        if (!in_plane || axis != 1) SetXyz(Eigen::Vector3d::Unit(axis), to.add_directions());
+      }
+      to.set_side(from.side());
+      to.set_part(from.part());
+    }
+  }
+
+  void AddBodies() {
+    for (const v1::SideBody& from : side_.bodies()) {
+      v1::BodySurface& to = *result_.model.add_bodies();
+      const Carried carried = PlaceOf("body", from);
+      to.set_name(from.name());
+      to.set_joint(carried.joint);
+      *to.mutable_surface() = from.surface();
+      SetXyz(carried.place.position, to.mutable_center_m());
+      SetOrientation(carried.place.rotation, &to);
+      to.set_mirror_body(from.mirror_body());
+    }
+    *result_.model.mutable_body_pairs() = side_.body_pairs();
+  }
+
+  void AddSummary() {
+    v1::Model& model = result_.model;
+    const std::string& name = side_.name().empty() ? tree_.document.robot : side_.name();
+    if (side_.name().empty()) RequireName("name of the robot", name);
+    model.mutable_summary()->set_name(name);
+    model.mutable_summary()->set_description(
+        side_.description().empty() ? "Robot " + tree_.document.robot.substr(0, 200) + ", read from a URDF."
+                                    : side_.description());
+    model.set_leg_length_m(side_.leg_length_m());
+    *model.mutable_sources() = side_.sources();
+    model.add_sources("URDF " + std::filesystem::path(tree_.document.path).filename().string() + " with side file " +
+                      std::filesystem::path(side_path_).filename().string() + ".");
+    for (const std::string& line : result_.assumed) {
+      if (model.sources_size() < 60) model.add_sources(("Assumed: " + line).substr(0, 1900));
+    }
+    result_.left_out = tree_.document.left_out;
+  }
+
+  const UrdfTree& tree_;
+  const std::string& side_path_;
+  const v1::ModelSideFile& side_;
+  std::map<std::string, const v1::SideJoint*, std::less<>> said_;
+  std::vector<Carried> carried_;  // of each link of the URDF
+  UrdfModel result_;
+};
+
+}  // namespace
+
+UrdfModel ModelOfUrdf(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side) {
+  return ModelMaker(tree, side_path, side).Make();
+}
+
+UrdfModel ReadUrdfModel(const std::string& urdf_path, const std::string& side_path) {
+  const UrdfTree tree = ReadUrdf(urdf_path);
+  return ModelOfUrdf(tree, side_path, ReadSideFile(side_path, tree));
+}
+
+}  // namespace rollgait::client

@@ -1,0 +1,33 @@
+// A Model of a URDF and its side file.
+#ifndef ROLLGAIT_CLIENT_IMPORT_URDF_MODEL_H_
+#define ROLLGAIT_CLIENT_IMPORT_URDF_MODEL_H_
+
+#include <string>
+#include <vector>
+
+#include "client/import/urdf_tree.h"
+#include "rollgait/v1/model.pb.h"
+#include "rollgait/v1/model_side_file.pb.h"
+
+namespace rollgait::client {
+
+// A model and how it came about, a sentence each.
+struct UrdfModel {
+  v1::Model model;
+  std::vector<std::string> read, merged, assumed, left_out;
+};
+
+// Joints in the order of the tree behind the base; link frames are those of the URDF; position zero is the side file's
+// reference posture. Links behind fixed and locked joints are merged into the link that carries them. What is assumed
+// is also a line of Model.sources. `side_path` is for messages; `side` has passed CheckSideFile.
+// Throws Failure(kUsage) with file, element and reason for: joints that a model does not have and that are not locked;
+// a reference out of range; actuated joints without limits; links with mass that no joint of the base carries;
+// a floating joint behind another; names that Model does not accept.
+UrdfModel ModelOfUrdf(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side);
+
+// The same of two files.
+UrdfModel ReadUrdfModel(const std::string& urdf_path, const std::string& side_path);
+
+}  // namespace rollgait::client
+
+#endif  // ROLLGAIT_CLIENT_IMPORT_URDF_MODEL_H_

@@ -1,0 +1,68 @@
+#include "client/import/xml_guard.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "client/failure.h"
+#include "client/import/urdf_document.h"
+
+namespace rollgait::client {
+namespace {
+
+// The place behind the next `end`, or the end of the text.
+size_t BehindNext(const std::string& text, const char* end, size_t from) {
+  const size_t found = text.find(end, from);
+  return found == std::string::npos ? text.size() : found + std::strlen(end);
+}
+
+// The place of the first tag with more attributes than are accepted, or npos. Attributes are counted by their quotes.
+size_t FindCrowdedTag(const std::string& text) {
+  for (size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+    if (text.compare(at, 4, "<!--") == 0) {
+      at = BehindNext(text, "-->", at + 4);
+    } else if (text.compare(at, 9, "<![CDATA[") == 0) {
+      at = BehindNext(text, "]]>", at + 9);
+    } else if (text.compare(at, 2, "<?") == 0) {
+      at = BehindNext(text, "?>", at + 2);
+    } else {
+      const size_t start = at;
+      size_t attributes = 0;
+      while (++at < text.size() && text[at] != '>') {
+        if (text[at] != '"' && text[at] != '\'') continue;
+        at = std::min(text.find(text[at], at + 1), text.size());
+        if (++attributes > kMaxUrdfAttributes) return start;
+      }
+    }
+  }
+  return std::string::npos;
+}
+
+}  // namespace
+
+void RequireSafeXml(const std::string& path, const std::string& text) {
+  const auto refuse = [&](const std::string& reason) { throw Failure(ExitCode::kUsage, path + ": " + reason); };
+  if (text.size() > kMaxUrdfBytes) {
+    refuse("has more than " + std::to_string(kMaxUrdfBytes >> 20) +
+           " MiB, which no URDF needs; meshes are files of their own");
+  }
+  if (text.find('\0') != std::string::npos) refuse("holds a zero byte; a URDF is text in UTF-8");
+  const size_t tags = static_cast<size_t>(std::count(text.begin(), text.end(), '<'));
+  if (tags > kMaxUrdfTags) {
+    refuse("has " + std::to_string(tags) + " tags; at most " + std::to_string(kMaxUrdfTags) + " are accepted");
+  }
+  const auto line_of = [&](size_t at) {
+    return path + ":" +
+           std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  };
+  for (size_t at = text.find("<!"); at != std::string::npos; at = text.find("<!", at + 1)) {
+    if (text.compare(at, 4, "<!--") == 0 || text.compare(at, 9, "<![CDATA[") == 0) continue;
+    throw Failure(ExitCode::kUsage,
+                  line_of(at) + ": has a document type or entity declaration; a URDF needs none, remove it");
+  }
+  if (const size_t at = FindCrowdedTag(text); at != std::string::npos) {
+    throw Failure(ExitCode::kUsage,
+                  line_of(at) + ": a tag has more than " + std::to_string(kMaxUrdfAttributes) + " attributes");
+  }
+}
+
+}  // namespace rollgait::client
