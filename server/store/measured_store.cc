@@ -7,10 +7,10 @@ namespace {
 
 const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                               0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
-constexpr const char* kOperations[] = {"create",        "get",    "list",       "delete",          "request_cancel",
-                                       "read_events",   "counts", "read_audit", "claim",           "renew_lease",
-                                       "append_events", "finish", "give_back",  "cancel_requests", "lease_owners",
-                                       "reclaim",       "retain"};
+constexpr const char* kOperations[] = {"create",         "create_all",    "get",    "list",       "delete",
+                                       "request_cancel", "read_events",   "counts", "read_audit", "claim",
+                                       "renew_lease",    "append_events", "finish", "give_back",  "cancel_requests",
+                                       "lease_owners",   "reclaim",       "retain"};
 
 }  // namespace
 
@@ -47,6 +47,15 @@ auto MeasuredStore::MeasureLeased(const char* op, const Lease& lease, Call call)
 Outcome<CreatedSolve> MeasuredStore::Create(const NewSolve& solve) {
   auto outcome = Measure("create", [&] { return store_.Create(solve); });
   if (outcome.ok() && outcome.value().created) solves_.Created(outcome.value().record.from_cache);
+  return outcome;
+}
+
+Outcome<std::vector<CreatedSolve>> MeasuredStore::CreateAll(const std::vector<NewSolve>& solves) {
+  auto outcome = Measure("create_all", [&] { return store_.CreateAll(solves); });
+  if (!outcome.ok()) return outcome;
+  for (const CreatedSolve& made : outcome.value()) {
+    if (made.created) solves_.Created(made.record.from_cache);
+  }
   return outcome;
 }
 

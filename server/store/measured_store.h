@@ -19,6 +19,7 @@ class MeasuredStore : public SolveStore {
   MeasuredStore(SolveStore& store, Metrics& metrics);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<SolveExtent> Extent(const std::string& id) override;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/base/outcome.h"
+#include "server/store/list_query.h"
 #include "server/store/retention_limits.h"
 #include "server/store/solve_record.h"
 
@@ -29,8 +30,12 @@ class SolveStore {
   virtual ~SolveStore() = default;
 
   // Inserts a queued solve and its first event (QUEUED); or, if a reusable result of the same key is held, a solve that
-  // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec. kResourceExhausted: queue is full.
+  // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec or other labels. kResourceExhausted:
+  // queue is full.
   virtual Outcome<CreatedSolve> Create(const NewSolve& solve) = 0;
+  // Create for all of them, of one tenant, in their order, or for none. Records are without results. The message of an
+  // error says which of them has it, "requests[3].".
+  virtual Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) = 0;
   // Whether Create would have to put it in the queue: false if the tenant's request_id is known or a reusable result is
   // held. Reads only.
   virtual Outcome<bool> NeedsPlace(const NewSolve& solve) = 0;

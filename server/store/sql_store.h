@@ -26,6 +26,7 @@ class SqlStore : public SolveStore, public ModelStore {
                                                  DiskRoom room = {}, std::unique_ptr<DiskReserve> reserve = nullptr);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<SolveExtent> Extent(const std::string& id) override;
@@ -79,6 +80,9 @@ class SqlStore : public SolveStore, public ModelStore {
 
   // nullopt: so near a limit of the queue that it takes LockMode::kExclusive to be sure.
   Outcome<std::optional<CreatedSolve>> TryCreate(const NewSolve& solve, SqlConnection::LockMode mode);
+  // The same within a transaction that holds the locks, `writers` at the same time.
+  Outcome<std::optional<CreatedSolve>> CreateIn(SqlConnection& connection, const NewSolve& solve, int writers,
+                                                bool with_result);
 
   const std::unique_ptr<Database> database_;
   const Clock& clock_;
