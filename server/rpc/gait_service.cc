@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -141,8 +142,9 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
     *create.mutable_spec() = request->spec();
     if (!request->has_spec()) create.clear_spec();
     create.set_request_id(request->request_id());
+    *create.mutable_labels() = request->labels();
     const Outcome<v1::Solve> solve = service_.CreateSolve(caller, create);
-    if (solve.ok()) return WatchStream::Target{SolveId(solve.value().name()).value(), 0};
+    if (solve.ok()) return WatchStream::Target{{{SolveId(solve.value().name()).value(), 0}}};
     return solve.error();
   };
   return Stream(RuleOf("RunSolve"), context, create_and_watch, request->cancel_on_disconnect());
@@ -155,9 +157,34 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::Callb
     if (!id.ok()) return id.error();
     const Outcome<SolveExtent> extent = service_.ExtentFor(caller, id.value());
     if (!extent.ok()) return extent.error();
-    return WatchStream::Target{std::move(id).value(), request->after_sequence(), extent.value().bytes};
+    return WatchStream::Target{{{std::move(id).value(), request->after_sequence()}}, extent.value().bytes};
   };
   return Stream(RuleOf("WatchSolve"), context, find, false);
+}
+
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolves(grpc::CallbackServerContext* context,
+                                                                      const v1::WatchSolvesRequest* request) {
+  const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
+    Outcome<SolveService::Watched> watched = service_.FindWatched(caller, *request);
+    if (!watched.ok()) return watched.error();
+    return WatchStream::Target{std::move(watched.value().positions), watched.value().longest_bytes};
+  };
+  return Stream(RuleOf("WatchSolves"), context, find, false);
+}
+
+grpc::ServerUnaryReactor* GaitServiceRpc::BatchCreateSolves(grpc::CallbackServerContext* context,
+                                                            const v1::BatchCreateSolvesRequest* request,
+                                                            v1::BatchCreateSolvesResponse* response) {
+  const auto create = [&service = service_, request, response](Admission& admission) -> Outcome<Done> {
+    const int count = std::clamp(request->requests_size(), 1, SolveService::kMostAtOnce);
+    admission.OweCreates(count - 1);  // one was taken when the call was admitted
+    Outcome<v1::BatchCreateSolvesResponse> solves = service.BatchCreateSolves(admission.caller(), *request);
+    if (!solves.ok()) return solves.error();
+    admission.answer().Owe(MemoryOf(solves.value()));
+    *response = std::move(solves).value();
+    return Done{};
+  };
+  return AnswerBy(RuleOf("BatchCreateSolves"), context, create);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContext* context,

@@ -144,11 +144,25 @@ void WatchHub::Stop() {
   for (const auto& wake : wakes) (*wake)();
 }
 
-std::vector<std::string> WatchHub::WatchedIds() {
+std::vector<std::string> WatchHub::ChangedIds() {
+  std::vector<std::string> watched;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [id, entry] : entries_) watched.push_back(id);
+  }
+  if (watched.empty()) return {};
+  const Outcome<std::map<std::string, int64_t>> newest = store_.LastSequences(watched);
+  if (!newest.ok()) {
+    spdlog::warn("looking for new events of {} solves failed: {}", watched.size(), newest.error().message);
+    return {};
+  }
+  std::vector<std::string> changed;
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<std::string> ids;
-  for (const auto& [id, entry] : entries_) ids.push_back(id);
-  return ids;
+  for (const auto& [id, entry] : entries_) {
+    const auto number = newest.value().find(id);
+    if (number != newest.value().end() && number->second > entry.feed->last_sequence()) changed.push_back(id);
+  }
+  return changed;
 }
 
 void WatchHub::Refresh(const std::string& id) {
@@ -201,7 +215,8 @@ void WatchHub::Loop() {
     }
     if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
       last_poll_ns = SteadyNanos();
-      ids = WatchedIds();
+      const std::vector<std::string> missed = ChangedIds();
+      ids.insert(ids.end(), missed.begin(), missed.end());
       WakeForHeartbeats();
     }
     for (const std::string& id : ids) Refresh(id);

@@ -27,17 +27,31 @@ struct WatchBatch {
   bool ended = false;  // the terminal event is in `events` or was delivered before: nothing will follow
 };
 
-// One reader's place in the events of one solve. One thread at a time; destroy it before the hub.
-class Watch {
+// Where a reader goes on.
+struct WatchPosition {
+  std::string id;
+  int64_t after_sequence = 0;  // number of the newest event that it has
+};
+
+// What a stream is fed from. One thread at a time.
+class EventSource {
  public:
-  ~Watch();
+  virtual ~EventSource() = default;
+  // What follows on what was taken before; no events if there is nothing new.
+  virtual Outcome<WatchBatch> Take() = 0;
+};
+
+// One reader's place in the events of one solve. One thread at a time; destroy it before the hub.
+class Watch : public EventSource {
+ public:
+  ~Watch() override;
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
   // Events that follow those taken before, at most kMaxBatch; none if there is nothing new, or a heartbeat if nothing
   // was taken for the heartbeat interval. May read the store. kUnavailable: the server is stopping. kNotFound: it was
   // deleted.
-  Outcome<WatchBatch> Take();
+  Outcome<WatchBatch> Take() override;
 
   static constexpr int kMaxBatch = 64;
 
@@ -69,6 +83,7 @@ class WatchHub {
   // Wakes every reader; from now on Take and Open answer kUnavailable.
   void Stop();
   bool stopped() const { return stopped_; }
+  std::chrono::milliseconds heartbeat_interval() const { return heartbeat_interval_; }
   struct Stats {
     int readers = 0;
     int64_t max_lag = 0;  // events that the reader furthest behind has not taken yet
@@ -87,7 +102,8 @@ class WatchHub {
   void Refresh(const std::string& id);
   void WakeForHeartbeats();
   void Close(Watch* watch);
-  std::vector<std::string> WatchedIds();
+  // Those that have changed in the store since they were read.
+  std::vector<std::string> ChangedIds();
 
   SolveStore& store_;
   HintChannel& hints_;

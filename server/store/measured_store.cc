@@ -87,6 +87,10 @@ Outcome<EventPage> MeasuredStore::ReadEvents(const std::string& id, int64_t afte
   return Measure("read_events", [&] { return store_.ReadEvents(id, after_sequence, max_events); });
 }
 
+Outcome<std::map<std::string, int64_t>> MeasuredStore::LastSequences(const std::vector<std::string>& ids) {
+  return Measure("last_sequences", [&] { return store_.LastSequences(ids); });
+}
+
 Outcome<std::string> MeasuredStore::Nearest(const NearQuery& query) {
   return Measure("nearest", [&] { return store_.Nearest(query); });
 }

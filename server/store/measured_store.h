@@ -27,6 +27,7 @@ class MeasuredStore : public SolveStore {
   Outcome<Done> Delete(const std::string& id, const Actor& actor) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) override;
   Outcome<std::string> Nearest(const NearQuery& query) override;
   Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) override;
   Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) override;

@@ -2,6 +2,7 @@
 #define ROLLGAIT_SERVER_STORE_SOLVE_STORE_H_
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ class SolveStore {
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
   // beyond the newest, negative, or before the oldest held (retention), which the message names.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
+  // The numbers of the newest events of these solves, in one snapshot; those that do not exist are left out.
+  virtual Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) = 0;
   // The id of the solve that stands nearest; empty: none is near enough.
   virtual Outcome<std::string> Nearest(const NearQuery& query) = 0;
   // Solves without a place and with a larger number, in order, at most `most`; and gives them theirs.

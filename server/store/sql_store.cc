@@ -1,6 +1,7 @@
 #include "server/store/sql_store.h"
 
 #include <cstdint>
+#include <deque>
 #include <utility>
 
 #include "server/store/schema.h"
@@ -47,6 +48,18 @@ Outcome<std::string> PageSecret(Database& database) {
     if (!query.Step()) return Error{ErrorCode::kInternal, "the store has lost its secret of page tokens"};
     return query.Bytes(0);
   });
+}
+
+// Of up to so many solves from ids[first] on.
+constexpr size_t kIdsAtOnce = 16;
+void AskLastSequences(SqlConnection& connection, const std::vector<std::string>& ids, size_t first,
+                      std::deque<Query>* queries) {
+  const auto id = [&](size_t i) { return first + i < ids.size() ? ids[first + i] : std::string(); };
+  queries->emplace_back(connection,
+                        "SELECT id, last_sequence FROM solves WHERE id IN "
+                        "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                        id(0), id(1), id(2), id(3), id(4), id(5), id(6), id(7), id(8), id(9), id(10), id(11), id(12),
+                        id(13), id(14), id(15));
 }
 
 }  // namespace
@@ -149,6 +162,18 @@ Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_seq
       page.events.push_back({events.Int(0), static_cast<EventKind>(events.Int(1)), events.Bytes(2)});
     }
     return page;
+  });
+}
+
+Outcome<std::map<std::string, int64_t>> SqlStore::LastSequences(const std::vector<std::string>& ids) {
+  return database_->Read([&](SqlConnection& connection) -> Outcome<std::map<std::string, int64_t>> {
+    std::map<std::string, int64_t> numbers;
+    std::deque<Query> queries;  // all are asked before the first is read
+    for (size_t first = 0; first < ids.size(); first += kIdsAtOnce) AskLastSequences(connection, ids, first, &queries);
+    for (Query& query : queries) {
+      while (query.Step()) numbers[query.Bytes(0)] = query.Int(1);
+    }
+    return numbers;
   });
 }
 

@@ -154,6 +154,21 @@ TEST_P(SolveStoreConformance, PagesOfAFilterAreWholeAndTheirTokensBelongToIt) {
   }
 }
 
+TEST_P(SolveStoreConformance, NewestNumbersOfManySolvesAreReadAtOnce) {
+  StoreBench bench(GetParam());
+  std::vector<std::string> ids = {"nobody", "' OR ''='"};
+  for (size_t i = 0; i < 40; ++i) {
+    bench.Add(Numbered("s", i));
+    ids.push_back(Numbered("s", i));
+  }
+  bench.Claim();  // s0
+  const std::map<std::string, int64_t> numbers = bench.store().LastSequences(ids).value();
+  EXPECT_EQ(numbers.size(), 40u);
+  EXPECT_EQ(numbers.at("s0"), 2);
+  EXPECT_EQ(numbers.at("s39"), 1);
+  EXPECT_TRUE(bench.store().LastSequences({}).value().empty());
+}
+
 std::vector<NewSolve> Batch(size_t count, int max_queued = 1000) {
   std::vector<NewSolve> solves;
   for (size_t i = 0; i < count; ++i) {
