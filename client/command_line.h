@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/commands/commands.h"
+#include "client/commands/sweep.h"
 
 namespace CLI {
 class App;
@@ -23,6 +24,7 @@ struct Arguments {
   ListOptions list;
   ReportOptions report;
   ReproducePaperOptions paper;
+  SweepOptions sweep;
   ModelsOptions models;
   CreateModelOptions created_model;
   ExportOptions exported;

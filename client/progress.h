@@ -25,6 +25,9 @@ class Progress {
 
   void Show(const v1::SolveEvent& event);
 
+  // Text that stands on the rewritten line until the next one, cut to the terminal's width; only with kLine.
+  void ShowLine(std::string text);
+
   // A sentence beside the events, on standard error. Silent with kSilent.
   void Note(const std::string& text);
 
@@ -33,6 +36,7 @@ class Progress {
 
  private:
   void ShowIteration(const v1::SolveEvent& event);
+  void Redraw(std::string text);
   void WriteLine(const std::string& text);
 
   const Terminal& terminal_;

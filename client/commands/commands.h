@@ -18,6 +18,7 @@ namespace rollgait::client {
 
 struct SolveOptions {
   SpecFlags spec;
+  std::vector<std::string> labels;  // "KEY=VALUE"
   std::string request_id;
   std::string output;
   bool validate_only = false;

@@ -71,18 +71,15 @@ ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Te
   return ExitCode::kSuccess;
 }
 
-// Pages until `limit` solves match or there are no more: of the filters the server knows the state alone.
+// Pages until `limit` solves match or there are no more.
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal) {
-  const SolveMatcher matcher(options.filter, std::chrono::system_clock::now());
+  v1::ListSolvesRequest request = ListRequest(options.filter, std::chrono::system_clock::now());
   Connection connection(global);
-  v1::ListSolvesRequest request;
-  request.set_state(matcher.state());
-  request.set_tenant(options.filter.tenant);
   const bool with_tenant = !options.filter.tenant.empty();
   std::vector<std::vector<std::string>> rows;
   bool more = true, limited = false;
   while (more && !limited) {
-    request.set_page_size(matcher.IsOfStateAlone()
+    request.set_page_size(options.filter.name_prefix.empty()
                               ? std::min(options.limit - static_cast<int>(rows.size()), kLargestPage)
                               : kLargestPage);
     grpc::ClientContext context;
@@ -92,8 +89,7 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
     request.set_page_token(response.next_page_token());
     more = !response.next_page_token().empty();
     for (const v1::Solve& solve : response.solves()) {
-      if (matcher.IsTooOld(solve)) more = false;
-      if (!matcher.Matches(solve)) continue;
+      if (!HasNameOf(options.filter, solve)) continue;
       limited = static_cast<int>(rows.size()) == options.limit;
       if (limited) break;
       if (global.json) terminal.out << ToJsonLine(solve) << "\n";

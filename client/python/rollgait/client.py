@@ -61,9 +61,16 @@ class Client:
     def solve_spec(self, spec: solve_spec_pb2.SolveSpec, *, progress: Progress = True, label: str = "") -> Gait:
         return self.wait(self.create(spec).name, progress=progress, cancel_on_interrupt=True, label=label)
 
-    def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "") -> solve_pb2.Solve:
-        """Stores a solve. With the same request_id and spec it answers with the solve made before."""
-        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id))
+    def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "",
+               labels: Optional[Dict[str, str]] = None) -> solve_pb2.Solve:
+        """Stores a solve. With the same request_id, spec and labels it answers with the solve made before."""
+        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id, labels=labels))
+
+    def create_all(self, specs: Iterable[solve_spec_pb2.SolveSpec], *,
+                   labels: Optional[Dict[str, str]] = None) -> List[solve_pb2.Solve]:
+        """Stores up to 256 solves with the same labels, in the order of the specs: all of them, or none."""
+        requests = [calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]
+        return list(self._call(self._stub.BatchCreateSolves, calls.BatchCreateSolvesRequest(requests=requests)).solves)
 
     def check(self, spec: solve_spec_pb2.SolveSpec) -> None:
         """Raises InvalidRequest if the server would refuse the spec; stores nothing."""
@@ -106,11 +113,14 @@ class Client:
         """A finished solve. SolveFailed if it has no trajectory (yet)."""
         return gait_of(self._call(self._stub.GetSolve, calls.GetSolveRequest(name=name)))
 
-    def list(self, *, page_size: int = 50) -> Iterator[solve_pb2.Solve]:
-        """All solves, newest first, without results but with their outcome."""
+    def list(self, *, page_size: int = 50, **filters) -> Iterator[solve_pb2.Solve]:
+        """Solves, newest first, without results but with their outcome; all, or those that pass the filters, which are fields
+        of rollgait.v1.SolveFilter: labels={"sweep": "hills"}, model="planar"."""
         token = ""
+        chosen = calls.SolveFilter(**filters) if filters else None
         while True:
-            page = self._call(self._stub.ListSolves, calls.ListSolvesRequest(page_size=page_size, page_token=token))
+            page = self._call(self._stub.ListSolves,
+                              calls.ListSolvesRequest(page_size=page_size, page_token=token, filter=chosen))
             yield from page.solves
             token = page.next_page_token
             if not token:
