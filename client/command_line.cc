@@ -177,12 +177,15 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
 
-  app.add_subcommand("cancel", "Stop queued or running solves")
-      ->add_option("SOLVE", arguments.cancel, "solves/ID or ID")
-      ->required();
-  app.add_subcommand("delete", "Delete finished solves")
-      ->add_option("SOLVE", arguments.remove, "solves/ID or ID")
-      ->required();
+  CLI::App* const cancel = app.add_subcommand("cancel", "Stop queued or running solves");
+  cancel->footer("Example: rollgait cancel --label sweep=hills");
+  CLI::App* const remove = app.add_subcommand("delete", "Delete finished solves");
+  for (auto [command, chosen] : {std::pair(cancel, &arguments.cancel), {remove, &arguments.remove}}) {
+    command->add_option("SOLVE", chosen->names, "solves/ID or ID");
+    command
+        ->add_option("--label", chosen->labels, "KEY=VALUE: also those of yours that carry this label; may be repeated")
+        ->take_all();
+  }
 
   AddModels(app, arguments);
   AddExport(app, arguments.exported);

@@ -31,7 +31,8 @@ struct Arguments {
   SpecOptions spec;
   SimulateOptions simulate;
   PoincareOptions poincare;
-  std::vector<std::string> cancel, remove, removed_models;
+  ChosenSolves cancel, remove;
+  std::vector<std::string> removed_models;
   std::string help_topic, shell;
 };
 

@@ -25,6 +25,9 @@ class Progress {
 
   void Show(const v1::SolveEvent& event);
 
+  // Whether lines are rewritten.
+  bool live() const { return style_ == Style::kLine; }
+
   // Text that stands on the rewritten line until the next one, cut to the terminal's width; only with kLine.
   void ShowLine(std::string text);
 

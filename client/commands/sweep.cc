@@ -181,9 +181,12 @@ class SweepProgress {
     }
     progress_.ShowLine(text);
   }
+  // On a rewritten line what succeeds makes no line of its own.
   void Finished(size_t place, const SweepRow& row) {
     ++done_;
-    progress_.Note(Count() + "  " + PointText(place) + ": " + EndOf(row));
+    const std::string text = Count() + "  " + PointText(place) + ": " + EndOf(row);
+    progress_.ShowLine(text);
+    if (!progress_.live() || row.code != ExitCode::kSuccess) progress_.Note(text);
   }
 
  private:

@@ -15,6 +15,7 @@ from rollgait.v1 import gait_service_pb2_grpc, model_pb2, solve_pb2, solve_spec_
 
 TIMEOUT_S = 30.0  # for the answer of one call that does not stream
 RESUMPTIONS = 5   # of a stream that breaks
+MOST_AT_ONCE = 256  # solves that one call makes
 
 
 def gait_of(solve: solve_pb2.Solve) -> Gait:
@@ -68,7 +69,7 @@ class Client:
 
     def create_all(self, specs: Iterable[solve_spec_pb2.SolveSpec], *,
                    labels: Optional[Dict[str, str]] = None) -> List[solve_pb2.Solve]:
-        """Stores up to 256 solves with the same labels, in the order of the specs: all of them, or none."""
+        """Stores up to MOST_AT_ONCE solves with the same labels, in the order of the specs: all of them, or none."""
         requests = [calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]
         return list(self._call(self._stub.BatchCreateSolves, calls.BatchCreateSolvesRequest(requests=requests)).solves)
 
@@ -156,7 +157,10 @@ class Client:
         """One gait for each slope, by slope. All are created before the first is waited for, so that the server's slots are
         busy; answers do not depend on the order. A solve without a trajectory is left out after its SolveFailed was
         told to `progress`, which takes exceptions too if it is a function."""
-        names = {slope: self.create(make_spec(model, slope_deg=slope, **request)).name for slope in slopes_deg}
+        slopes = list(slopes_deg)
+        specs = [make_spec(model, slope_deg=slope, **request) for slope in slopes]
+        made = [solve for first in range(0, len(specs), MOST_AT_ONCE) for solve in self.create_all(specs[first:first + MOST_AT_ONCE])]
+        names = {slope: solve.name for slope, solve in zip(slopes, made)}
         gaits: Dict[float, Gait] = {}
         try:
             for slope, name in names.items():

@@ -60,6 +60,20 @@ TEST_F(ResourceCommandTest, LabelsAreGivenAndListed) {
   EXPECT_THAT(bad.err, HasSubstr("--label hills: must be KEY=VALUE"));
 }
 
+TEST_F(ResourceCommandTest, CancelAndDeleteWhatCarriesALabel) {
+  for (const char* model : {"planar", "endless"}) {
+    ASSERT_EQ(Run({"-q", "solve", "--model", model, "--detach", "--label", "sweep=hills"}).code, 0);
+  }
+  ASSERT_EQ(Run({"-q", "solve", "--model", "draft", "--detach"}).code, 0);
+  EXPECT_EQ(Run({"cancel"}).code, 2);
+  EXPECT_EQ(Run({"delete", "--label", "hills"}).code, 2);
+  EXPECT_EQ(Run({"cancel", "--label", "sweep=hills"}).out, "solves/endless  cancelled\n") << "planar has ended";
+  EXPECT_EQ(Run({"cancel", "--label", "sweep=dales"}).out, "");
+  EXPECT_EQ(Run({"delete", "--label", "sweep=hills"}).code, 0);
+  EXPECT_THAT(service_.deleted(), testing::UnorderedElementsAre("solves/endless", "solves/planar"));
+  EXPECT_THAT(Run({"list"}).out, HasSubstr("solves/draft"));
+}
+
 TEST_F(ResourceCommandTest, ListAsksForOtherTenants) {
   MakeSolves();
   EXPECT_THAT(Run({"list"}).out, Not(HasSubstr("TENANT")));

@@ -124,6 +124,16 @@ TEST_F(SweepCommandTest, TablesAsCommaSeparatedValues) {
   EXPECT_THAT(ended.err, HasSubstr("slope_deg  solve"));
 }
 
+TEST_F(SweepCommandTest, ATerminalHasOneLineAndOneForEachFailure) {
+  ClientProcess good(Line({"--model", "planar", "--slope", "0,5", "--name", "g"}), {true, {}});
+  EXPECT_EQ(good.Wait(), 0);
+  EXPECT_THAT(good.err(), testing::Not(HasSubstr("1/2  slope 0: optimal, within\r\n")));
+  EXPECT_THAT(good.err(), testing::EndsWith("2/2  slope 5: optimal, within\r\n"));
+  ClientProcess bad(Line({"--model", "crash", "--slope", "0,5", "--name", "b"}), {true, {}});
+  EXPECT_EQ(bad.Wait(), 5);
+  EXPECT_THAT(bad.err(), HasSubstr("1/2  slope 0: failed: the solver died three times\r\n"));
+}
+
 TEST_F(SweepCommandTest, CtrlCLeavesTheSolvesAlone) {
   ClientProcess client(Line({"--model", "endless", "--slope", "0,5"}));
   ASSERT_TRUE(client.WaitForError("2 solves"));
