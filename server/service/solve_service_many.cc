@@ -48,15 +48,14 @@ Error OfRequest(Error error, int index) {
 }  // namespace
 
 Outcome<NewSolve> SolveService::MakeOneOf(const Caller& caller, const v1::CreateSolveRequest& request, int64_t* bytes) {
-  Outcome<NewSolve> solve = Error{ErrorCode::kInternal, ""};
-  if (ModelService::IsStored(request.spec().model())) {
-    v1::CreateSolveRequest resolved = request;
+  const bool names_stored = ModelService::IsStored(request.spec().model());
+  v1::CreateSolveRequest resolved;
+  if (names_stored) {
+    resolved = request;
     std::optional<Error> refusal = models_.Resolve(caller, "spec.model.", resolved.mutable_spec()->mutable_model());
     if (refusal.has_value()) return *std::move(refusal);
-    solve = MakeNew(caller, resolved);
-  } else {
-    solve = MakeNew(caller, request);
   }
+  Outcome<NewSolve> solve = MakeNew(caller, names_stored ? resolved : request);
   if (!solve.ok()) return solve;
   *bytes += static_cast<int64_t>(solve.value().spec.size() + solve.value().warm_start.size());
   if (*bytes > kMaxBatchBytes) {

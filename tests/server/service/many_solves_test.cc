@@ -180,6 +180,29 @@ TEST(BatchCreateTest, TheWrongOneIsNamedAndNothingIsStored) {
   EXPECT_TRUE(ListedSlopes(bench, {}).empty());
 }
 
+TEST(BatchCreateTest, StoredModelsAreReadAndCountTowardsTheBatch) {
+  ServiceBench bench;
+  v1::CreateModelRequest create;
+  create.mutable_model()->mutable_summary()->set_name("walker");
+  create.mutable_model()->mutable_summary()->set_description(std::string(100'000, 'd'));
+  create.mutable_model()->add_joints()->set_mass_kg(70);
+  ASSERT_TRUE(bench.service().models().CreateModel({}, create).ok());
+  v1::BatchCreateSolvesRequest batch = BatchOf({0.1, 0.2});
+  batch.mutable_requests(1)->mutable_spec()->mutable_model()->set_name("models/walker");
+  const v1::BatchCreateSolvesResponse made = bench.service().BatchCreateSolves({}, batch).value();
+  EXPECT_FALSE(made.solves(0).spec().model().has_own());
+  EXPECT_EQ(made.solves(1).spec().model().own().joints(0).mass_kg(), 70);
+  v1::BatchCreateSolvesRequest large;
+  for (int i = 0; i < 200; ++i) {
+    *large.add_requests() = LabelledRequest(0.001 * i, "large");
+    large.mutable_requests(i)->mutable_spec()->mutable_model()->set_name("models/walker");
+  }
+  const Error refused = bench.service().BatchCreateSolves({}, large).error();
+  EXPECT_EQ(FieldRefused(refused), "requests[167].spec") << "16 MiB of 100 kB each";
+  EXPECT_NE(refused.message.find("16777216"), std::string::npos) << refused.message;
+  EXPECT_EQ(ListedSlopes(bench, {}).size(), 2u);
+}
+
 TEST(BatchCreateTest, AQueueWithoutRoomForAllTakesNone) {
   ServiceOptions options;
   options.max_queued = 2;
