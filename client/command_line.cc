@@ -5,6 +5,7 @@
 
 #include "client/completion_scripts.h"
 #include "client/formats/format_table.h"
+#include "client/sweep/grid.h"
 
 namespace rollgait::client {
 namespace {
@@ -38,12 +39,22 @@ void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.fallthrough();
 }
 
+void AddReconnect(CLI::App& command, double& seconds) {
+  command.add_option("--reconnect", seconds, "How long to re-attach when the connection breaks, s")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+}
+
 void AddSolveCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const solve = app.add_subcommand("solve", "Ask for a gait, watch the solver, print what it found");
   AddSpecFlags(*solve, arguments.solve.spec);
   solve->add_option("-o,--output", arguments.solve.output, kOutputHelp);
   solve->add_option("--request-id", arguments.solve.request_id,
                     "The same id and request attach to the solve made before");
+  solve
+      ->add_option("--label", arguments.solve.labels,
+                   "KEY=VALUE: what `list --label` finds the solve by; may be repeated, up to 16")
+      ->take_all();
   CLI::Option* const validate = solve->add_flag("--validate-only", arguments.solve.validate_only,
                                                 "Let the server check the request; solve nothing");
   solve->add_flag("--detach", arguments.solve.detach, "Print the name of the new solve and leave it running")
@@ -57,16 +68,37 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
   watch->add_option("--after-sequence", arguments.watch.after_sequence, "Only events with a larger number")
       ->check(CLI::NonNegativeNumber);
   watch->add_option("-o,--output", arguments.watch.output, kOutputHelp);
-  for (auto [command, seconds] :
-       {std::pair(solve, &arguments.solve.reconnect_s), {watch, &arguments.watch.reconnect_s}}) {
-    command->add_option("--reconnect", *seconds, "How long to re-attach when the connection breaks, s")
-        ->check(CLI::Range(0.0, 86400.0))
-        ->capture_default_str();
+  AddReconnect(*solve, arguments.solve.reconnect_s);
+  AddReconnect(*watch, arguments.watch.reconnect_s);
+}
+
+void AddSweep(CLI::App& app, SweepOptions& options) {
+  CLI::App* const sweep =
+      app.add_subcommand("sweep", "Ask for the gaits of a grid, watch them together, print a table");
+  AddSpecFlags(*sweep, options.spec);
+  options.values.resize(SweepAxes().size());
+  for (size_t i = 0; i < SweepAxes().size(); ++i) {
+    const SweepAxis& axis = SweepAxes()[i];
+    sweep->remove_option(sweep->get_option(axis.flag));
+    sweep->add_option(axis.flag, options.values[i], axis.help + ": FROM:TO:STEP, or numbers separated by commas")
+        ->group("Grid");
   }
+  sweep->add_option("-o,--output", options.output, "Also write every finished solve as JSON into this folder");
+  sweep->add_option("--csv", options.csv, "Also write the table as comma separated values; - for standard output");
+  sweep->add_option(
+      "--name", options.name,
+      "Value of the label \"sweep\" of its solves, up to 64 characters; default: a digest of the requests. "
+      "The same name and request attach to the solve made before");
+  sweep->add_flag("--again", options.again, "Solve again what failed or was cancelled before");
+  AddReconnect(*sweep, options.reconnect_s);
+  sweep->footer(
+      "Ctrl-C leaves the solves alone; the same command attaches to them. Exit code: that of the first point that is\n"
+      "not a success. Example: rollgait sweep --model planar --slope -10:10:5 --speed 1,1.3 --output hills");
 }
 
 void AddListFilters(CLI::App& command, ListFilter& filter) {
-  command.add_option("--state", filter.state, "Only queued, running, succeeded, failed or cancelled");
+  command.add_option("--state", filter.states, "Only queued, running, succeeded, failed or cancelled; may be repeated")
+      ->take_all();
   CLI::Option* const tenant =
       command.add_option("--tenant", filter.tenant, "Only of this tenant; another than your own takes the scope admin");
   command
@@ -77,10 +109,14 @@ void AddListFilters(CLI::App& command, ListFilter& filter) {
   command.add_option("--termination", filter.termination,
                      "Only solves that ended so, for example optimal; none: not yet");
   command.add_option("--model", filter.model, "Only of this model; own: of one that the request carries");
+  command
+      .add_option("--label", filter.labels, "KEY=VALUE: only solves that carry this label; may be repeated, up to 4")
+      ->take_all();
   command.add_option("--name", filter.name_prefix, "Only solves whose ID begins with this");
   command.add_option(
       "--since", filter.since,
       "Only solves created since: an age (90s, 30m, 12h, 7d) or a UTC date (2026-11-24, or with T12:30)");
+  command.add_option("--before", filter.before, "Only solves created before: an age or a UTC date, as --since");
 }
 
 void AddSpec(CLI::App& app, SpecOptions& options) {
@@ -159,12 +195,15 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
 
-  app.add_subcommand("cancel", "Stop queued or running solves")
-      ->add_option("SOLVE", arguments.cancel, "solves/ID or ID")
-      ->required();
-  app.add_subcommand("delete", "Delete finished solves")
-      ->add_option("SOLVE", arguments.remove, "solves/ID or ID")
-      ->required();
+  CLI::App* const cancel = app.add_subcommand("cancel", "Stop queued or running solves");
+  cancel->footer("Example: rollgait cancel --label sweep=hills");
+  CLI::App* const remove = app.add_subcommand("delete", "Delete finished solves");
+  for (auto [command, chosen] : {std::pair(cancel, &arguments.cancel), {remove, &arguments.remove}}) {
+    command->add_option("SOLVE", chosen->names, "solves/ID or ID");
+    command
+        ->add_option("--label", chosen->labels, "KEY=VALUE: also those of yours that carry this label; may be repeated")
+        ->take_all();
+  }
 
   AddModels(app, arguments);
   AddExport(app, arguments.exported);
@@ -234,6 +273,7 @@ void AddSceneCommands(CLI::App& app, Arguments& arguments) {
 void AddCommandLine(CLI::App& app, Arguments& arguments) {
   AddGlobal(app, arguments.global);
   AddSolveCommands(app, arguments);
+  AddSweep(app, arguments.sweep);
   AddSceneCommands(app, arguments);
   AddOtherCommands(app, arguments);
 }

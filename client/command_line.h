@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/commands/commands.h"
+#include "client/commands/sweep.h"
 
 namespace CLI {
 class App;
@@ -24,13 +25,15 @@ struct Arguments {
   ReportOptions report;
   ViewOptions view;
   ReproducePaperOptions paper;
+  SweepOptions sweep;
   ModelsOptions models;
   CreateModelOptions created_model;
   ExportOptions exported;
   SpecOptions spec;
   SimulateOptions simulate;
   PoincareOptions poincare;
-  std::vector<std::string> cancel, remove, removed_models;
+  ChosenSolves cancel, remove;
+  std::vector<std::string> removed_models;
   std::string help_topic, shell;
 };
 

@@ -20,6 +20,12 @@ std::pair<std::string, double> ParseAssignment(const std::string& flag, const st
   throw Failure(ExitCode::kUsage, flag + " " + text + ": must be NAME=NUMBER");
 }
 
+std::pair<std::string, std::string> ParseLabel(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) return {text.substr(0, equals), text.substr(equals + 1)};
+  throw Failure(ExitCode::kUsage, "--label " + text + ": must be KEY=VALUE, for example --label sweep=hills");
+}
+
 std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,
                                  const std::vector<size_t>& counts) {
   std::vector<double> numbers;

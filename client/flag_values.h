@@ -30,6 +30,9 @@ Value Lookup(const std::string& flag, const std::string& word, const std::map<st
 // Of "NAME=NUMBER". Throws Failure(kUsage) for another text.
 std::pair<std::string, double> ParseAssignment(const std::string& flag, const std::string& text);
 
+// Of "KEY=VALUE". What keys and values may be is the server's to check. Throws Failure(kUsage) for another text.
+std::pair<std::string, std::string> ParseLabel(const std::string& text);
+
 // Of "1,-2.5": numbers separated by commas, as many as one of `counts`. Throws Failure(kUsage), which says that the
 // text must be `form`.
 std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,

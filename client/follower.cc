@@ -1,62 +1,36 @@
 #include "client/follower.h"
 
-#include <algorithm>
-#include <chrono>
-
 #include "client/failure.h"
+#include "client/stream_breaks.h"
 #include "client/text.h"
 
 namespace rollgait::client {
-namespace {
-
-// True for what a connection's or a server's death looks like from here. A server killed while it writes can end the
-// stream without a status, which gRPC reports as UNKNOWN "Stream removed"; one that stops ends calls that it has not
-// taken up as CANCELLED, which here is never our own doing.
-bool IsBroken(const grpc::Status& status) {
-  return status.ok() || status.error_code() == grpc::StatusCode::UNAVAILABLE ||
-         status.error_code() == grpc::StatusCode::CANCELLED ||
-         (status.error_code() == grpc::StatusCode::UNKNOWN &&
-          status.error_message().find("Stream removed") != std::string::npos);
-}
-
-}  // namespace
-
 SolveFollower::SolveFollower(Connection& connection, std::string name, const FollowOptions& options)
     : connection_(connection), name_(std::move(name)), options_(options), last_sequence_(options.after_sequence) {}
 
 v1::Solve SolveFollower::Follow(const std::function<void(const v1::SolveEvent&)>& on_event,
                                 const std::function<void(const std::string&)>& on_note) {
-  using Clock = std::chrono::steady_clock;
-  auto last_heard = Clock::now();
-  double wait_s = 0.1;
-  bool first_failure = true;
-  while (ReadStream(on_event, on_note) == StreamEnd::kBroken) {
-    if (heard_) {
-      last_heard = Clock::now();
-      wait_s = 0.1;
-      first_failure = true;
-    }
-    const double silent_s = std::chrono::duration<double>(Clock::now() - last_heard).count();
-    if (silent_s >= options_.reconnect_s) {
-      throw Failure(ExitCode::kUnreachable,
-                    "the connection to " + connection_.server() + " broke (" + broken_.error_message() +
-                        ") and could not be made again within " + FormatDuration(options_.reconnect_s) +
-                        ". The solve is not cancelled; go on with\n  rollgait watch " + name_ + " --after-sequence " +
-                        std::to_string(last_sequence_) + " --server " + connection_.server());
-    }
-    if (first_failure) {
-      on_note("connection lost after event " + std::to_string(last_sequence_) + "; trying again for " +
-              FormatDuration(options_.reconnect_s));
-    }
-    first_failure = false;
-    WaitBeforeRetry(std::min(wait_s, std::max(options_.reconnect_s - silent_s, 0.01)));
-    wait_s = std::min(2.0 * wait_s, 3.0);
-  }
+  StreamBreaks breaks;
+  breaks.reconnect_s = options_.reconnect_s;
+  breaks.read = [&] { return ReadStream(on_event, on_note); };
+  breaks.on_break = [&] {
+    on_note("connection lost after event " + std::to_string(last_sequence_) + "; trying again for " +
+            FormatDuration(options_.reconnect_s));
+  };
+  breaks.wait = [this](double seconds) { WaitBeforeRetry(seconds); };
+  breaks.give_up = [this](const grpc::Status& broken) {
+    throw Failure(ExitCode::kUnreachable,
+                  "the connection to " + connection_.server() + " broke (" + broken.error_message() +
+                      ") and could not be made again within " + FormatDuration(options_.reconnect_s) +
+                      ". The solve is not cancelled; go on with\n  rollgait watch " + name_ + " --after-sequence " +
+                      std::to_string(last_sequence_) + " --server " + connection_.server());
+  };
+  ReadThroughBreaks(breaks);
   return finished_;
 }
 
-SolveFollower::StreamEnd SolveFollower::ReadStream(const std::function<void(const v1::SolveEvent&)>& on_event,
-                                                   const std::function<void(const std::string&)>& on_note) {
+StreamEnd SolveFollower::ReadStream(const std::function<void(const v1::SolveEvent&)>& on_event,
+                                    const std::function<void(const std::string&)>& on_note) {
   grpc::ClientContext context;
   {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -86,12 +60,12 @@ SolveFollower::StreamEnd SolveFollower::ReadStream(const std::function<void(cons
   {
     std::lock_guard<std::mutex> lock(mutex_);
     context_ = nullptr;
-    if (finished) return StreamEnd::kFinished;
+    if (finished) return {true, heard_, grpc::Status::OK};
     if (stopped_) throw Failure(ExitCode::kCancelled, "");
   }
   if (!IsBroken(status)) RequireOk(status, "watch " + name_, connection_.server());
-  broken_ = status.ok() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the stream ended before the solve") : status;
-  return StreamEnd::kBroken;
+  const grpc::Status early(grpc::StatusCode::UNAVAILABLE, "the stream ended before the solve");
+  return {false, heard_, status.ok() ? early : status};
 }
 
 bool SolveFollower::Accept(const v1::SolveEvent& event, const std::function<void(const std::string&)>& on_note) {

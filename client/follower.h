@@ -9,6 +9,7 @@
 #include <string>
 
 #include "client/connection.h"
+#include "client/stream_breaks.h"
 
 namespace rollgait::client {
 
@@ -41,7 +42,6 @@ class SolveFollower {
   void Stop();
 
  private:
-  enum class StreamEnd { kFinished, kBroken };
   StreamEnd ReadStream(const std::function<void(const v1::SolveEvent&)>& on_event,
                        const std::function<void(const std::string&)>& on_note);
   bool Accept(const v1::SolveEvent& event, const std::function<void(const std::string&)>& on_note);
@@ -53,7 +53,6 @@ class SolveFollower {
   int64_t last_sequence_;
   bool heard_ = false;  // Something arrived on the current stream.
   v1::Solve finished_;
-  grpc::Status broken_;
 
   std::mutex mutex_;
   std::condition_variable stopped_changed_;

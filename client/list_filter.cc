@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <ctime>
+#include <optional>
 
 #include "client/failure.h"
 #include "client/flag_values.h"
@@ -43,10 +44,10 @@ std::optional<WallClock::time_point> ParseDate(const std::string& text) {
 
 }  // namespace
 
-WallClock::time_point ParseSince(const std::string& text, WallClock::time_point now) {
+WallClock::time_point ParseTime(const std::string& flag, const std::string& text, WallClock::time_point now) {
   if (const std::optional<std::chrono::seconds> age = ParseAge(text)) return now - *age;
   if (const std::optional<WallClock::time_point> date = ParseDate(text)) return *date;
-  throw Failure(ExitCode::kUsage, "--since " + text +
+  throw Failure(ExitCode::kUsage, flag + " " + text +
                                       ": must be an age, for example 90s, 30m, 12h or 7d, or a UTC date, for example "
                                       "2026-11-24 or 2026-11-24T12:30");
 }
@@ -56,35 +57,45 @@ std::string ListedModel(const v1::Solve& solve) {
   return model.has_own() ? "own" : model.name();
 }
 
-SolveMatcher::SolveMatcher(const ListFilter& filter, WallClock::time_point now) : model_(filter.model) {
-  if (!filter.state.empty()) state_ = Lookup("--state", filter.state, StateWords());
-  if (!filter.verdict.empty()) verdict_ = Lookup("--verdict", filter.verdict, VerdictWords());
-  if (!filter.termination.empty()) termination_ = Lookup("--termination", filter.termination, TerminationWords());
-  if (!filter.name_prefix.empty()) name_prefix_ = SolveName(filter.name_prefix);
-  if (!filter.since.empty()) since_ = ParseSince(filter.since, now);
+v1::ListSolvesRequest ListRequest(const ListFilter& filter, WallClock::time_point now) {
+  v1::ListSolvesRequest request;
+  request.set_tenant(filter.tenant);
+  for (const std::string& word : filter.states) {
+    const v1::SolveState state = Lookup("--state", word, StateWords());
+    if (filter.states.size() == 1) {
+      request.set_state(state);
+    } else {
+      request.mutable_filter()->add_states(state);
+    }
+  }
+  if (!filter.verdict.empty()) {
+    request.mutable_filter()->set_verdict(Lookup("--verdict", filter.verdict, VerdictWords()));
+  }
+  if (!filter.termination.empty()) {
+    request.mutable_filter()->set_termination(Lookup("--termination", filter.termination, TerminationWords()));
+  }
+  for (const std::string& label : filter.labels) {
+    const auto [key, value] = ParseLabel(label);
+    (*request.mutable_filter()->mutable_labels())[key] = value;
+  }
+  if (!filter.model.empty()) request.mutable_filter()->set_model(filter.model);
+  const auto set_time = [&](const std::string& flag, const std::string& text, google::protobuf::Timestamp* time) {
+    const auto instant = ParseTime(flag, text, now).time_since_epoch();
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(instant);
+    time->set_seconds(seconds.count());
+    time->set_nanos(static_cast<int32_t>(std::chrono::nanoseconds(instant - seconds).count()));
+  };
+  if (!filter.since.empty()) {
+    set_time("--since", filter.since, request.mutable_filter()->mutable_create_time_from());
+  }
+  if (!filter.before.empty()) {
+    set_time("--before", filter.before, request.mutable_filter()->mutable_create_time_before());
+  }
+  return request;
 }
 
-bool SolveMatcher::IsOfStateAlone() const {
-  return !verdict_ && !termination_ && !since_ && model_.empty() && name_prefix_.empty();
-}
-
-bool SolveMatcher::Matches(const v1::Solve& solve) const {
-  if (state_ != v1::SOLVE_STATE_UNSPECIFIED && solve.state() != state_) return false;
-  // As it is shown: an outcome without a verdict, of an old version, was not judged.
-  const bool silent = solve.has_outcome() && solve.outcome().verdict() == v1::VERDICT_UNSPECIFIED;
-  if (verdict_ && (silent ? v1::VERDICT_NOT_JUDGED : solve.outcome().verdict()) != *verdict_) return false;
-  if (termination_ && solve.outcome().termination() != *termination_) return false;
-  if (!model_.empty() && ListedModel(solve) != model_) return false;
-  if (solve.name().rfind(name_prefix_, 0) != 0) return false;
-  return !IsTooOld(solve);
-}
-
-bool SolveMatcher::IsTooOld(const v1::Solve& solve) const {
-  if (!since_) return false;
-  const auto created =
-      std::chrono::seconds(solve.create_time().seconds()) +
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::nanoseconds(solve.create_time().nanos()));
-  return WallClock::time_point(std::chrono::duration_cast<WallClock::duration>(created)) < *since_;
+bool HasNameOf(const ListFilter& filter, const v1::Solve& solve) {
+  return filter.name_prefix.empty() || solve.name().rfind(SolveName(filter.name_prefix), 0) == 0;
 }
 
 }  // namespace rollgait::client

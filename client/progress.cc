@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "client/json.h"
 #include "client/text.h"
@@ -67,7 +68,18 @@ void Progress::ShowIteration(const v1::SolveEvent& event) {
     WriteLine(FormatIteration(event.iteration()));
     return;
   }
-  pending_ = FormatLiveIteration(event.iteration(), terminal_.err_width - 1);
+  Redraw(FormatLiveIteration(event.iteration(), terminal_.err_width - 1));
+}
+
+void Progress::ShowLine(std::string text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (style_ != Style::kLine) return;
+  text.resize(std::min(text.size(), static_cast<size_t>(std::max(terminal_.err_width - 1, 1))));
+  Redraw(std::move(text));
+}
+
+void Progress::Redraw(std::string text) {
+  pending_ = std::move(text);
   const auto now = std::chrono::steady_clock::now();
   if (now - drawn_ < kRedrawPeriod) return;
   terminal_.err << "\r\x1b[2K" << pending_ << std::flush;

@@ -25,6 +25,12 @@ class Progress {
 
   void Show(const v1::SolveEvent& event);
 
+  // Whether lines are rewritten.
+  bool live() const { return style_ == Style::kLine; }
+
+  // Text that stands on the rewritten line until the next one, cut to the terminal's width; only with kLine.
+  void ShowLine(std::string text);
+
   // A sentence beside the events, on standard error. Silent with kSilent.
   void Note(const std::string& text);
 
@@ -33,6 +39,7 @@ class Progress {
 
  private:
   void ShowIteration(const v1::SolveEvent& event);
+  void Redraw(std::string text);
   void WriteLine(const std::string& text);
 
   const Terminal& terminal_;

@@ -5,6 +5,7 @@
 #include "client/command_line.h"
 #include "client/command_tree.h"
 #include "client/commands/commands.h"
+#include "client/commands/sweep.h"
 #include "client/completion_scripts.h"
 #include "client/help_topics.h"
 #include "client/man_page.h"
@@ -44,6 +45,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   const std::string command = app.get_subcommands().front()->get_name();
   const GlobalOptions& global = arguments.global;
   if (command == "solve") return RunSolve(arguments.solve, global, terminal);
+  if (command == "sweep") return RunSweep(arguments.sweep, global, terminal);
   if (command == "watch") return RunWatch(arguments.watch, global, terminal);
   if (command == "get") return RunGet(arguments.get, global, terminal);
   if (command == "list") return RunList(arguments.list, global, terminal);

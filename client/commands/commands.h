@@ -18,6 +18,7 @@ namespace rollgait::client {
 
 struct SolveOptions {
   SpecFlags spec;
+  std::vector<std::string> labels;  // "KEY=VALUE"
   std::string request_id;
   std::string output;
   bool validate_only = false;
@@ -54,9 +55,14 @@ struct ListOptions {
 };
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
-// The last exit code that is not success, if there is one; every name is tried.
-ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
-ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
+// By name, and those of the caller's that carry all of the labels ("KEY=VALUE"): to cancel, what is queued or runs; to
+// delete, what has ended.
+struct ChosenSolves {
+  std::vector<std::string> names, labels;
+};
+// The last exit code that is not success, if there is one; every solve is tried. kUsage if none is named.
+ExitCode RunCancel(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal);
+ExitCode RunDelete(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal);
 
 struct ModelsOptions {
   SpecFlags flags;

@@ -54,6 +54,28 @@ ExitCode ForEachName(const std::vector<std::string>& names, const Terminal& term
   return code;
 }
 
+// The solves to act on, in one of these states if they are found by labels.
+std::vector<std::string> NamesOf(const ChosenSolves& chosen, const std::string& command,
+                                 const std::vector<v1::SolveState>& states, Connection& connection) {
+  std::vector<std::string> names = chosen.names;
+  if (names.empty() && chosen.labels.empty()) {
+    throw Failure(ExitCode::kUsage, command + ": SOLVE or --label is required");
+  }
+  if (chosen.labels.empty()) return names;
+  v1::ListSolvesRequest request = ListRequest({.labels = chosen.labels}, std::chrono::system_clock::now());
+  request.set_page_size(kLargestPage);
+  for (const v1::SolveState state : states) request.mutable_filter()->add_states(state);
+  do {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::ListSolvesResponse response;
+    RequireOk(connection.stub().ListSolves(&context, request, &response), "list the solves", connection.server());
+    for (const v1::Solve& solve : response.solves()) names.push_back(solve.name());
+    request.set_page_token(response.next_page_token());
+  } while (!request.page_token().empty());
+  return names;
+}
+
 }  // namespace
 
 ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Terminal& terminal) {
@@ -71,18 +93,15 @@ ExitCode RunGet(const GetOptions& options, const GlobalOptions& global, const Te
   return ExitCode::kSuccess;
 }
 
-// Pages until `limit` solves match or there are no more: of the filters the server knows the state alone.
+// Pages until `limit` solves match or there are no more.
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal) {
-  const SolveMatcher matcher(options.filter, std::chrono::system_clock::now());
+  v1::ListSolvesRequest request = ListRequest(options.filter, std::chrono::system_clock::now());
   Connection connection(global);
-  v1::ListSolvesRequest request;
-  request.set_state(matcher.state());
-  request.set_tenant(options.filter.tenant);
   const bool with_tenant = !options.filter.tenant.empty();
   std::vector<std::vector<std::string>> rows;
   bool more = true, limited = false;
   while (more && !limited) {
-    request.set_page_size(matcher.IsOfStateAlone()
+    request.set_page_size(options.filter.name_prefix.empty()
                               ? std::min(options.limit - static_cast<int>(rows.size()), kLargestPage)
                               : kLargestPage);
     grpc::ClientContext context;
@@ -92,8 +111,7 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
     request.set_page_token(response.next_page_token());
     more = !response.next_page_token().empty();
     for (const v1::Solve& solve : response.solves()) {
-      if (matcher.IsTooOld(solve)) more = false;
-      if (!matcher.Matches(solve)) continue;
+      if (!HasNameOf(options.filter, solve)) continue;
       limited = static_cast<int>(rows.size()) == options.limit;
       if (limited) break;
       if (global.json) terminal.out << ToJsonLine(solve) << "\n";
@@ -114,8 +132,10 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
   return ExitCode::kSuccess;
 }
 
-ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal) {
+ExitCode RunCancel(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal) {
   Connection connection(global);
+  const std::vector<std::string> names =
+      NamesOf(chosen, "cancel", {v1::SOLVE_STATE_QUEUED, v1::SOLVE_STATE_RUNNING}, connection);
   return ForEachName(names, terminal, [&](const std::string& name) {
     grpc::ClientContext context;
     connection.SetDeadline(context);
@@ -131,8 +151,10 @@ ExitCode RunCancel(const std::vector<std::string>& names, const GlobalOptions& g
   });
 }
 
-ExitCode RunDelete(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal) {
+ExitCode RunDelete(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal) {
   Connection connection(global);
+  const std::vector<std::string> names = NamesOf(
+      chosen, "delete", {v1::SOLVE_STATE_SUCCEEDED, v1::SOLVE_STATE_FAILED, v1::SOLVE_STATE_CANCELLED}, connection);
   return ForEachName(names, terminal, [&](const std::string& name) {
     grpc::ClientContext context;
     connection.SetDeadline(context);

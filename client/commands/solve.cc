@@ -1,6 +1,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/create_solve.h"
 #include "client/commands/follow.h"
+#include "client/flag_values.h"
 #include "client/json.h"
 #include "client/output.h"
 
@@ -13,6 +14,10 @@ ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, cons
   }
   v1::CreateSolveRequest request;
   *request.mutable_spec() = BuildSpec(options.spec);
+  for (const std::string& label : options.labels) {
+    const auto [key, value] = ParseLabel(label);
+    (*request.mutable_labels())[key] = value;
+  }
   request.set_request_id(options.request_id.empty() ? RandomRequestId() : options.request_id);
   request.set_validate_only(options.validate_only);
 

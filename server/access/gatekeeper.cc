@@ -49,6 +49,10 @@ Admission::~Admission() {
   if (--gatekeeper_.admissions_ == 0) gatekeeper_.left_.notify_all();
 }
 
+void Admission::OweCreates(int count) {
+  gatekeeper_.quotas_.OweCreates(caller_.tenant, caller_.limits.creates_per_s, count);
+}
+
 void Admission::WhenWithdrawn(std::function<void(const Error&)> end) {
   if (caller_.authentication != Authentication::kToken) return;
   registered_ = true;

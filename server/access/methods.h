@@ -21,7 +21,9 @@ struct MethodRule {
 inline constexpr MethodRule kMethodRules[] = {
     {"RunSolve", kScopeSolve, true, true, true},
     {"CreateSolve", kScopeSolve, true, false, true},
+    {"BatchCreateSolves", kScopeSolve, true, false, true},
     {"WatchSolve", kScopeRead, false, true, false},
+    {"WatchSolves", kScopeRead, false, true, false},
     {"GetSolve", kScopeRead},
     {"ListSolves", kScopeRead},
     {"CancelSolve", kScopeSolve, false, false, true},

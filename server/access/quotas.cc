@@ -25,7 +25,9 @@ std::optional<Error> Quotas::TakeCreate(const std::string& tenant, double create
   const std::lock_guard<std::mutex> lock(mutex_);
   const Clock::time_point now = now_();
   if (buckets_.size() >= kMostBuckets) {
-    std::erase_if(buckets_, [&](const auto& entry) { return now - entry.second.filled > std::chrono::minutes(1); });
+    std::erase_if(buckets_, [&](const auto& entry) {
+      return entry.second.level >= 0 && now - entry.second.filled > std::chrono::minutes(1);
+    });
   }
   const auto [place, is_new] = buckets_.try_emplace(tenant, Bucket{most, now});
   Bucket& bucket = place->second;
@@ -41,6 +43,13 @@ std::optional<Error> Quotas::TakeCreate(const std::string& tenant, double create
   std::ostringstream text;
   text << "tenant \"" << tenant << "\" creates more than its limit of " << creates_per_s << " solves a second";
   return Exhausted(tenant, text.str(), wait);
+}
+
+void Quotas::OweCreates(const std::string& tenant, double creates_per_s, int count) {
+  if (creates_per_s <= 0) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto bucket = buckets_.find(tenant);
+  if (bucket != buckets_.end()) bucket->second.level -= count;
 }
 
 std::shared_ptr<void> Quotas::TakeOne(const std::shared_ptr<Counts>& counts, const std::string& tenant, int most) {

@@ -26,6 +26,9 @@ class Quotas {
   // Takes one creation from the tenant's bucket, which holds two seconds' worth, at least one. kResourceExhausted with
   // the quota and the time until there is one.
   std::optional<Error> TakeCreate(const std::string& tenant, double creates_per_s);
+  // So many more that were made with the one taken: the next TakeCreate waits until they would have been made one by
+  // one.
+  void OweCreates(const std::string& tenant, double creates_per_s, int count);
   // Takes a watch until the hold is released. kResourceExhausted.
   Outcome<std::shared_ptr<void>> TakeWatch(const std::string& tenant, int max_watches);
   int watches(const std::string& tenant) const;

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "server/rpc/status.h"
 #include "server/rpc/unary_call.h"
 #include "server/rpc/watch_stream.h"
+#include "server/service/request_check.h"
 #include "server/service/solve_message.h"
 
 namespace rollgait::server {
@@ -41,14 +43,6 @@ Error TooManyCalls() {
           "the server has too many calls to answer; try again later",
           {},
           std::chrono::milliseconds(1000)};
-}
-
-std::optional<Error> CheckIterates(int per_second) {
-  if (per_second >= 0 && per_second <= kMostIteratesPerSecond) return std::nullopt;
-  return Error{ErrorCode::kInvalidArgument,
-               "the request cannot be served",
-               {{"iterates_per_second", "is " + std::to_string(per_second) + ", must be in [0, " +
-                                            std::to_string(kMostIteratesPerSecond) + "]; 0: none"}}};
 }
 
 }  // namespace
@@ -151,8 +145,9 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
     *create.mutable_spec() = request->spec();
     if (!request->has_spec()) create.clear_spec();
     create.set_request_id(request->request_id());
+    *create.mutable_labels() = request->labels();
     const Outcome<v1::Solve> solve = service_.CreateSolve(caller, create);
-    if (solve.ok()) return WatchStream::Target{SolveId(solve.value().name()).value(), 0};
+    if (solve.ok()) return WatchStream::Target{{{SolveId(solve.value().name()).value(), 0}}};
     return solve.error();
   };
   return Stream(RuleOf("RunSolve"), context, create_and_watch, request->cancel_on_disconnect());
@@ -161,15 +156,41 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
 grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolve(grpc::CallbackServerContext* context,
                                                                      const v1::WatchSolveRequest* request) {
   const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
-    if (std::optional<Error> refused = CheckIterates(request->iterates_per_second())) return *refused;
+    Violations refused = CheckIterates(request->iterates_per_second(), "iterates_per_second");
+    if (!refused.empty()) return InvalidArgument(std::move(refused));
     Outcome<std::string> id = SolveId(request->name());
     if (!id.ok()) return id.error();
     const Outcome<SolveExtent> extent = service_.ExtentFor(caller, id.value());
     if (!extent.ok()) return extent.error();
-    return WatchStream::Target{std::move(id).value(), request->after_sequence(), request->iterates_per_second(),
+    return WatchStream::Target{{{std::move(id).value(), request->after_sequence(), request->iterates_per_second()}},
                                extent.value().bytes};
   };
   return Stream(RuleOf("WatchSolve"), context, find, false);
+}
+
+grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::WatchSolves(grpc::CallbackServerContext* context,
+                                                                      const v1::WatchSolvesRequest* request) {
+  const auto find = [this, request](const Caller& caller) -> Outcome<WatchStream::Target> {
+    Outcome<SolveService::Watched> watched = service_.FindWatched(caller, *request);
+    if (!watched.ok()) return watched.error();
+    return WatchStream::Target{std::move(watched.value().positions), watched.value().longest_bytes};
+  };
+  return Stream(RuleOf("WatchSolves"), context, find, false);
+}
+
+grpc::ServerUnaryReactor* GaitServiceRpc::BatchCreateSolves(grpc::CallbackServerContext* context,
+                                                            const v1::BatchCreateSolvesRequest* request,
+                                                            v1::BatchCreateSolvesResponse* response) {
+  const auto create = [&service = service_, request, response](Admission& admission) -> Outcome<Done> {
+    const int count = std::clamp(request->requests_size(), 1, SolveService::kMostAtOnce);
+    admission.OweCreates(count - 1);  // one was taken when the call was admitted
+    Outcome<v1::BatchCreateSolvesResponse> solves = service.BatchCreateSolves(admission.caller(), *request);
+    if (!solves.ok()) return solves.error();
+    admission.answer().Owe(MemoryOf(solves.value()));
+    *response = std::move(solves).value();
+    return Done{};
+  };
+  return AnswerBy(RuleOf("BatchCreateSolves"), context, create);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::CreateSolve(grpc::CallbackServerContext* context,

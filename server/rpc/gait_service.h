@@ -37,6 +37,11 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
                                                      const v1::RunSolveRequest* request) override;
   grpc::ServerWriteReactor<v1::SolveEvent>* WatchSolve(grpc::CallbackServerContext* context,
                                                        const v1::WatchSolveRequest* request) override;
+  grpc::ServerWriteReactor<v1::SolveEvent>* WatchSolves(grpc::CallbackServerContext* context,
+                                                        const v1::WatchSolvesRequest* request) override;
+  grpc::ServerUnaryReactor* BatchCreateSolves(grpc::CallbackServerContext* context,
+                                              const v1::BatchCreateSolvesRequest* request,
+                                              v1::BatchCreateSolvesResponse* response) override;
   grpc::ServerUnaryReactor* CreateSolve(grpc::CallbackServerContext* context, const v1::CreateSolveRequest* request,
                                         v1::Solve* response) override;
   // The answer is put together from bytes: stored results go out without being read.

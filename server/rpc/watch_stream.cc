@@ -5,6 +5,7 @@
 
 #include "server/rpc/message_memory.h"
 #include "server/rpc/status.h"
+#include "server/service/watch_group.h"
 
 namespace rollgait::server {
 namespace {
@@ -63,21 +64,27 @@ void WatchStream::Withdraw(const Error& error) {
   }
 }
 
+Outcome<std::unique_ptr<EventSource>> WatchStream::Open(const std::vector<WatchPosition>& solves) {
+  const std::weak_ptr<WatchStream> weak = weak_from_this();
+  const auto wake = [weak] {
+    if (const auto stream = weak.lock()) stream->Wake();
+  };
+  if (solves.size() > 1) return WatchGroup::Open(hub_, solves, wake);
+  Outcome<std::unique_ptr<Watch>> watch = hub_.Open(solves.front(), wake);
+  if (!watch.ok()) return watch.error();
+  return std::unique_ptr<EventSource>(std::move(watch).value());
+}
+
 void WatchStream::Prepare() {
   const Outcome<Target> target = FindTarget();
   if (target.ok()) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    id_ = target.value().id;
+    id_ = target.value().solves.front().id;
     if (cancelled_) EndAsDisconnected();
     if (ended_) return;
   }
-  std::weak_ptr<WatchStream> weak = weak_from_this();
-  Outcome<std::unique_ptr<Watch>> watch =
-      target.ok() ? hub_.Open(target.value().id, target.value().after_sequence, target.value().iterates_per_second,
-                              [weak] {
-                                if (const auto stream = weak.lock()) stream->Wake();
-                              })
-                  : Outcome<std::unique_ptr<Watch>>(target.error());
+  using Source = Outcome<std::unique_ptr<EventSource>>;
+  Source watch = target.ok() ? Open(target.value().solves) : Source(target.error());
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!watch.ok()) {

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rollgait/v1/gait_service.pb.h"
 #include "server/access/gatekeeper.h"
@@ -18,25 +19,23 @@
 
 namespace rollgait::server {
 
-// One event stream to one client: of WatchSolve, and of RunSolve after its solve was made. One write is in flight at a
-// time. A reader is slow if a write took longer than `slow_write`; what waits for it then is merged (MergeIterations).
-// Reactions do not block: everything that may touch the store runs on the executor.
+// One event stream to one client: of WatchSolve and WatchSolves, and of RunSolve after its solve was made. One write is
+// in flight at a time. A reader is slow if a write took longer than `slow_write`; what waits for it then is merged
+// (MergeIterations). Reactions do not block: everything that may touch the store runs on the executor.
 class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std::enable_shared_from_this<WatchStream> {
  public:
   struct Target {
-    std::string id;
-    int64_t after_sequence = 0;
-    int iterates_per_second = 0;  // at most; 0: none
-    int64_t bytes = 0;            // of the solve: the stream is refused before that is read if there is no room for it
+    std::vector<WatchPosition> solves;  // one or several
+    int64_t bytes = 0;  // of the longest solve: the stream is refused before that is read if there is no room for it
   };
-  // Finds or makes the solve to be watched. Runs on the executor.
+  // Finds or makes what is to be watched. Runs on the executor.
   using Find = std::function<Outcome<Target>(const Caller&)>;
   struct Plan {
     std::optional<Error> refusal;                                // the whole answer, if there is one
     std::function<Outcome<std::shared_ptr<Admission>>()> admit;  // runs on the executor
     Find find;
-    // Called on the executor, with the target, if the client has gone before the terminal event was written. May be
-    // empty.
+    // Called on the executor, with the first of the target, if the client has gone before the terminal event was
+    // written. May be empty.
     std::function<void(const Caller&, const std::string& id)> on_disconnect;
   };
 
@@ -54,8 +53,9 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
       : executor_(executor), hub_(hub), slow_write_(slow_write), context_(context), plan_(std::move(plan)) {}
 
   void Prepare();
-  // Admits the call and finds its solve.
+  // Admits the call and finds what it watches.
   Outcome<Target> FindTarget();
+  Outcome<std::unique_ptr<EventSource>> Open(const std::vector<WatchPosition>& solves);
   // The right to watch is gone: ends the stream, also one whose reader does not read.
   void Withdraw(const Error& error);
   // Asks the executor for a pump unless one is asked for or a write is in flight, whose end will pump.
@@ -78,7 +78,7 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
   std::shared_ptr<WatchStream> self_;  // until OnDone: gRPC holds a plain pointer
 
   std::mutex mutex_;  // protects what follows; watch_ is used by the one pump at a time only
-  std::unique_ptr<Watch> watch_;
+  std::unique_ptr<EventSource> watch_;
   std::shared_ptr<Admission> admission_;
   std::optional<Error> withdrawn_;
   std::string id_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rollgait/v1/model.pb.h"
+#include "server/service/watch_hub.h"
 
 namespace rollgait::server {
 namespace {
@@ -204,6 +205,12 @@ Violations CheckRequestId(const std::string& request_id) {
     }
   }
   return {};
+}
+
+Violations CheckIterates(int per_second, const std::string& field) {
+  if (per_second >= 0 && per_second <= kMostIteratesPerSecond) return {};
+  return {{field, "is " + std::to_string(per_second) + ", must be in [0, " + std::to_string(kMostIteratesPerSecond) +
+                      "]; 0: none"}};
 }
 
 Error InvalidArgument(Violations violations) {

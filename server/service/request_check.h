@@ -32,6 +32,9 @@ void AddPrefix(const std::string& prefix, Violations& violations);
 // How many a page of a list holds at most: `asked` is from 1 to 1000; 0: 50. Refuses others.
 int CheckPageSize(int asked, Violations* violations);
 
+// Refuses more iterates a second than a watch carries, [0, kMostIteratesPerSecond].
+Violations CheckIterates(int per_second, const std::string& field);
+
 // Refuses an id of more than 128 bytes or with other than printable ASCII characters. Empty is allowed.
 Violations CheckRequestId(const std::string& request_id);
 

@@ -7,9 +7,12 @@
 
 #include "server/base/digest.h"
 #include "server/base/logging.h"
+#include "server/service/filter_check.h"
+#include "server/service/label_check.h"
 #include "server/service/request_check.h"
 #include "server/service/solve_key.h"
 #include "server/service/solve_message.h"
+#include "server/store/spec_model.h"
 
 namespace rollgait::server {
 namespace {
@@ -97,18 +100,37 @@ Outcome<v1::Solve> SolveService::CreateSolve(const Caller& caller, const v1::Cre
 
 Outcome<v1::Solve> SolveService::CreateResolved(const Caller& caller, const v1::CreateSolveRequest& request) {
   Violations violations = CheckRequest(request);
-  if (violations.empty()) violations = CheckRequestId(request.request_id());
+  if (!violations.empty()) return InvalidArgument(std::move(violations));
+  const Outcome<NewSolve> solve = MakeNew(caller, request);
+  if (!solve.ok()) return solve.error();
+  if (request.validate_only()) {
+    v1::Solve checked;
+    *checked.mutable_spec() = request.spell_out() ? knowledge_.spell_out(request.spec()).value() : request.spec();
+    *checked.mutable_labels() = request.labels();
+    return checked;
+  }
+  const Outcome<CreatedSolve> created = Store(solve.value());
+  if (!created.ok()) return created.error();
+  Announce(created.value());
+  return ToSolve(created.value().record);
+}
+
+void SolveService::Announce(const CreatedSolve& created) {
+  if (!created.created) return;
+  const SolveRecord& record = created.record;
+  LogEvent(spdlog::level::info, "solve.created", {{"solve", record.id}, {"from_cache", record.from_cache}});
+  announce_(record.id);
+}
+
+Outcome<NewSolve> SolveService::MakeNew(const Caller& caller, const v1::CreateSolveRequest& request) {
+  Violations violations = CheckRequestId(request.request_id());
   if (request.spell_out() && !request.validate_only()) {
     violations.push_back({"spell_out", "needs validate_only; nothing that is stored is spelled out"});
   }
+  Labels labels = ReadLabels(request.labels(), kMostLabels, "", &violations);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   Outcome<Checked> checked = CheckSpec(caller, request.spec(), request.has_spec());
   if (!checked.ok()) return checked.error();
-  if (request.validate_only()) {
-    v1::Solve solve;
-    *solve.mutable_spec() = request.spell_out() ? knowledge_.spell_out(request.spec()).value() : request.spec();
-    return solve;
-  }
   NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key,
                  options_.max_queued};
   solve.actor = caller.actor();
@@ -118,14 +140,9 @@ Outcome<v1::Solve> SolveService::CreateResolved(const Caller& caller, const v1::
   if (checked.value().warm_start) solve.warm_start = checked.value().warm_start->payload;
   solve.place = PlaceOf(request.spec());
   solve.solver_fingerprint = options_.solver_fingerprint;
-  const Outcome<CreatedSolve> created = Store(solve);
-  if (!created.ok()) return created.error();
-  const SolveRecord& record = created.value().record;
-  if (created.value().created) {
-    LogEvent(spdlog::level::info, "solve.created", {{"solve", record.id}, {"from_cache", record.from_cache}});
-    announce_(record.id);
-  }
-  return ToSolve(record);
+  solve.labels = std::move(labels);
+  solve.model = ModelOf(request.spec());
+  return solve;
 }
 
 Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSolveRequest& request,
@@ -143,12 +160,12 @@ Outcome<SolveBytes> SolveService::GetSolve(const Caller& caller, const v1::GetSo
 
 Outcome<v1::ListSolvesResponse> SolveService::ListSolves(const Caller& caller, const v1::ListSolvesRequest& request) {
   Violations violations = CheckRequest(request);
-  const int page_size = CheckPageSize(request.page_size(), &violations);
+  ListQuery query{CheckPageSize(request.page_size(), &violations), request.page_token(), std::nullopt};
+  if (violations.empty()) ReadFilter(request, &query, &violations);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   const Outcome<std::optional<std::string>> tenant = TenantToList(caller, request.tenant());
   if (!tenant.ok()) return tenant.error();
-  ListQuery query{page_size, request.page_token(), std::nullopt, tenant.value()};
-  if (request.state() != v1::SOLVE_STATE_UNSPECIFIED) query.state = static_cast<SolveState>(request.state());
+  query.tenant = tenant.value();
   const Outcome<SolvePage> page = store_.List(query);
   if (!page.ok()) return page.error();
   v1::ListSolvesResponse response;

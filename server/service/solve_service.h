@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rollgait/v1/gait_service.pb.h"
 #include "server/access/caller.h"
@@ -14,6 +15,7 @@
 #include "server/service/model_service.h"
 #include "server/service/solve_message.h"
 #include "server/service/warm_start_search.h"
+#include "server/service/watch_hub.h"
 #include "server/store/disk_room.h"
 #include "server/store/solve_store.h"
 
@@ -42,6 +44,9 @@ class SolveService {
                std::function<void(const std::string& id)> announce);
 
   Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
+  // Refuses the first request that is wrong, with its index in the paths; answers without results.
+  Outcome<v1::BatchCreateSolvesResponse> BatchCreateSolves(const Caller& caller,
+                                                           const v1::BatchCreateSolvesRequest& request);
   // Asks for room before it reads: `hold` is told about how many bytes the answer has, and its error is the answer.
   Outcome<SolveBytes> GetSolve(const Caller& caller, const v1::GetSolveRequest& request,
                                const std::function<Outcome<Done>(int64_t bytes)>& hold);
@@ -51,6 +56,13 @@ class SolveService {
   Outcome<v1::ServerInfo> GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest& request);
   // How long a solve is that the caller may see; kNotFound, also for another tenant's unless the caller administers.
   Outcome<SolveExtent> ExtentFor(const Caller& caller, const std::string& id);
+  // Where WatchSolves begins, at most kMostAtOnce places, and the length of the longest of these solves.
+  struct Watched {
+    std::vector<WatchPosition> positions;
+    int64_t longest_bytes = 0;
+  };
+  Outcome<Watched> FindWatched(const Caller& caller, const v1::WatchSolvesRequest& request);
+  static constexpr int kMostAtOnce = 256;
   // The id in the name of such a solve.
   Outcome<std::string> FindFor(const Caller& caller, const std::string& name);
 
@@ -64,6 +76,13 @@ class SolveService {
   };
   // CreateSolve of a request that names no stored model.
   Outcome<v1::Solve> CreateResolved(const Caller& caller, const v1::CreateSolveRequest& request);
+  // The same as it goes into the store, with all that can be wrong with it but its length.
+  Outcome<NewSolve> MakeNew(const Caller& caller, const v1::CreateSolveRequest& request);
+  // Of one of several; `bytes` counts what all of them take.
+  Outcome<NewSolve> MakeOneOf(const Caller& caller, const v1::CreateSolveRequest& request, int64_t* bytes);
+  Outcome<std::vector<WatchPosition>> FindLabelled(const Caller& caller, const v1::WatchSolvesRequest& request);
+  // Tells of a new solve.
+  void Announce(const CreatedSolve& created);
   // Creates it in the store, unless a queue was full a moment ago and it would need a place there.
   Outcome<CreatedSolve> Store(const NewSolve& solve);
   Outcome<Checked> CheckSpec(const Caller& caller, const v1::SolveSpec& spec, bool has_spec);

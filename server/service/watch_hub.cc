@@ -103,10 +103,14 @@ WatchHub::~WatchHub() {
   close(event_fd_);
 }
 
-Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t after_sequence, int iterates_per_second,
-                                               std::function<void()> wake) {
+bool WatchHub::Entry::WantsIterates() const {
+  return std::any_of(watches.begin(), watches.end(), [](const Watch* watch) { return watch->wants_iterates(); });
+}
+
+Outcome<std::unique_ptr<Watch>> WatchHub::Open(const WatchPosition& position, std::function<void()> wake) {
   if (stopped_) return Stopping();
-  const Outcome<EventPage> page = store_.ReadEvents(id, after_sequence, 0);
+  const std::string& id = position.id;
+  const Outcome<EventPage> page = store_.ReadEvents(id, position.after_sequence, 0);
   if (!page.ok()) return page.error();
   std::unique_ptr<Watch> watch;
   {
@@ -116,8 +120,9 @@ Outcome<std::unique_ptr<Watch>> WatchHub::Open(const std::string& id, int64_t af
       entry.feed = std::make_shared<SolveFeed>(store_, iterates_, id, page.value().last_sequence,
                                                IsTerminal(page.value().state));
     }
-    const std::chrono::nanoseconds pause(iterates_per_second > 0 ? 1'000'000'000 / iterates_per_second : 0);
-    watch.reset(new Watch(*this, entry.feed, after_sequence, pause, std::move(wake)));
+    const int per_second = position.iterates_per_second;
+    const std::chrono::nanoseconds pause(per_second > 0 ? 1'000'000'000 / per_second : 0);
+    watch.reset(new Watch(*this, entry.feed, position.after_sequence, pause, std::move(wake)));
     entry.watches.push_back(watch.get());
     // The feed may be older than the page just read.
     changed_.push_back(id);
@@ -168,11 +173,26 @@ void WatchHub::Stop() {
   for (const auto& wake : wakes) (*wake)();
 }
 
-std::vector<std::string> WatchHub::WatchedIds() {
+std::vector<std::string> WatchHub::ChangedIds() {
+  std::vector<std::string> watched;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [id, entry] : entries_) watched.push_back(id);
+  }
+  if (watched.empty()) return {};
+  const Outcome<std::map<std::string, int64_t>> newest = store_.LastSequences(watched);
+  if (!newest.ok()) {
+    spdlog::warn("looking for new events of {} solves failed: {}", watched.size(), newest.error().message);
+    return {};
+  }
+  std::vector<std::string> changed;
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<std::string> ids;
-  for (const auto& [id, entry] : entries_) ids.push_back(id);
-  return ids;
+  for (const auto& [id, entry] : entries_) {
+    const auto number = newest.value().find(id);
+    const bool has_news = number != newest.value().end() && number->second > entry.feed->last_sequence();
+    if (has_news || entry.WantsIterates()) changed.push_back(id);
+  }
+  return changed;
 }
 
 void WatchHub::Refresh(const std::string& id) {
@@ -183,7 +203,7 @@ void WatchHub::Refresh(const std::string& id) {
     const auto entry = entries_.find(id);
     if (entry == entries_.end()) return;
     feed = entry->second.feed;
-    for (const Watch* watch : entry->second.watches) wants_iterates = wants_iterates || watch->wants_iterates();
+    wants_iterates = entry->second.WantsIterates();
   }
   const Outcome<bool> changed = feed->Refresh();
   if (!changed.ok()) spdlog::warn("reading new events of solves/{} failed: {}", id, changed.error().message);
@@ -228,7 +248,8 @@ void WatchHub::Loop() {
     }
     if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
       last_poll_ns = SteadyNanos();
-      ids = WatchedIds();
+      const std::vector<std::string> missed = ChangedIds();
+      ids.insert(ids.end(), missed.begin(), missed.end());
       WakeTheDue();
     }
     for (const std::string& id : ids) Refresh(id);

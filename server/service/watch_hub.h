@@ -31,17 +31,32 @@ struct WatchBatch {
   bool ended = false;  // the terminal event is in `events` or was delivered before: nothing will follow
 };
 
-// One reader's place in the events of one solve. One thread at a time; destroy it before the hub.
-class Watch {
+// Where a reader goes on, and what it wants besides events.
+struct WatchPosition {
+  std::string id;
+  int64_t after_sequence = 0;   // number of the newest event that it has
+  int iterates_per_second = 0;  // at most so many, in [0, kMostIteratesPerSecond]; 0: none
+};
+
+// What a stream is fed from. One thread at a time.
+class EventSource {
  public:
-  ~Watch();
+  virtual ~EventSource() = default;
+  // What follows on what was taken before; no events if there is nothing new.
+  virtual Outcome<WatchBatch> Take() = 0;
+};
+
+// One reader's place in the events of one solve. One thread at a time; destroy it before the hub.
+class Watch : public EventSource {
+ public:
+  ~Watch() override;
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
   // Events that follow those taken before, at most kMaxBatch, and the newest iterate if the reader wants one now; none
   // if there is nothing new, or a heartbeat if nothing was taken for the heartbeat interval. May read the store.
   // kUnavailable: the server is stopping. kNotFound: it was deleted.
-  Outcome<WatchBatch> Take();
+  Outcome<WatchBatch> Take() override;
 
   static constexpr int kMaxBatch = 64;
 
@@ -74,16 +89,15 @@ class WatchHub {
   WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval, IterateFiles iterates);
   ~WatchHub();
 
-  // A reader after a sequence number. `wake` is called, from any thread, when Take may have something: soon after
-  // opening too. It must not block, nor call the hub. iterates_per_second: at most so many, 0: none. kNotFound,
-  // kOutOfRange, kUnavailable when stopped.
-  Outcome<std::unique_ptr<Watch>> Open(const std::string& id, int64_t after_sequence, int iterates_per_second,
-                                       std::function<void()> wake);
+  // A reader from a position. `wake` is called, from any thread, when Take may have something: soon after opening too.
+  // It must not block, nor call the hub. kNotFound, kOutOfRange, kUnavailable when stopped.
+  Outcome<std::unique_ptr<Watch>> Open(const WatchPosition& position, std::function<void()> wake);
   // This process has changed a solve: look at once.
   void Changed(const std::string& id);
   // Wakes every reader; from now on Take and Open answer kUnavailable.
   void Stop();
   bool stopped() const { return stopped_; }
+  std::chrono::milliseconds heartbeat_interval() const { return heartbeat_interval_; }
   struct Stats {
     int readers = 0;
     int64_t max_lag = 0;  // events that the reader furthest behind has not taken yet
@@ -95,6 +109,7 @@ class WatchHub {
   struct Entry {
     std::shared_ptr<SolveFeed> feed;
     std::vector<Watch*> watches;
+    bool WantsIterates() const;
   };
   using Wakes = std::vector<std::shared_ptr<const std::function<void()>>>;
 
@@ -103,7 +118,8 @@ class WatchHub {
   // Wakes those for whom a heartbeat or an iterate is due.
   void WakeTheDue();
   void Close(Watch* watch);
-  std::vector<std::string> WatchedIds();
+  // Those that have changed in the store since they were read, or whose readers want iterates.
+  std::vector<std::string> ChangedIds();
 
   SolveStore& store_;
   HintChannel& hints_;

@@ -7,10 +7,10 @@ namespace {
 
 const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                               0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
-constexpr const char* kOperations[] = {"create",        "get",    "list",       "delete",          "request_cancel",
-                                       "read_events",   "counts", "read_audit", "claim",           "renew_lease",
-                                       "append_events", "finish", "give_back",  "cancel_requests", "lease_owners",
-                                       "reclaim",       "retain"};
+constexpr const char* kOperations[] = {"create",         "create_all",    "get",    "list",       "delete",
+                                       "request_cancel", "read_events",   "counts", "read_audit", "claim",
+                                       "renew_lease",    "append_events", "finish", "give_back",  "cancel_requests",
+                                       "lease_owners",   "reclaim",       "retain"};
 
 }  // namespace
 
@@ -50,6 +50,15 @@ Outcome<CreatedSolve> MeasuredStore::Create(const NewSolve& solve) {
   return outcome;
 }
 
+Outcome<std::vector<CreatedSolve>> MeasuredStore::CreateAll(const std::vector<NewSolve>& solves) {
+  auto outcome = Measure("create_all", [&] { return store_.CreateAll(solves); });
+  if (!outcome.ok()) return outcome;
+  for (const CreatedSolve& made : outcome.value()) {
+    if (made.created) solves_.Created(made.record.from_cache);
+  }
+  return outcome;
+}
+
 Outcome<bool> MeasuredStore::NeedsPlace(const NewSolve& solve) {
   return Measure("needs_place", [&] { return store_.NeedsPlace(solve); });
 }
@@ -76,6 +85,10 @@ Outcome<SolveRecord> MeasuredStore::RequestCancel(const std::string& id, const A
 
 Outcome<EventPage> MeasuredStore::ReadEvents(const std::string& id, int64_t after_sequence, int max_events) {
   return Measure("read_events", [&] { return store_.ReadEvents(id, after_sequence, max_events); });
+}
+
+Outcome<std::map<std::string, int64_t>> MeasuredStore::LastSequences(const std::vector<std::string>& ids) {
+  return Measure("last_sequences", [&] { return store_.LastSequences(ids); });
 }
 
 Outcome<std::string> MeasuredStore::Nearest(const NearQuery& query) {

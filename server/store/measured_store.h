@@ -19,6 +19,7 @@ class MeasuredStore : public SolveStore {
   MeasuredStore(SolveStore& store, Metrics& metrics);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<SolveExtent> Extent(const std::string& id) override;
@@ -26,6 +27,7 @@ class MeasuredStore : public SolveStore {
   Outcome<Done> Delete(const std::string& id, const Actor& actor) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) override;
   Outcome<std::string> Nearest(const NearQuery& query) override;
   Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) override;
   Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) override;

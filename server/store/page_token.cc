@@ -44,7 +44,9 @@ uint64_t Show(uint64_t hidden, const std::string& secret) {
 std::string Check(const std::string& number, const ListQuery& query, const std::string& secret) {
   const std::string state = query.state.has_value() ? std::to_string(static_cast<int>(*query.state)) : "all";
   const std::string tenant = query.tenant.has_value() ? " of " + *query.tenant : "";
-  return Sha256Hex(secret + " rollgait page " + number + " " + state + tenant).substr(0, kCheckDigits);
+  const std::string text = FilterText(query.filter);
+  const std::string filter = text.empty() ? "" : " filter\n" + text;  // no tenant's name has a line end
+  return Sha256Hex(secret + " rollgait page " + number + " " + state + tenant + filter).substr(0, kCheckDigits);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/store/solve_record.h"
+#include "server/store/list_query.h"
 
 namespace rollgait::server {
 
@@ -14,7 +14,8 @@ namespace rollgait::server {
 // secret cannot tell the number, which counts the solves of all tenants. `before_number` >= 0.
 std::string MakePageToken(int64_t before_number, const ListQuery& query, const std::string& secret);
 
-// The number the query's page lies below; nullopt if its token is not ours or was made for another state or tenant.
+// The number the query's page lies below; nullopt if its token is not ours or was made for another state,
+// tenant or filter.
 std::optional<int64_t> ParsePageToken(const ListQuery& query, const std::string& secret);
 
 }  // namespace rollgait::server

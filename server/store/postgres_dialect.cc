@@ -13,6 +13,7 @@ const SqlDialect kPostgresDialect = {
     .next_solve = "nextval(pg_get_serial_sequence('solves', 'number'))",
     .next_result = "nextval(pg_get_serial_sequence('results', 'id'))",
     .given_key = "OVERRIDING SYSTEM VALUE",
+    .label_lines = "STRING_AGG(name || '=' || value, CHR(10))",
 };
 
 }  // namespace rollgait::server

@@ -7,6 +7,7 @@
 
 #include "rollgait/v1/solve.pb.h"
 #include "server/base/digest.h"
+#include "server/store/spec_model.h"
 
 namespace rollgait::server {
 namespace {
@@ -222,9 +223,50 @@ CREATE INDEX models_by_tenant ON models (tenant, number, bytes);
 
 void From5To6(SqlConnection& connection) { connection.Execute(kModels); }
 
+// What lists filter by, beside the state. The outcome is copied from the results, which are long to read past. `tenant`
+// in labels is that of the solve, for the index.
+constexpr char kFilters[] = R"(
+ALTER TABLE solves ADD COLUMN termination BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE solves ADD COLUMN verdict BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE solves ADD COLUMN model TEXT NOT NULL DEFAULT '';
+UPDATE solves SET termination = (SELECT r.termination FROM results AS r WHERE r.id = result_id),
+  verdict = (SELECT r.verdict FROM results AS r WHERE r.id = result_id) WHERE result_id IS NOT NULL;
+DROP INDEX solves_by_tenant;
+CREATE INDEX solves_by_tenant ON solves (tenant, number, create_time_us, model);
+CREATE TABLE labels (
+  solve BIGINT NOT NULL REFERENCES solves (number) ON DELETE CASCADE,
+  tenant TEXT NOT NULL,
+  name TEXT NOT NULL,
+  value TEXT NOT NULL,
+  PRIMARY KEY (solve, name)) {clustered};
+CREATE INDEX labels_by_value ON labels (name, value, tenant, solve);
+)";
+
+// The models stand in the specs, of which a few are in memory at a time.
+void From6To7(SqlConnection& connection) {
+  connection.Execute(kFilters);
+  constexpr int kSpecsAtOnce = 100;
+  int64_t last = 0;
+  for (bool more = true; more;) {
+    std::vector<std::pair<int64_t, std::string>> models;
+    {
+      Query query(connection, "SELECT number, spec FROM solves WHERE number > ? ORDER BY number LIMIT ?", last,
+                  kSpecsAtOnce);
+      v1::SolveSpec spec;
+      // A spec that cannot be read has no model.
+      while (query.Step()) models.emplace_back(query.Int(0), spec.ParseFromString(query.Bytes(1)) ? ModelOf(spec) : "");
+    }
+    for (const auto& [number, model] : models) {
+      Query::Do(connection, "UPDATE solves SET model = ? WHERE number = ?", model, number);
+    }
+    more = models.size() == kSpecsAtOnce;
+    if (more) last = models.back().first;
+  }
+}
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6, From6To7};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/store/audit.h"
+#include "server/store/labels.h"
 #include "server/store/solve_place.h"
 
 namespace rollgait::server {
@@ -40,6 +41,7 @@ struct SolveRecord {
   // were kept.
   int termination = 0, verdict = 0;
   std::string error;  // v1::SolveError; empty unless kFailed or kCancelled
+  Labels labels = {};
 };
 
 struct NewSolve {
@@ -54,26 +56,13 @@ struct NewSolve {
   int64_t max_bytes_tenant = 0;  // refuse likewise if what the tenant stores takes more with this one; 0: no limit
   std::string solver_fingerprint = {}, traceparent = {};
   SolvePlace place = {};
+  Labels labels = {};
+  std::string model = {};  // what lists filter by: the name, or "own"
 };
 
 struct CreatedSolve {
   SolveRecord record;
   bool created = true;  // false: the request_id was known and this is the solve made for it
-};
-
-// A page ends early when its specs and errors exceed this, so that it fits into one message.
-inline constexpr size_t kMaxPageBytes = 1 << 20;
-
-struct ListQuery {
-  int page_size = 50;
-  std::string page_token;  // from the previous page; empty: first page
-  std::optional<SolveState> state;
-  std::optional<std::string> tenant = std::nullopt;  // nullopt: of all
-};
-
-struct SolvePage {
-  std::vector<SolveRecord> records;  // newest first; `result` is left empty
-  std::string next_page_token;       // empty: last page
 };
 
 enum class EventKind { kStateChange = 1, kIteration = 2, kFinished = 3 };

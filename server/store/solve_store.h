@@ -2,11 +2,13 @@
 #define ROLLGAIT_SERVER_STORE_SOLVE_STORE_H_
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "server/base/outcome.h"
+#include "server/store/list_query.h"
 #include "server/store/retention_limits.h"
 #include "server/store/solve_record.h"
 
@@ -29,8 +31,12 @@ class SolveStore {
   virtual ~SolveStore() = default;
 
   // Inserts a queued solve and its first event (QUEUED); or, if a reusable result of the same key is held, a solve that
-  // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec. kResourceExhausted: queue is full.
+  // has succeeded from_cache. kAlreadyExists: request_id belongs to another spec or other labels. kResourceExhausted:
+  // queue is full.
   virtual Outcome<CreatedSolve> Create(const NewSolve& solve) = 0;
+  // Create for all of them, of one tenant, in their order, or for none. Records are without results. The message of an
+  // error says which of them has it, "requests[3].".
+  virtual Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) = 0;
   // Whether Create would have to put it in the queue: false if the tenant's request_id is known or a reusable result is
   // held. Reads only.
   virtual Outcome<bool> NeedsPlace(const NewSolve& solve) = 0;
@@ -48,6 +54,8 @@ class SolveStore {
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
   // beyond the newest, negative, or before the oldest held (retention), which the message names.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
+  // The numbers of the newest events of these solves, in one snapshot; those that do not exist are left out.
+  virtual Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) = 0;
   // The id of the solve that stands nearest; empty: none is near enough.
   virtual Outcome<std::string> Nearest(const NearQuery& query) = 0;
   // Solves without a place and with a larger number, in order, at most `most`; and gives them theirs.

@@ -16,6 +16,7 @@ const char* WordOf(std::string_view name, const SqlDialect& dialect) {
   if (name == "next_solve") return dialect.next_solve;
   if (name == "next_result") return dialect.next_result;
   if (name == "given_key") return dialect.given_key;
+  if (name == "label_lines") return dialect.label_lines;
   return nullptr;
 }
 

@@ -21,6 +21,7 @@ struct SqlDialect {
   const char* next_solve;   // {next_solve}: a number for solves
   const char* next_result;  // {next_result}: an id for results
   const char* given_key;    // {given_key}: inserts such a key
+  const char* label_lines;  // {label_lines}: JoinLabels of rows of `labels`, in any order
 };
 
 extern const SqlDialect kSqliteDialect;

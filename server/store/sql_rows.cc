@@ -63,13 +63,9 @@ SolveRow ReadSolve(const Query& query) {
   record.traceparent = query.Bytes(19);
   record.trimmed_sequence = query.Int(20);
   row.bytes = query.Int(21);
-  return row;
-}
-
-SolveRow ReadSolveAndOutcome(const Query& query) {
-  SolveRow row = ReadSolve(query);
-  row.record.termination = static_cast<int>(query.Int(kSolveColumns));
-  row.record.verdict = static_cast<int>(query.Int(kSolveColumns + 1));
+  record.termination = static_cast<int>(query.Int(22));
+  record.verdict = static_cast<int>(query.Int(23));
+  record.labels = SplitLabels(query.Bytes(24));
   return row;
 }
 
@@ -85,10 +81,10 @@ void SaveSolve(SqlConnection& connection, const SolveRow& row) {
   Query::Do(connection,
             "UPDATE solves SET state = ?, start_time_us = ?, end_time_us = ?, attempts = ?, crashes = ?, "
             "cancel_requested = ?, from_cache = ?, last_sequence = ?, result_id = NULLIF(?, 0), error = ?, "
-            "owner = NULLIF(?, ''), epoch = ?, bytes = ? WHERE number = ?",
+            "owner = NULLIF(?, ''), epoch = ?, bytes = ?, termination = ?, verdict = ? WHERE number = ?",
             static_cast<int>(record.state), record.start_time_us, record.end_time_us, record.attempts, record.crashes,
             record.cancel_requested, record.from_cache, record.last_sequence, row.result_id, Blob{record.error},
-            row.owner, row.epoch, row.bytes, row.number);
+            row.owner, row.epoch, row.bytes, record.termination, record.verdict, row.number);
 }
 
 void CountEvent(SolveRow& row, const std::string& payload) {
@@ -120,13 +116,15 @@ void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, con
   AppendEvent(connection, row, EventKind::kStateChange, StateChangeEvent(row, detail, now_us));
 }
 
-void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id, const std::string& error,
-              int64_t now_us) {
+void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, const ResultRow& result,
+              const std::string& error, int64_t now_us) {
   row.record.state = state;
   row.record.end_time_us = now_us;
   row.record.error = error;
   row.bytes += static_cast<int64_t>(error.size());
-  row.result_id = result_id;
+  row.result_id = result.id;
+  row.record.termination = result.termination;
+  row.record.verdict = result.verdict;
   row.owner.clear();
   Query::Do(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number);
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
@@ -137,7 +135,7 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_
 
 void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us) {
   if (row.record.cancel_requested) {
-    EndSolve(connection, row, SolveState::kCancelled, 0, CancelledError(), now_us);
+    EndSolve(connection, row, SolveState::kCancelled, {}, CancelledError(), now_us);
     return;
   }
   row.owner.clear();

@@ -17,7 +17,7 @@ struct SolveRow {
   int64_t result_id = 0;  // 0: none
   std::string owner;      // empty: none
   int64_t epoch = 0;
-  int64_t bytes = 0;  // spec, events, error, and a result of its own
+  int64_t bytes = 0;  // spec, labels, events, error, and a result of its own
   SolveRecord record;
 };
 
@@ -25,22 +25,15 @@ struct SolveRow {
 #define ROLLGAIT_SOLVE_COLUMNS                                                                          \
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
   "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, "                       \
-  "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes "
-inline constexpr int kSolveColumns = 22;
-// Behind them, where a query asks for them: what is known of the result without reading it.
-#define ROLLGAIT_OUTCOME_COLUMNS                                      \
-  ", (SELECT r.termination FROM results AS r WHERE r.id = result_id)" \
-  ", (SELECT r.verdict FROM results AS r WHERE r.id = result_id) "
-inline constexpr int kSolveAndOutcomeColumns = kSolveColumns + 2;
+  "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes, termination, verdict, "            \
+  "(SELECT {label_lines} FROM labels AS own WHERE own.solve = number) "
+inline constexpr int kSolveColumns = 25;
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
 
 // The row that a query over ROLLGAIT_SOLVE_COLUMNS stands on.
 SolveRow ReadSolve(const Query& query);
-
-// Likewise over ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS.
-SolveRow ReadSolveAndOutcome(const Query& query);
 
 // Nobody else changes the row until the end of the transaction.
 std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id);
@@ -61,9 +54,15 @@ std::string StateChangeEvent(const SolveRow& row, const std::string& detail, int
 // Sets the state and appends its event.
 void ChangeState(SqlConnection& connection, SolveRow& row, SolveState state, const std::string& detail, int64_t now_us);
 
-// Ends the solve: state, end time, terminal event, no lease; saves the row. `result_id` 0 and `error` empty: none.
-void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, int64_t result_id, const std::string& error,
-              int64_t now_us);
+// A row of `results`.
+struct ResultRow {
+  int64_t id = 0;  // 0: none
+  int termination = 0, verdict = 0;
+};
+
+// Ends the solve: state, end time, result, terminal event, no lease; saves the row. `error` empty: none.
+void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, const ResultRow& result,
+              const std::string& error, int64_t now_us);
 
 // Puts a running solve back into the queue, or ends it if it was to be cancelled; saves the row.
 void RequeueSolve(SqlConnection& connection, SolveRow& row, const std::string& detail, int64_t now_us);

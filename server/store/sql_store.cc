@@ -1,9 +1,9 @@
 #include "server/store/sql_store.h"
 
 #include <cstdint>
+#include <deque>
 #include <utility>
 
-#include "server/store/page_token.h"
 #include "server/store/schema.h"
 #include "server/store/sql_rows.h"
 
@@ -22,12 +22,8 @@ std::string OwnerUnless(const Actor& actor, const SolveRecord& record) {
 // The record with its result.
 SolveRecord FullRecord(SqlConnection& connection, SolveRow row) {
   if (row.result_id != 0) {
-    Query query(connection, "SELECT payload, termination, verdict FROM results WHERE id = ?", row.result_id);
-    if (query.Step()) {
-      row.record.result = query.Bytes(0);
-      row.record.termination = static_cast<int>(query.Int(1));
-      row.record.verdict = static_cast<int>(query.Int(2));
-    }
+    Query query(connection, "SELECT payload FROM results WHERE id = ?", row.result_id);
+    if (query.Step()) row.record.result = query.Bytes(0);
   }
   return std::move(row.record);
 }
@@ -46,39 +42,24 @@ Query CountsOf(SqlConnection& connection, const std::optional<std::string>& tena
                *tenant, *tenant, *tenant);
 }
 
-Query PageOf(SqlConnection& connection, const ListQuery& query, int64_t before) {
-  const int limit = query.page_size + 1;  // one more tells whether there is a next page
-  const int state = static_cast<int>(query.state.value_or(SolveState::kQueued));
-  if (query.tenant.has_value() && query.state.has_value()) {
-    return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
-                 "FROM solves WHERE tenant = ? AND state = ? AND number < ? ORDER BY number DESC LIMIT ?",
-                 *query.tenant, state, before, limit);
-  }
-  if (query.tenant.has_value()) {
-    return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
-                 "FROM solves WHERE tenant = ? AND number < ? ORDER BY number DESC LIMIT ?",
-                 *query.tenant, before, limit);
-  }
-  if (query.state.has_value()) {
-    return Query(connection,
-                 "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
-                 "FROM solves WHERE state = ? AND number < ? ORDER BY number DESC LIMIT ?",
-                 state, before, limit);
-  }
-  return Query(connection,
-               "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
-               "FROM solves WHERE number < ? ORDER BY number DESC LIMIT ?",
-               before, limit);
-}
-
 Outcome<std::string> PageSecret(Database& database) {
   return database.ReadOne([](SqlConnection& connection) -> Outcome<std::string> {
     Query query(connection, "SELECT value FROM secrets WHERE name = 'page_tokens'");
     if (!query.Step()) return Error{ErrorCode::kInternal, "the store has lost its secret of page tokens"};
     return query.Bytes(0);
   });
+}
+
+// Of up to so many solves from ids[first] on.
+constexpr size_t kIdsAtOnce = 16;
+void AskLastSequences(SqlConnection& connection, const std::vector<std::string>& ids, size_t first,
+                      std::deque<Query>* queries) {
+  const auto id = [&](size_t i) { return first + i < ids.size() ? ids[first + i] : std::string(); };
+  queries->emplace_back(connection,
+                        "SELECT id, last_sequence FROM solves WHERE id IN "
+                        "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                        id(0), id(1), id(2), id(3), id(4), id(5), id(6), id(7), id(8), id(9), id(10), id(11), id(12),
+                        id(13), id(14), id(15));
 }
 
 }  // namespace
@@ -99,12 +80,12 @@ Outcome<SolveRecord> SqlStore::Get(const std::string& id) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
   return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolveRecord> {
     Query query(connection,
-                "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
+                "SELECT " ROLLGAIT_SOLVE_COLUMNS
                 ", (SELECT payload FROM results WHERE results.id = solves.result_id) FROM solves WHERE id = ?",
                 id);
     if (!query.Step()) return NoSuchSolve(id);
-    SolveRecord record = ReadSolveAndOutcome(query).record;
-    record.result = query.Bytes(kSolveAndOutcomeColumns);
+    SolveRecord record = ReadSolve(query).record;
+    record.result = query.Bytes(kSolveColumns);
     return record;
   });
 }
@@ -119,36 +100,6 @@ Outcome<SolveExtent> SqlStore::Extent(const std::string& id) {
                 id);
     if (!query.Step()) return NoSuchSolve(id);
     return SolveExtent{query.Bytes(0), query.Int(1) + query.Int(2) + query.Int(3)};
-  });
-}
-
-Outcome<SolvePage> SqlStore::List(const ListQuery& query) {
-  int64_t before = INT64_MAX;
-  if (!query.page_token.empty()) {
-    const std::optional<int64_t> parsed = ParsePageToken(query, page_secret_);
-    if (!parsed.has_value()) {
-      const std::string message =
-          "is not a token of this list: give back next_page_token unchanged, with the same filter";
-      return Error{ErrorCode::kInvalidArgument, "page_token " + message, {{"page_token", message}}};
-    }
-    before = *parsed;
-  }
-  return database_->ReadOne([&](SqlConnection& connection) -> Outcome<SolvePage> {
-    Query rows = PageOf(connection, query, before);
-    SolvePage page;
-    int64_t last_number = 0;
-    size_t bytes = 0;
-    while (rows.Step()) {
-      if (static_cast<int>(page.records.size()) == query.page_size || bytes > kMaxPageBytes) {
-        page.next_page_token = MakePageToken(last_number, query, page_secret_);
-        break;
-      }
-      SolveRow row = ReadSolveAndOutcome(rows);
-      last_number = row.number;
-      bytes += row.record.spec.size() + row.record.error.size();
-      page.records.push_back(std::move(row.record));
-    }
-    return page;
   });
 }
 
@@ -176,7 +127,7 @@ Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor&
       const bool at_once = row->record.state == SolveState::kQueued;
       AddAudit(connection, {actor, "cancel", id, at_once ? "queued" : "running", OwnerUnless(actor, row->record)},
                now_us);
-      if (at_once) EndSolve(connection, *row, SolveState::kCancelled, 0, CancelledError(), now_us);
+      if (at_once) EndSolve(connection, *row, SolveState::kCancelled, {}, CancelledError(), now_us);
       if (!at_once) SaveSolve(connection, *row);
     }
     return FullRecord(connection, std::move(*row));
@@ -211,6 +162,18 @@ Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_seq
       page.events.push_back({events.Int(0), static_cast<EventKind>(events.Int(1)), events.Bytes(2)});
     }
     return page;
+  });
+}
+
+Outcome<std::map<std::string, int64_t>> SqlStore::LastSequences(const std::vector<std::string>& ids) {
+  return database_->Read([&](SqlConnection& connection) -> Outcome<std::map<std::string, int64_t>> {
+    std::map<std::string, int64_t> numbers;
+    std::deque<Query> queries;  // all are asked before the first is read
+    for (size_t first = 0; first < ids.size(); first += kIdsAtOnce) AskLastSequences(connection, ids, first, &queries);
+    for (Query& query : queries) {
+      while (query.Step()) numbers[query.Bytes(0)] = query.Int(1);
+    }
+    return numbers;
   });
 }
 

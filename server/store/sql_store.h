@@ -26,6 +26,7 @@ class SqlStore : public SolveStore, public ModelStore {
                                                  DiskRoom room = {}, std::unique_ptr<DiskReserve> reserve = nullptr);
 
   Outcome<CreatedSolve> Create(const NewSolve& solve) override;
+  Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) override;
   Outcome<bool> NeedsPlace(const NewSolve& solve) override;
   Outcome<SolveRecord> Get(const std::string& id) override;
   Outcome<SolveExtent> Extent(const std::string& id) override;
@@ -33,6 +34,7 @@ class SqlStore : public SolveStore, public ModelStore {
   Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
+  Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) override;
   Outcome<std::string> Nearest(const NearQuery& query) override;
   Outcome<std::vector<UnplacedSolve>> Unplaced(int64_t after_number, int most) override;
   Outcome<Done> SetPlaces(const std::vector<PlacedSolve>& solves) override;
@@ -79,6 +81,9 @@ class SqlStore : public SolveStore, public ModelStore {
 
   // nullopt: so near a limit of the queue that it takes LockMode::kExclusive to be sure.
   Outcome<std::optional<CreatedSolve>> TryCreate(const NewSolve& solve, SqlConnection::LockMode mode);
+  // The same within a transaction that holds the locks, `writers` at the same time.
+  Outcome<std::optional<CreatedSolve>> CreateIn(SqlConnection& connection, const NewSolve& solve, int writers,
+                                                bool with_result);
 
   const std::unique_ptr<Database> database_;
   const Clock& clock_;

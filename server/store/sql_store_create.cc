@@ -13,7 +13,8 @@ using LockMode = SqlConnection::LockMode;
 
 // Answered in the order of the members; those that are not needed are not asked.
 struct Questions {
-  Questions(SqlConnection& connection, const NewSolve& solve);
+  // Without the result: those of `earlier` and `reusable` are read as empty.
+  Questions(SqlConnection& connection, const NewSolve& solve, bool with_result);
 
   std::optional<Query> earlier;        // the solve that its tenant made before with this request_id, with its result
   std::optional<Query> reusable;       // a result of the same key
@@ -23,19 +24,20 @@ struct Questions {
   std::optional<Query> number;         // of the new one
 };
 
-Questions::Questions(SqlConnection& connection, const NewSolve& solve) {
+Questions::Questions(SqlConnection& connection, const NewSolve& solve, bool with_result) {
   if (!solve.request_id.empty()) {
     earlier.emplace(connection,
-                    "SELECT " ROLLGAIT_SOLVE_COLUMNS ROLLGAIT_OUTCOME_COLUMNS
-                    ", (SELECT payload FROM results WHERE results.id = solves.result_id) "
+                    "SELECT " ROLLGAIT_SOLVE_COLUMNS
+                    ", (SELECT CASE WHEN ? = 1 THEN payload END FROM results WHERE results.id = solves.result_id) "
                     "FROM solves WHERE tenant = ? AND request_id = ?",
-                    solve.actor.tenant, solve.request_id);
+                    with_result, solve.actor.tenant, solve.request_id);
   }
   if (!solve.solve_key.empty()) {
     reusable.emplace(
         connection,
-        "SELECT id, payload, termination, verdict FROM results WHERE solve_key = ? AND reusable = 1 LIMIT 1",
-        solve.solve_key);
+        "SELECT id, CASE WHEN ? = 1 THEN payload END, termination, verdict FROM results WHERE solve_key = ? AND "
+        "reusable = 1 LIMIT 1",
+        with_result, solve.solve_key);
     equal.emplace(connection, "SELECT id FROM solves WHERE solve_key = ? AND state IN (1, 2) ORDER BY number LIMIT 1",
                   solve.solve_key);
   }
@@ -92,7 +94,7 @@ std::string QueuedDetail(Questions& questions) {
 SolveRow NewRow(const NewSolve& solve, int64_t number, int64_t now_us) {
   SolveRow row;
   row.number = number;
-  row.bytes = static_cast<int64_t>(solve.spec.size());
+  row.bytes = static_cast<int64_t>(solve.spec.size()) + BytesOf(solve.labels);
   row.record.id = solve.id;
   row.record.spec = solve.spec;
   row.record.solve_key = solve.solve_key;
@@ -100,6 +102,7 @@ SolveRow NewRow(const NewSolve& solve, int64_t number, int64_t now_us) {
   row.record.solver_fingerprint = solve.solver_fingerprint;
   row.record.traceparent = solve.traceparent;
   row.record.create_time_us = now_us;
+  row.record.labels = solve.labels;
   return row;
 }
 
@@ -111,16 +114,40 @@ void Insert(SqlConnection& connection, const NewSolve& solve, const std::string&
   Query::Do(
       connection,
       "INSERT INTO solves (number, id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
-      "create_time_us, last_sequence, bytes) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, ?)",
+      "create_time_us, last_sequence, bytes, model) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, "
+      "?, ?)",
       row.number, record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
       record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
-      record.last_sequence, row.bytes);
+      record.last_sequence, row.bytes, solve.model);
   InsertEvent(connection, row.number, {record.last_sequence, EventKind::kStateChange, event});
   Query::Do(connection,
             "INSERT INTO places (solve, tenant, question, slope_rad, speed_m_s, optimal) VALUES (?, ?, ?, ?, ?, 0)",
             row.number, record.tenant, solve.place.question, solve.place.slope_rad, solve.place.speed_m_s);
+  for (const auto& [name, value] : record.labels) {
+    Query::Do(connection, "INSERT INTO labels (solve, tenant, name, value) VALUES (?, ?, ?, ?)", row.number,
+              record.tenant, name, value);
+  }
   if (solve.warm_start.empty()) return;
   Query::Do(connection, "INSERT INTO warm_starts (solve, payload) VALUES (?, ?)", row.number, Blob{solve.warm_start});
+}
+
+// Everybody in this order. What is counted under a lock is counted after it is held.
+void LockQueues(SqlConnection& connection, const NewSolve& solve, LockMode mode) {
+  connection.Lock("queue", mode);
+  if (solve.max_queued_tenant > 0) connection.Lock("queue of tenant " + solve.actor.tenant, mode);
+}
+
+// The error of one of several that are created together.
+Error OfBatch(Error error, size_t index, size_t count) {
+  if (error.code == ErrorCode::kResourceExhausted) {
+    const std::string text = "there is no room for all of " + std::to_string(count) + " requests: with the first " +
+                             std::to_string(index) + " of them ";
+    error.message = text + error.message;
+    if (error.quota) error.quota->description = text + error.quota->description;
+  } else if (error.code == ErrorCode::kAlreadyExists) {
+    error.message = "requests[" + std::to_string(index) + "]." + error.message;
+  }
+  return error;
 }
 
 }  // namespace
@@ -144,43 +171,67 @@ Outcome<bool> SqlStore::NeedsPlace(const NewSolve& solve) {
 }
 
 Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, LockMode mode) {
-  return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<CreatedSolve>> {
-    // Everybody in this order. What is counted under a lock is counted after it is held.
-    connection.Lock("queue", mode);
-    if (solve.max_queued_tenant > 0) connection.Lock("queue of tenant " + solve.actor.tenant, mode);
-    Questions questions(connection, solve);
-    if (questions.earlier.has_value() && questions.earlier->Step()) {
-      SolveRecord old = ReadSolveAndOutcome(*questions.earlier).record;
-      old.result = questions.earlier->Bytes(kSolveAndOutcomeColumns);
-      if (old.spec == solve.spec) return std::optional(CreatedSolve{std::move(old), false});
-      return Error{ErrorCode::kAlreadyExists, "request_id \"" + solve.request_id + "\" belongs to solves/" + old.id +
-                                                  ", which has another spec; use a new request_id"};
-    }
-    if (std::optional<Error> full = room_.Refusal()) return *full;
-    if (reserve_ != nullptr) reserve_->Restore(room_.reserve_bytes());
-    const StorageUse::Claim claim{solve.actor.tenant, static_cast<int64_t>(solve.spec.size() + solve.warm_start.size()),
-                                  solve.max_bytes_tenant};
-    if (std::optional<Error> full = storage_use_.Refusal(connection, claim)) return *full;
-    const bool held = questions.reusable.has_value() && questions.reusable->Step();
-    if (!held) {
-      const Outcome<bool> may = MayQueue(questions, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters());
-      if (!may.ok()) return may.error();
-      if (!may.value()) return std::optional<CreatedSolve>();
-    }
-    const int64_t now_us = clock_.WallMicros();
-    SolveRow row = NewRow(solve, IntOf(questions.number), now_us);
-    Insert(connection, solve, QueuedDetail(questions), row);
-    AddAudit(connection, {solve.actor, "create", solve.id, held ? "succeeded" : "queued"}, now_us);
-    if (held) {
-      row.record.from_cache = true;
-      EndSolve(connection, row, SolveState::kSucceeded, questions.reusable->Int(0), "", now_us);
-      row.record.result = questions.reusable->Bytes(1);
-      row.record.termination = static_cast<int>(questions.reusable->Int(2));
-      row.record.verdict = static_cast<int>(questions.reusable->Int(3));
-      if (row.record.termination == v1::TERMINATION_OPTIMAL) MarkOptimal(connection, row.number);
-    }
-    return std::optional(CreatedSolve{std::move(row.record), true});
+  return database_->Write([&](SqlConnection& connection) {
+    LockQueues(connection, solve, mode);
+    return CreateIn(connection, solve, mode == LockMode::kExclusive ? 1 : connection.MostWriters(), true);
   });
+}
+
+Outcome<std::vector<CreatedSolve>> SqlStore::CreateAll(const std::vector<NewSolve>& solves) {
+  using Made = std::vector<CreatedSolve>;
+  if (solves.empty()) return Made();
+  Outcome<Made> outcome = database_->Write([&](SqlConnection& connection) -> Outcome<Made> {
+    LockQueues(connection, solves.front(), LockMode::kExclusive);
+    Made made;
+    for (const NewSolve& solve : solves) {
+      ROLLGAIT_CHECK(solve.actor.tenant == solves.front().actor.tenant);
+      Outcome<std::optional<CreatedSolve>> created = CreateIn(connection, solve, 1, false);
+      if (!created.ok()) return OfBatch(created.error(), made.size(), solves.size());
+      ROLLGAIT_CHECK(created.value().has_value());
+      made.push_back(*std::move(created).value());
+    }
+    return made;
+  });
+  if (!outcome.ok()) storage_use_.Forget();  // it counted what was not stored
+  return outcome;
+}
+
+Outcome<std::optional<CreatedSolve>> SqlStore::CreateIn(SqlConnection& connection, const NewSolve& solve, int writers,
+                                                        bool with_result) {
+  Questions questions(connection, solve, with_result);
+  if (questions.earlier.has_value() && questions.earlier->Step()) {
+    SolveRecord old = ReadSolve(*questions.earlier).record;
+    old.result = questions.earlier->Bytes(kSolveColumns);
+    const bool same_spec = old.spec == solve.spec;
+    if (same_spec && old.labels == solve.labels) return std::optional(CreatedSolve{std::move(old), false});
+    return Error{ErrorCode::kAlreadyExists, "request_id \"" + solve.request_id + "\" belongs to solves/" + old.id +
+                                                ", which has " + (same_spec ? "other labels" : "another spec") +
+                                                "; use a new request_id"};
+  }
+  if (std::optional<Error> full = room_.Refusal()) return *full;
+  if (reserve_ != nullptr) reserve_->Restore(room_.reserve_bytes());
+  const auto bytes = static_cast<int64_t>(solve.spec.size() + solve.warm_start.size()) + BytesOf(solve.labels);
+  const StorageUse::Claim claim{solve.actor.tenant, bytes, solve.max_bytes_tenant};
+  if (std::optional<Error> full = storage_use_.Refusal(connection, claim)) return *full;
+  const bool held = questions.reusable.has_value() && questions.reusable->Step();
+  if (!held) {
+    const Outcome<bool> may = MayQueue(questions, solve, writers);
+    if (!may.ok()) return may.error();
+    if (!may.value()) return std::optional<CreatedSolve>();
+  }
+  const int64_t now_us = clock_.WallMicros();
+  SolveRow row = NewRow(solve, IntOf(questions.number), now_us);
+  Insert(connection, solve, QueuedDetail(questions), row);
+  AddAudit(connection, {solve.actor, "create", solve.id, held ? "succeeded" : "queued"}, now_us);
+  if (held) {
+    row.record.from_cache = true;
+    const ResultRow result{questions.reusable->Int(0), static_cast<int>(questions.reusable->Int(2)),
+                           static_cast<int>(questions.reusable->Int(3))};
+    EndSolve(connection, row, SolveState::kSucceeded, result, "", now_us);
+    row.record.result = questions.reusable->Bytes(1);
+    if (row.record.termination == v1::TERMINATION_OPTIMAL) MarkOptimal(connection, row.number);
+  }
+  return std::optional(CreatedSolve{std::move(row.record), true});
 }
 
 }  // namespace rollgait::server

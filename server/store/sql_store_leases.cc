@@ -115,6 +115,12 @@ std::optional<Candidate> NextQueued(SqlConnection& connection) {
                    query.Bytes(kSolveColumns + 2)};
 }
 
+ResultRow FindResult(SqlConnection& connection, int64_t id) {
+  Query query(connection, "SELECT termination, verdict FROM results WHERE id = ?", id);
+  ROLLGAIT_CHECK(query.Step());
+  return {id, static_cast<int>(query.Int(0)), static_cast<int>(query.Int(1))};
+}
+
 // Others may have claimed for the same tenant meanwhile: counts again, alone (the count comes after the lock). Throws a
 // conflict if there is no room.
 void CheckTenantHasRoom(SqlConnection& connection, const std::string& tenant) {
@@ -134,7 +140,7 @@ Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owne
     // One that was queued while an equal one ended has its answer already.
     for (; next.has_value() && next->reusable != 0; next = NextQueued(connection)) {
       next->row.record.from_cache = true;
-      EndSolve(connection, next->row, SolveState::kSucceeded, next->reusable, "", now_us);
+      EndSolve(connection, next->row, SolveState::kSucceeded, FindResult(connection, next->reusable), "", now_us);
     }
     if (!next.has_value()) return std::optional<ClaimedSolve>();
     SolveRow& row = next->row;
@@ -187,9 +193,9 @@ Outcome<std::vector<Outcome<LeaseState>>> SqlStore::AppendAll(const std::vector<
 Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) {
   ROLLGAIT_CHECK(IsTerminal(end.state));
   const bool succeeded = end.state == SolveState::kSucceeded;
-  v1::SolveResult result;
-  if (!result.ParseFromString(end.result))
-    result.Clear();  // stored all the same; whoever reads it says that it cannot be read
+  v1::SolveResult said;
+  if (!said.ParseFromString(end.result))
+    said.Clear();  // stored all the same; whoever reads it says that it cannot be read
   return database_->Write([&](SqlConnection& connection) -> Outcome<Done> {
     Query leased = AskLeased(connection, lease);
     std::optional<Query> next_result, equal;
@@ -206,26 +212,25 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
     AppendNew(connection, events, row);
     const int64_t now_us = clock_.WallMicros();
     const std::string& key = row.record.solve_key;
-    int64_t result_id = 0;
+    ResultRow result;
     if (next_result.has_value()) {
       ROLLGAIT_CHECK(next_result->Step());
-      result_id = next_result->Int(0);
+      result = {next_result->Int(0), static_cast<int>(said.termination()), static_cast<int>(said.accuracy().verdict())};
       Query::Do(connection,
                 "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, "
                 "?, ?, ?, ?, ?)",
-                result_id, key, end.reusable && !key.empty(), Blob{end.result}, static_cast<int>(result.termination()),
-                static_cast<int>(result.accuracy().verdict()));
+                result.id, key, end.reusable && !key.empty(), Blob{end.result}, result.termination, result.verdict);
       row.bytes += static_cast<int64_t>(end.result.size());
     }
-    const bool optimal = succeeded && result.termination() == v1::TERMINATION_OPTIMAL;
+    const bool optimal = succeeded && result.termination == v1::TERMINATION_OPTIMAL;
     if (optimal) MarkOptimal(connection, row.number);
-    EndSolve(connection, row, end.state, result_id, end.error, now_us);
+    EndSolve(connection, row, end.state, result, end.error, now_us);
     if (!equal.has_value()) return Done{};
     // Those that wait for the result of an equal one.
     for (SolveRow& waiting : AllRows(*equal)) {
       waiting.record.from_cache = true;
       if (optimal) MarkOptimal(connection, waiting.number);
-      EndSolve(connection, waiting, SolveState::kSucceeded, result_id, "", now_us);
+      EndSolve(connection, waiting, SolveState::kSucceeded, result, "", now_us);
     }
     return Done{};
   });
@@ -239,7 +244,7 @@ Outcome<SolveState> SqlStore::GiveBack(const Lease& lease, GiveBackReason reason
     const int64_t now_us = clock_.WallMicros();
     if (reason == GiveBackReason::kCrashed) row.record.crashes += 1;
     if (row.record.crashes >= kMaxCrashes && !row.record.cancel_requested) {
-      EndSolve(connection, row, SolveState::kFailed, 0, CrashError(row.record.crashes, detail), now_us);
+      EndSolve(connection, row, SolveState::kFailed, {}, CrashError(row.record.crashes, detail), now_us);
     } else {
       RequeueSolve(connection, row, detail, now_us);
     }

@@ -14,6 +14,7 @@ const SqlDialect kSqliteDialect = {
     .next_solve = "COALESCE((SELECT seq FROM sqlite_sequence WHERE name = 'solves'), 0) + 1",
     .next_result = "COALESCE((SELECT seq FROM sqlite_sequence WHERE name = 'results'), 0) + 1",
     .given_key = "",
+    .label_lines = "GROUP_CONCAT(name || '=' || value, CHAR(10))",
 };
 
 }  // namespace rollgait::server

@@ -56,7 +56,7 @@ void ExpectCommands(const std::string& page, size_t at_least) {
     if (arguments.solve.spec.file.empty()) {
       EXPECT_NO_THROW(BuildSpec(arguments.solve.spec)) << command;
     }
-    EXPECT_NO_THROW(SolveMatcher(arguments.list.filter, std::chrono::system_clock::now())) << command;
+    EXPECT_NO_THROW(ListRequest(arguments.list.filter, std::chrono::system_clock::now())) << command;
   }
 }
 

@@ -56,7 +56,8 @@ TEST(CommandTreeTest, KnowsWhatFlagsTake) {
   EXPECT_EQ(FlagOf(program.program, "--quiet").value, Value::kNone);
   const CommandDescription cancel = CommandOf(program, "cancel");
   ASSERT_EQ(cancel.arguments.size(), 1u);
-  EXPECT_TRUE(cancel.arguments[0].required);
+  EXPECT_FALSE(cancel.arguments[0].required);
+  EXPECT_TRUE(CommandOf(program, "get").arguments.at(0).required);
   EXPECT_TRUE(cancel.arguments[0].many);
   EXPECT_EQ(cancel.arguments[0].value, ArgumentDescription::Value::kSolve);
 }

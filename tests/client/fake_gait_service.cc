@@ -6,8 +6,11 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <iterator>
 
+#include "tests/client/fake_filter.h"
 #include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
@@ -52,6 +55,14 @@ std::vector<v1::WatchSolveRequest> FakeGaitService::watched() const {
   std::lock_guard<std::mutex> lock(mutex_);
   return watched_;
 }
+std::vector<v1::WatchSolvesRequest> FakeGaitService::watched_together() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return watched_together_;
+}
+std::vector<v1::ListSolvesRequest> FakeGaitService::listed() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return listed_;
+}
 std::vector<std::string> FakeGaitService::cancelled() const {
   std::lock_guard<std::mutex> lock(mutex_);
   return cancelled_;
@@ -73,8 +84,29 @@ void FakeGaitService::Finish(Record& record, v1::SolveState state) {
 grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::CreateSolveRequest* request,
                                           v1::Solve* solve) {
   std::lock_guard<std::mutex> lock(mutex_);
-  created_.push_back(*request);
-  const std::string& model = request->spec().model().name();
+  return Create(*request, request->spec().model().name(), solve);
+}
+
+grpc::Status FakeGaitService::BatchCreateSolves(grpc::ServerContext*, const v1::BatchCreateSolvesRequest* request,
+                                                v1::BatchCreateSolvesResponse* response) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  for (const v1::CreateSolveRequest& one : request->requests()) {
+    const auto known = by_request_id_.find(one.request_id());
+    if (known != by_request_id_.end()) {
+      *response->add_solves() = records_[known->second].solve;
+      continue;
+    }
+    const std::string id = one.spec().model().name() + std::to_string(std::lround(one.spec().slope_rad() * 180 / M_PI));
+    const grpc::Status status = Create(one, id, response->add_solves());
+    if (!status.ok()) return status;
+    by_request_id_[one.request_id()] = "solves/" + id;
+  }
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::Create(const v1::CreateSolveRequest& request, const std::string& id, v1::Solve* solve) {
+  created_.push_back(request);
+  const std::string& model = request.spec().model().name();
   if (model == "refused") {
     return Refusal(
         {{"slope_rad", "is 0.873, must be in [-0.785, 0.785]"}, {"motion.speed_m_s", "is 9, must be in (0, 4]"}});
@@ -84,8 +116,9 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
     return Refusal({{"model.name", "is \"" + model + "\", must be one of planar"}});
   }
   Record record;
-  record.solve = SampleSolve("solves/" + model, request->spec().slope_rad());
-  *record.solve.mutable_spec() = request->spec();
+  record.solve = SampleSolve("solves/" + id, request.spec().slope_rad());
+  *record.solve.mutable_spec() = request.spec();
+  *record.solve.mutable_labels() = request.labels();
   v1::SolveEvent running = NewEvent(record.solve.name(), 1);
   running.mutable_state_change()->set_state(v1::SOLVE_STATE_RUNNING);
   running.mutable_state_change()->set_attempt(1);
@@ -108,6 +141,7 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
   if (model == "infeasible") {
     v1::SolveResult& result = *record.solve.mutable_result();
     result.set_termination(v1::TERMINATION_INFEASIBLE);
+    record.solve.mutable_outcome()->set_termination(result.termination());
     result.set_message("A local minimum of infeasibility.");
     v1::UnmetConstraint& unmet = *result.add_unmet_constraints();
     unmet.set_name("rolling left_foot");
@@ -123,9 +157,9 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
   if (model != "crash" && model != "endless") Finish(record, v1::SOLVE_STATE_SUCCEEDED);
   *solve = record.solve;
   solve->clear_result();
-  if (request->validate_only()) {
+  if (request.validate_only()) {
     solve->clear_name();
-    if (spells_out_ && request->spell_out() && solve->spec().preset() != v1::PRESET_UNSPECIFIED) {
+    if (spells_out_ && request.spell_out() && solve->spec().preset() != v1::PRESET_UNSPECIFIED) {
       solve->mutable_spec()->clear_preset();
       solve->mutable_spec()->add_costs()->mutable_muscle_effort();
     }
@@ -170,6 +204,37 @@ v1::SolveEvent FakeGaitService::IterateOf(const v1::WatchSolveRequest& request, 
   return event;
 }
 
+grpc::Status FakeGaitService::WatchSolves(grpc::ServerContext* context, const v1::WatchSolvesRequest* request,
+                                          grpc::ServerWriter<v1::SolveEvent>* writer) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  watched_together_.push_back(*request);
+  std::map<std::string, int64_t> after;
+  for (const v1::WatchSolveRequest& one : request->solves()) {
+    if (records_.count(one.name()) == 0) return NotFound(one.name());
+    after[one.name()] = one.after_sequence();
+  }
+  while (!after.empty() && !context->IsCancelled()) {
+    bool news = false;
+    for (auto one = after.begin(); one != after.end();) {
+      const std::vector<v1::SolveEvent>& events = records_[one->first].events;
+      if (one->second >= static_cast<int64_t>(events.size())) {
+        ++one;
+        continue;
+      }
+      news = true;
+      const v1::SolveEvent event = events[static_cast<size_t>(one->second++)];
+      writer->Write(event);
+      one = event.has_finished() ? after.erase(one) : std::next(one);
+      const auto broken = breaks_.find(event.sequence());
+      if (broken == breaks_.end()) continue;
+      breaks_.erase(broken);
+      return {grpc::StatusCode::UNAVAILABLE, "broken by the test"};
+    }
+    if (!news) changed_.wait_for(lock, std::chrono::milliseconds(20));
+  }
+  return after.empty() ? grpc::Status::OK : grpc::Status::CANCELLED;
+}
+
 grpc::Status FakeGaitService::GetSolve(grpc::ServerContext*, const v1::GetSolveRequest* request, v1::Solve* solve) {
   std::lock_guard<std::mutex> lock(mutex_);
   const auto found = records_.find(request->name());
@@ -181,11 +246,11 @@ grpc::Status FakeGaitService::GetSolve(grpc::ServerContext*, const v1::GetSolveR
 grpc::Status FakeGaitService::ListSolves(grpc::ServerContext*, const v1::ListSolvesRequest* request,
                                          v1::ListSolvesResponse* response) {
   std::lock_guard<std::mutex> lock(mutex_);
+  listed_.push_back(*request);
   // One solve a page, so that the client has to turn pages; the token is the name to go on with.
   for (auto& [name, record] : records_) {
     if (name < request->page_token()) continue;
-    if (request->state() != v1::SOLVE_STATE_UNSPECIFIED && record.solve.state() != request->state()) continue;
-    if (!request->tenant().empty() && request->tenant() != "-" && record.solve.tenant() != request->tenant()) continue;
+    if (!Passes(record.solve, *request)) continue;
     if (response->solves_size() == 1) {
       response->set_next_page_token(name);
       break;

@@ -18,7 +18,7 @@ namespace rollgait::client {
 
 // Model "planar" walks; "infeasible" and "crash" end as they say; "endless" runs until cancelled, with iterates;
 // "refused" is INVALID_ARGUMENT with two violations; every other model is refused as unknown. The id of a solve is its
-// model's name. Thread-safe.
+// model's name; one made by BatchCreateSolves has its slope in degrees behind it, "planar-5". Thread-safe.
 class FakeGaitService : public v1::GaitService::Service {
  public:
   // Streams break after the event with this number, once for each entry: with UNAVAILABLE, and every other time with
@@ -32,10 +32,16 @@ class FakeGaitService : public v1::GaitService::Service {
 
   std::vector<v1::CreateSolveRequest> created() const;
   std::vector<v1::WatchSolveRequest> watched() const;
+  std::vector<v1::WatchSolvesRequest> watched_together() const;
+  std::vector<v1::ListSolvesRequest> listed() const;
   std::vector<std::string> cancelled() const;
   std::vector<std::string> deleted() const;
 
   grpc::Status CreateSolve(grpc::ServerContext*, const v1::CreateSolveRequest*, v1::Solve*) override;
+  grpc::Status BatchCreateSolves(grpc::ServerContext*, const v1::BatchCreateSolvesRequest*,
+                                 v1::BatchCreateSolvesResponse*) override;
+  grpc::Status WatchSolves(grpc::ServerContext*, const v1::WatchSolvesRequest*,
+                           grpc::ServerWriter<v1::SolveEvent>*) override;
   grpc::Status WatchSolve(grpc::ServerContext*, const v1::WatchSolveRequest*,
                           grpc::ServerWriter<v1::SolveEvent>*) override;
   grpc::Status GetSolve(grpc::ServerContext*, const v1::GetSolveRequest*, v1::Solve*) override;
@@ -56,6 +62,8 @@ class FakeGaitService : public v1::GaitService::Service {
   void Finish(Record& record, v1::SolveState state);
   // Of a running solve, as often as it is asked.
   static v1::SolveEvent IterateOf(const v1::WatchSolveRequest& request, int64_t sequence);
+  // Under the lock.
+  grpc::Status Create(const v1::CreateSolveRequest& request, const std::string& id, v1::Solve* solve);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -67,6 +75,9 @@ class FakeGaitService : public v1::GaitService::Service {
   std::vector<v1::ModelSummary> models_;  // stored
   std::vector<v1::CreateSolveRequest> created_;
   std::vector<v1::WatchSolveRequest> watched_;
+  std::vector<v1::WatchSolvesRequest> watched_together_;
+  std::vector<v1::ListSolvesRequest> listed_;
+  std::map<std::string, std::string> by_request_id_;  // names of solves
   std::vector<std::string> cancelled_, deleted_;
 };
 

@@ -22,35 +22,40 @@ v1::Solve ListedSolve() {
   return solve;
 }
 
-bool FilterMatches(const ListFilter& filter, const v1::Solve& solve) {
-  return SolveMatcher(filter, kListNow).Matches(solve);
+v1::ListSolvesRequest Asked(const ListFilter& filter) { return ListRequest(filter, kListNow); }
+
+TEST(ListFilterTest, WithoutAFilterTheRequestHasNone) {
+  EXPECT_EQ(Asked({}).ByteSizeLong(), 0u);
+  EXPECT_EQ(Asked({.states = {"running"}}).state(), v1::SOLVE_STATE_RUNNING);
+  EXPECT_FALSE(Asked({.states = {"running"}}).has_filter()) << "older servers know no filter";
+  EXPECT_FALSE(Asked({.tenant = "lab", .name_prefix = "ab"}).has_filter());
+  EXPECT_EQ(Asked({.tenant = "lab"}).tenant(), "lab");
 }
 
-TEST(ListFilterTest, NothingAskedForMatchesAll) {
-  EXPECT_TRUE(FilterMatches({}, ListedSolve()));
-  EXPECT_TRUE(FilterMatches({}, v1::Solve()));
-  EXPECT_TRUE(SolveMatcher({}, kListNow).IsOfStateAlone());
-  EXPECT_TRUE(SolveMatcher({.state = "running"}, kListNow).IsOfStateAlone());
-  EXPECT_FALSE(SolveMatcher({.model = "planar"}, kListNow).IsOfStateAlone());
+TEST(ListFilterTest, EveryFlagIsAFieldOfTheFilter) {
+  const v1::ListSolvesRequest states = Asked({.states = {"queued", "failed"}});
+  EXPECT_EQ(states.state(), v1::SOLVE_STATE_UNSPECIFIED);
+  ASSERT_EQ(states.filter().states_size(), 2);
+  EXPECT_EQ(states.filter().states(1), v1::SOLVE_STATE_FAILED);
+  EXPECT_EQ(Asked({.verdict = "not-judged"}).filter().verdict(), v1::VERDICT_NOT_JUDGED);
+  EXPECT_TRUE(Asked({.verdict = "none"}).filter().has_verdict());
+  EXPECT_EQ(Asked({.termination = "time-limit"}).filter().termination(), v1::TERMINATION_TIME_LIMIT);
+  EXPECT_TRUE(Asked({.termination = "none"}).filter().has_termination());
+  EXPECT_EQ(Asked({.model = "planar"}).filter().model(), "planar");
+  const v1::SolveFilter labels = Asked({.labels = {"sweep=hills", "by=a=b"}}).filter();
+  EXPECT_EQ(labels.labels().at("sweep"), "hills");
+  EXPECT_EQ(labels.labels().at("by"), "a=b");
+  const v1::SolveFilter times = Asked({.since = "2h", .before = "2025-11-24T12:30"}).filter();
+  EXPECT_EQ(times.create_time_from().seconds(), kListNow_s - 7200);
+  EXPECT_EQ(times.create_time_before().seconds(), kListNow_s - 41400);
 }
 
-TEST(ListFilterTest, EveryFilterTakesAndLeaves) {
-  const struct {
-    ListFilter takes, leaves;
-  } kCases[] = {
-      {{.state = "succeeded"}, {.state = "running"}},
-      {{.verdict = "not-judged"}, {.verdict = "within"}},
-      {{.termination = "time-limit"}, {.termination = "optimal"}},
-      {{.model = "planar"}, {.model = "plan"}},
-      {{.name_prefix = "ab"}, {.name_prefix = "b1"}},
-      {{.name_prefix = "solves/ab12"}, {.name_prefix = "solves/ab123"}},
-      {{.since = "2h"}, {.since = "30m"}},
-      {{.since = "2025-11-24"}, {.since = "2025-11-25"}},
-  };
-  for (const auto& [takes, leaves] : kCases) {
-    EXPECT_TRUE(FilterMatches(takes, ListedSolve()));
-    EXPECT_FALSE(FilterMatches(leaves, ListedSolve()));
-  }
+TEST(ListFilterTest, NamesAreFilteredHere) {
+  EXPECT_TRUE(HasNameOf({}, ListedSolve()));
+  EXPECT_TRUE(HasNameOf({.name_prefix = "ab"}, ListedSolve()));
+  EXPECT_TRUE(HasNameOf({.name_prefix = "solves/ab12"}, ListedSolve()));
+  EXPECT_FALSE(HasNameOf({.name_prefix = "b1"}, ListedSolve()));
+  EXPECT_FALSE(HasNameOf({.name_prefix = "solves/ab123"}, ListedSolve()));
 }
 
 TEST(ListFilterTest, AModelThatTheRequestCarriesIsOwn) {
@@ -59,35 +64,24 @@ TEST(ListFilterTest, AModelThatTheRequestCarriesIsOwn) {
   solve.mutable_spec()->mutable_model()->clear_name();
   solve.mutable_spec()->mutable_model()->mutable_own();
   EXPECT_EQ(ListedModel(solve), "own");
-  EXPECT_TRUE(FilterMatches({.model = "own"}, solve));
-  EXPECT_FALSE(FilterMatches({.model = "planar"}, solve));
-}
-
-TEST(ListFilterTest, NoneIsWhatHasNoOutcomeYet) {
-  v1::Solve running = ListedSolve();
-  running.clear_outcome();
-  EXPECT_TRUE(FilterMatches({.verdict = "none"}, running));
-  EXPECT_TRUE(FilterMatches({.termination = "none"}, running));
-  EXPECT_FALSE(FilterMatches({.verdict = "none"}, ListedSolve()));
-  v1::Solve old = ListedSolve();
-  old.mutable_outcome()->set_verdict(v1::VERDICT_UNSPECIFIED);
-  EXPECT_TRUE(FilterMatches({.verdict = "not-judged"}, old));
 }
 
 TEST(ListFilterTest, SinceIsAnAgeOrADate) {
-  EXPECT_EQ(ParseSince("90s", kListNow), kListNow - std::chrono::seconds(90));
-  EXPECT_EQ(ParseSince("7d", kListNow), kListNow - std::chrono::hours(7 * 24));
-  EXPECT_EQ(ParseSince("2025-11-25", kListNow), kListNow);
-  EXPECT_EQ(ParseSince("2025-11-25T12:30", kListNow), kListNow + std::chrono::minutes(750));
+  EXPECT_EQ(ParseTime("--since", "90s", kListNow), kListNow - std::chrono::seconds(90));
+  EXPECT_EQ(ParseTime("--since", "7d", kListNow), kListNow - std::chrono::hours(7 * 24));
+  EXPECT_EQ(ParseTime("--since", "2025-11-25", kListNow), kListNow);
+  EXPECT_EQ(ParseTime("--since", "2025-11-25T12:30", kListNow), kListNow + std::chrono::minutes(750));
   for (const char* text : {"", "d", "7", "7w", "-7d", "99999999999d", "2025-02-31", "2025-11-25T12", "yesterday"}) {
-    EXPECT_THROW(ParseSince(text, kListNow), Failure) << text;
+    EXPECT_THROW(ParseTime("--since", text, kListNow), Failure) << text;
   }
 }
 
 TEST(ListFilterTest, UnknownWordsAreRefused) {
-  EXPECT_THROW(SolveMatcher({.state = "walking"}, kListNow), Failure);
-  EXPECT_THROW(SolveMatcher({.verdict = "good"}, kListNow), Failure);
-  EXPECT_THROW(SolveMatcher({.termination = "optimum"}, kListNow), Failure);
+  EXPECT_THROW(Asked({.states = {"walking"}}), Failure);
+  EXPECT_THROW(Asked({.verdict = "good"}), Failure);
+  EXPECT_THROW(Asked({.termination = "optimum"}), Failure);
+  EXPECT_THROW(Asked({.labels = {"sweep"}}), Failure);
+  EXPECT_THROW(Asked({.labels = {"=hills"}}), Failure);
 }
 
 }  // namespace

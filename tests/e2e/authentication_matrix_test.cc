@@ -41,6 +41,19 @@ class MatrixTest : public GuardedServer {
     for (int i = 0; i < method.input_type()->field_count(); ++i) {
       const auto* field = method.input_type()->field(i);
       const auto part = parts.find(std::string(field->name()));
+      if (field->message_type() == v1::CreateSolveRequest::descriptor()) {  // of a batch
+        v1::CreateSolveRequest create;
+        *create.mutable_spec() = spec;
+        EXPECT_TRUE(
+            reflection.AddMessage(message.get(), field, &factory_)->ParseFromString(create.SerializeAsString()));
+        continue;
+      }
+      if (field->message_type() == v1::WatchSolveRequest::descriptor()) {  // of several
+        v1::WatchSolveRequest watch;
+        watch.set_name(name);
+        EXPECT_TRUE(reflection.AddMessage(message.get(), field, &factory_)->ParseFromString(watch.SerializeAsString()));
+        continue;
+      }
       if (field->name() == "name") reflection.SetString(message.get(), field, name);
       if (field->message_type() == v1::Model::descriptor()) {
         EXPECT_TRUE(reflection.MutableMessage(message.get(), field, &factory_)->ParseFromString(planar_));
@@ -150,7 +163,7 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
       row.push_back(Call(rule->scope == kScopeRead ? solver_ : reader_, path, bytes));
       EXPECT_EQ(row.back(), StatusCode::PERMISSION_DENIED);
       row.push_back(Call(other_, path, bytes));
-      const bool names_one = method.input_type()->FindFieldByName("name") != nullptr;
+      const bool names_one = method.input_type()->FindFieldByName("name") != nullptr || method.name() == "WatchSolves";
       EXPECT_EQ(row.back() == StatusCode::NOT_FOUND, names_one);
       EXPECT_TRUE(row.back() == StatusCode::OK || names_one) << row.back();
       EXPECT_EQ(GoodSolves(), before) << "a call that was refused has done something";
@@ -160,7 +173,7 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
       Print(std::string(method.name()), row);
     }
   }
-  EXPECT_GE(methods, 14);
+  EXPECT_GE(methods, 16);
   EXPECT_EQ(GoodModels().count("models/to_delete@1"), 0u);
   EXPECT_EQ(GoodModels().count("models/planar@1"), 1u);
   EXPECT_EQ(GoodSolves().count(to_delete), 0u);

@@ -46,6 +46,41 @@ class CommandLineTest : public testing::Test {
   const Daemon daemon_;
 };
 
+TEST_F(CommandLineTest, ASweepIsSolvedOnceFoundByItsLabelAndGoneOnWith) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string folder = directory_.path() + "/hills";
+  const auto line = [&](const std::string& slopes) {
+    return "sweep --model planar --cost torque --intervals 6 --accuracy draft --speed 1.2 --name hills --slope " +
+           slopes + " --output " + folder + " --csv -";
+  };
+  const auto rows = [](const std::string& text) {
+    std::istringstream lines(text);
+    std::vector<std::string> read;
+    for (std::string row; std::getline(lines, row);) read.push_back(row);
+    return read;
+  };
+  const Ended first = Run(line("-2:2:2"));
+  ASSERT_EQ(first.code, 0) << first.err;
+  const std::vector<std::string> table = rows(first.out);
+  ASSERT_EQ(table.size(), 4u) << first.out;
+  EXPECT_EQ(table[1].rfind("-2,1.2,solves/", 0), 0u) << table[1];
+  for (const char* name : {"slope_-2_speed_1.2", "slope_0_speed_1.2", "slope_2_speed_1.2"}) {
+    EXPECT_TRUE(std::ifstream(folder + "/" + name + ".json").good()) << name;
+  }
+  const Ended longer = Run(line("-2:4:2"));
+  ASSERT_EQ(longer.code, 0) << longer.err;
+  const std::vector<std::string> longer_table = rows(longer.out);
+  ASSERT_EQ(longer_table.size(), 5u) << longer.out;
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(longer_table[i], table[i]) << "the same solves, to the last digit";
+  const Ended list = Run("list --label sweep=hills --termination optimal --json");
+  EXPECT_EQ(rows(list.out).size(), 4u) << list.out;
+  EXPECT_EQ(rows(Run("list --label sweep=dales --json").out).size(), 0u);
+  const Ended wrong = Run("sweep --model planar --slope 0,80 --name wrong");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("requests[1].spec.slope_rad"));
+  EXPECT_EQ(rows(Run("list --label sweep=wrong --json").out).size(), 0u) << "all or none";
+}
+
 TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {
   ASSERT_NE(daemon_.address(), "");
   const std::string request = "--model planar --preset human --cost force-rate:1e-8 --intervals 8 --accuracy draft";

@@ -20,11 +20,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   server::ListQuery query;
   if (data[0] % 3 == 1) query.state = server::SolveState::kQueued;
   if (data[0] % 5 == 1) query.tenant = "gaits";
+  if (data[0] % 7 == 1) query.filter.labels = {{"sweep", "hills"}};
   query.page_token.assign(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (server::ParsePageToken(query, kSecret)) {
     server::ListQuery other = query;
     other.tenant = "others";
     ROLLGAIT_CHECK(!server::ParsePageToken(other, kSecret));
+    server::ListQuery filtered = query;
+    filtered.filter.model += "other";
+    ROLLGAIT_CHECK(!server::ParsePageToken(filtered, kSecret));
     ROLLGAIT_CHECK(!server::ParsePageToken(query, "the secret of another store"));
   }
   int64_t number = 0;

@@ -15,6 +15,7 @@ from rollgait.v1 import gait_service_pb2_grpc, model_pb2, solve_pb2, solve_spec_
 
 TIMEOUT_S = 30.0  # for the answer of one call that does not stream
 RESUMPTIONS = 5   # of a stream that breaks
+MOST_AT_ONCE = 256  # solves that one call makes
 
 
 def gait_of(solve: solve_pb2.Solve) -> Gait:
@@ -61,9 +62,16 @@ class Client:
     def solve_spec(self, spec: solve_spec_pb2.SolveSpec, *, progress: Progress = True, label: str = "") -> Gait:
         return self.wait(self.create(spec).name, progress=progress, cancel_on_interrupt=True, label=label)
 
-    def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "") -> solve_pb2.Solve:
-        """Stores a solve. With the same request_id and spec it answers with the solve made before."""
-        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id))
+    def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "",
+               labels: Optional[Dict[str, str]] = None) -> solve_pb2.Solve:
+        """Stores a solve. With the same request_id, spec and labels it answers with the solve made before."""
+        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id, labels=labels))
+
+    def create_all(self, specs: Iterable[solve_spec_pb2.SolveSpec], *,
+                   labels: Optional[Dict[str, str]] = None) -> List[solve_pb2.Solve]:
+        """Stores up to MOST_AT_ONCE solves with the same labels, in the order of the specs: all of them, or none."""
+        requests = [calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]
+        return list(self._call(self._stub.BatchCreateSolves, calls.BatchCreateSolvesRequest(requests=requests)).solves)
 
     def check(self, spec: solve_spec_pb2.SolveSpec) -> None:
         """Raises InvalidRequest if the server would refuse the spec; stores nothing."""
@@ -106,11 +114,14 @@ class Client:
         """A finished solve. SolveFailed if it has no trajectory (yet)."""
         return gait_of(self._call(self._stub.GetSolve, calls.GetSolveRequest(name=name)))
 
-    def list(self, *, page_size: int = 50) -> Iterator[solve_pb2.Solve]:
-        """All solves, newest first, without results but with their outcome."""
+    def list(self, *, page_size: int = 50, **filters) -> Iterator[solve_pb2.Solve]:
+        """Solves, newest first, without results but with their outcome; all, or those that pass the filters, which are fields
+        of rollgait.v1.SolveFilter: labels={"sweep": "hills"}, model="planar"."""
         token = ""
+        chosen = calls.SolveFilter(**filters) if filters else None
         while True:
-            page = self._call(self._stub.ListSolves, calls.ListSolvesRequest(page_size=page_size, page_token=token))
+            page = self._call(self._stub.ListSolves,
+                              calls.ListSolvesRequest(page_size=page_size, page_token=token, filter=chosen))
             yield from page.solves
             token = page.next_page_token
             if not token:
@@ -146,7 +157,10 @@ class Client:
         """One gait for each slope, by slope. All are created before the first is waited for, so that the server's slots are
         busy; answers do not depend on the order. A solve without a trajectory is left out after its SolveFailed was
         told to `progress`, which takes exceptions too if it is a function."""
-        names = {slope: self.create(make_spec(model, slope_deg=slope, **request)).name for slope in slopes_deg}
+        slopes = list(slopes_deg)
+        specs = [make_spec(model, slope_deg=slope, **request) for slope in slopes]
+        made = [solve for first in range(0, len(specs), MOST_AT_ONCE) for solve in self.create_all(specs[first:first + MOST_AT_ONCE])]
+        names = {slope: solve.name for slope, solve in zip(slopes, made)}
         gaits: Dict[float, Gait] = {}
         try:
             for slope, name in names.items():

@@ -46,6 +46,34 @@ TEST_F(ResourceCommandTest, ListTurnsPages) {
   EXPECT_EQ(Run({"list", "--state", "walking"}).code, 2);
 }
 
+TEST_F(ResourceCommandTest, LabelsAreGivenAndListed) {
+  ASSERT_EQ(Run({"-q", "solve", "--model", "planar", "--label", "sweep=hills", "--label", "by=me"}).code, 0);
+  ASSERT_EQ(Run({"-q", "solve", "--model", "draft"}).code, 0);
+  EXPECT_EQ(service_.created()[0].labels().at("sweep"), "hills");
+  EXPECT_EQ(service_.created()[0].labels().at("by"), "me");
+  const Ended list = Run({"list", "--label", "sweep=hills", "--termination", "optimal"});
+  EXPECT_THAT(list.out, HasSubstr("solves/planar"));
+  EXPECT_THAT(list.out, Not(HasSubstr("solves/draft")));
+  EXPECT_EQ(service_.listed().back().filter().termination(), v1::TERMINATION_OPTIMAL) << "the server filters";
+  const Ended bad = Run({"solve", "--model", "planar", "--label", "hills"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("--label hills: must be KEY=VALUE"));
+}
+
+TEST_F(ResourceCommandTest, CancelAndDeleteWhatCarriesALabel) {
+  for (const char* model : {"planar", "endless"}) {
+    ASSERT_EQ(Run({"-q", "solve", "--model", model, "--detach", "--label", "sweep=hills"}).code, 0);
+  }
+  ASSERT_EQ(Run({"-q", "solve", "--model", "draft", "--detach"}).code, 0);
+  EXPECT_EQ(Run({"cancel"}).code, 2);
+  EXPECT_EQ(Run({"delete", "--label", "hills"}).code, 2);
+  EXPECT_EQ(Run({"cancel", "--label", "sweep=hills"}).out, "solves/endless  cancelled\n") << "planar has ended";
+  EXPECT_EQ(Run({"cancel", "--label", "sweep=dales"}).out, "");
+  EXPECT_EQ(Run({"delete", "--label", "sweep=hills"}).code, 0);
+  EXPECT_THAT(service_.deleted(), testing::UnorderedElementsAre("solves/endless", "solves/planar"));
+  EXPECT_THAT(Run({"list"}).out, HasSubstr("solves/draft"));
+}
+
 TEST_F(ResourceCommandTest, ListAsksForOtherTenants) {
   MakeSolves();
   EXPECT_THAT(Run({"list"}).out, Not(HasSubstr("TENANT")));

@@ -82,6 +82,16 @@ class Solving(unittest.TestCase):
         with self.assertRaises(rollgait.NotFound):
             client.get(first.name)
 
+    def test_finds_what_was_made_together_by_its_label(self):
+        specs = [rollgait.make_spec("planar", accuracy="draft", intervals=5, slope_deg=slope) for slope in (1, 2)]
+        made = client.create_all(specs, labels={"study": "python-test"})
+        self.assertEqual([solve.spec.slope_rad for solve in made], [spec.slope_rad for spec in specs])
+        found = [solve.name for solve in client.list(page_size=1, labels={"study": "python-test"})]
+        self.assertEqual(found, [solve.name for solve in reversed(made)])
+        self.assertEqual(list(client.list(labels={"study": "python-test"}, model="human29")), [])
+        with self.assertRaisesRegex(rollgait.RollgaitError, r"requests\[1\].spec"):
+            client.create_all([specs[0], rollgait.make_spec("planar", slope_deg=80)])
+
     def test_cancels(self):
         name = client.create(rollgait.make_spec("human29", preset="torque", accuracy="fine", intervals=60)).name
         client.cancel(name)

@@ -23,6 +23,22 @@ TEST(QuotasTest, ABucketHoldsTwoSecondsAndFillsWithTime) {
   EXPECT_FALSE(quotas.TakeCreate("a", 0).has_value());  // 0: no limit
 }
 
+TEST(QuotasTest, WhatWasMadeTogetherIsWaitedForAfterwards) {
+  Quotas::Clock::time_point now{};
+  Quotas quotas([&] { return now; });
+  ASSERT_FALSE(quotas.TakeCreate("a", 5).has_value());
+  quotas.OweCreates("a", 5, 29);  // 30 of the 10 that the bucket holds
+  const std::optional<Error> refused = quotas.TakeCreate("a", 5);
+  ASSERT_TRUE(refused.has_value());
+  EXPECT_EQ(refused->retry_after->count(), 4200);
+  now += *refused->retry_after - std::chrono::milliseconds(1);
+  EXPECT_TRUE(quotas.TakeCreate("a", 5).has_value());
+  now += std::chrono::milliseconds(2);
+  EXPECT_FALSE(quotas.TakeCreate("a", 5).has_value());
+  quotas.OweCreates("b", 0, 29);  // no limit, nothing owed
+  EXPECT_FALSE(quotas.TakeCreate("b", 5).has_value());
+}
+
 TEST(QuotasTest, WatchesAreGivenBack) {
   Quotas quotas;
   Outcome<std::shared_ptr<void>> first = quotas.TakeWatch("a", 2);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <thread>
 
 #include "tests/server/rpc/rpc_bench.h"
@@ -73,6 +74,74 @@ TEST(WatchStreamTest, WatchResumesAfterANumber) {
   EXPECT_TRUE(event.has_finished());
   EXPECT_FALSE(stream->Read(&event));
   EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST(WatchStreamTest, OneStreamCarriesManySolvesAndGoesOnWhereItBroke) {
+  RpcBench bench;
+  v1::BatchCreateSolvesRequest batch;
+  constexpr int kSolves = 20;
+  for (int i = 0; i < kSolves; ++i) {
+    *batch.add_requests()->mutable_spec() = PlanarSpec(0.01 * i);
+    (*batch.mutable_requests(i)->mutable_labels())["sweep"] = "s";
+  }
+  v1::BatchCreateSolvesResponse made;
+  {
+    grpc::ClientContext context;
+    ASSERT_TRUE(bench.stub().BatchCreateSolves(&context, batch, &made).ok());
+  }
+  ASSERT_EQ(made.solves_size(), kSolves);
+  v1::WatchSolvesRequest request;
+  (*request.mutable_labels())["sweep"] = "s";
+  std::map<std::string, int64_t> read;  // the newest number of each
+  v1::SolveEvent event;
+  {
+    grpc::ClientContext context;
+    const auto stream = bench.stub().WatchSolves(&context, request);
+    while (read.size() < kSolves && stream->Read(&event)) read[event.name()] = event.sequence();
+    context.TryCancel();
+    stream->Finish();
+  }
+  ASSERT_EQ(read.size(), static_cast<size_t>(kSolves));
+  request.clear_labels();
+  for (const auto& [name, sequence] : read) {
+    request.add_solves()->set_name(name);
+    request.mutable_solves()->rbegin()->set_after_sequence(sequence);
+  }
+  grpc::ClientContext context;
+  const auto stream = bench.stub().WatchSolves(&context, request);
+  for (int i = 0; i < kSolves; ++i) {
+    const Lease lease = bench.bench().Claim();
+    bench.bench().AppendIterations(lease, 0, 3);
+    bench.bench().Finish(lease);
+  }
+  int finished = 0;
+  while (stream->Read(&event)) {
+    EXPECT_EQ(event.sequence(), read[event.name()] + 1) << event.name();
+    read[event.name()] = event.sequence();
+    if (event.has_finished()) ++finished;
+  }
+  EXPECT_TRUE(stream->Finish().ok());
+  EXPECT_EQ(finished, kSolves);
+  request.mutable_solves(3)->set_name("solves/none");
+  grpc::ClientContext unknown;
+  const auto refused = bench.stub().WatchSolves(&unknown, request);
+  EXPECT_FALSE(refused->Read(&event));
+  const grpc::Status status = refused->Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_NE(status.error_message().find("solves/none"), std::string::npos) << status.error_message();
+}
+
+TEST(WatchStreamTest, ABatchCountsAsManyCreations) {
+  Gatekeeper::Options gate;
+  gate.limits.creates_per_s = 1;
+  RpcBench bench({}, {}, std::chrono::hours(1), gate);
+  v1::BatchCreateSolvesRequest batch;
+  for (int i = 0; i < 10; ++i) *batch.add_requests()->mutable_spec() = PlanarSpec(0.01 * i);
+  v1::BatchCreateSolvesResponse made;
+  grpc::ClientContext first, second;
+  ASSERT_TRUE(bench.stub().BatchCreateSolves(&first, batch, &made).ok());
+  EXPECT_EQ(bench.stub().BatchCreateSolves(&second, batch, &made).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED)
+      << "the bucket held two";
 }
 
 TEST(WatchStreamTest, BadPlacesHaveTheirCodes) {

@@ -15,7 +15,7 @@ namespace {
 class Reader {
  public:
   Reader(ServiceBench& bench, const std::string& id, int64_t after, int iterates_per_second = 0)
-      : watch_(bench.hub().Open(id, after, iterates_per_second, [this] { Wake(); }).value()) {}
+      : watch_(bench.hub().Open({id, after, iterates_per_second}, [this] { Wake(); }).value()) {}
 
   // Adds what comes until `done(events)`; false if the watch ended or failed before.
   template <typename Condition>
@@ -135,9 +135,9 @@ TEST(WatchHubTest, AFinishedSolveEndsAtOnce) {
 TEST(WatchHubTest, BadPlacesAreRefused) {
   ServiceBench bench;
   const std::string id = bench.Create();
-  EXPECT_EQ(bench.hub().Open(id, 2, 0, [] {}).error().code, ErrorCode::kOutOfRange);
-  EXPECT_EQ(bench.hub().Open(id, -1, 0, [] {}).error().code, ErrorCode::kOutOfRange);
-  EXPECT_EQ(bench.hub().Open("none", 0, 0, [] {}).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(bench.hub().Open({id, 2}, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open({id, -1}, [] {}).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(bench.hub().Open({"none", 0}, [] {}).error().code, ErrorCode::kNotFound);
 }
 
 TEST(WatchHubTest, HeartbeatsRepeatTheLastNumber) {
@@ -227,7 +227,7 @@ TEST(WatchHubTest, StopWakesReadersAndRefusesNewOnes) {
   EXPECT_FALSE(reader.UntilCount(2));
   ASSERT_TRUE(reader.failure.has_value());
   EXPECT_EQ(reader.failure->code, ErrorCode::kUnavailable);
-  EXPECT_EQ(bench.hub().Open(id, 0, 0, [] {}).error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(bench.hub().Open({id, 0}, [] {}).error().code, ErrorCode::kUnavailable);
 }
 
 }  // namespace

@@ -60,6 +60,21 @@ TEST(PostgresStoreTest, ANewerSchemaVersionIsRefusedByName) {
   EXPECT_NE(newer.error().message.find("99"), std::string::npos) << newer.error().message;
 }
 
+TEST(PostgresStoreTest, TablesOfVersion6GetWhatListsFilterBy) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const StoreLocation location = LocationFor(directory.path());
+  FillForFilters(*OpenStore(location, clock).value());
+  PostgresConnection(location.postgres_url)
+      .Execute(
+          "DROP TABLE labels; DROP INDEX solves_by_tenant; CREATE INDEX solves_by_tenant ON solves (tenant, number); "
+          "ALTER TABLE solves DROP COLUMN model, DROP COLUMN verdict, DROP COLUMN termination; "
+          "UPDATE schema_version SET version = 6;");
+  const auto store = OpenStore(location, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  ExpectFiltersFindThem(*store.value());
+}
+
 // Opens the store of a cluster that is down. `sleep` is called between tries, with their number.
 Outcome<std::unique_ptr<SqlStore>> Await(const StoreLocation& location, std::chrono::seconds wait,
                                          const std::function<bool(int)>& sleep) {

@@ -134,13 +134,20 @@ TEST(SqliteStoreTest, AFileOfVersion1IsBroughtUpInPlace) {
   ASSERT_TRUE(store.value()->Create({"warm", "", "s", "", 9, "start"}).ok());
 }
 
-// Version 5 is this one without models.
+// What version 7 has beyond version 6.
+constexpr char kBackToVersion6[] =
+    "DROP TABLE labels; DROP INDEX solves_by_tenant; CREATE INDEX solves_by_tenant ON solves (tenant, number); "
+    "ALTER TABLE solves DROP COLUMN model; ALTER TABLE solves DROP COLUMN verdict; "
+    "ALTER TABLE solves DROP COLUMN termination; UPDATE schema_version SET version = 6;";
+
+// Version 5 is version 6 without models.
 TEST(SqliteStoreTest, AFileOfVersion5GetsModels) {
   const TemporaryDirectory directory;
   const FakeClock clock;
   const std::string path = directory.path() + "/rollgait.db";
   ASSERT_TRUE(OpenStore({path}, clock).value()->Create({"old", "", "spec", ""}).ok());
-  SqliteConnection(path, clock).Execute("DROP TABLE models; UPDATE schema_version SET version = 5;");
+  SqliteConnection(path, clock)
+      .Execute(std::string(kBackToVersion6) + "DROP TABLE models; UPDATE schema_version SET version = 5;");
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   EXPECT_EQ(store.value()->Get("old").value().spec, "spec");
@@ -150,6 +157,17 @@ TEST(SqliteStoreTest, AFileOfVersion5GetsModels) {
   Query version(connection, "SELECT version FROM schema_version");
   ASSERT_TRUE(version.Step());
   EXPECT_EQ(version.Int(0), kSchemaVersion);
+}
+
+TEST(SqliteStoreTest, AFileOfVersion6GetsWhatListsFilterBy) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  FillForFilters(*OpenStore({path}, clock).value());
+  SqliteConnection(path, clock).Execute(kBackToVersion6);
+  const auto store = OpenStore({path}, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  ExpectFiltersFindThem(*store.value());
 }
 
 TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {

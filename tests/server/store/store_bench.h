@@ -71,6 +71,51 @@ inline void ExpectDense(const std::vector<StoredEvent>& events) {
   for (size_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i].sequence, static_cast<int64_t>(i) + 1);
 }
 
+// A solve of planar with an answer, one of human29 without, one that carries its model, and one whose spec says
+// nothing; more of the first than a migration reads at once.
+inline void FillForFilters(SolveStore& store) {
+  v1::SolveSpec planar, human, own;
+  planar.mutable_model()->set_name("planar");
+  human.mutable_model()->set_name("human29");
+  own.mutable_model()->mutable_own();
+  v1::SolveResult result;
+  result.set_termination(v1::TERMINATION_ACCEPTABLE);
+  result.mutable_accuracy()->set_verdict(v1::VERDICT_WITHIN);
+  const std::string answer = result.SerializeAsString();
+  for (size_t i = 0; i < 101; ++i) {
+    ASSERT_TRUE(store.Create({Numbered("planar", i), "", planar.SerializeAsString(), ""}).ok());
+  }
+  const ClaimedSolve claimed = store.ClaimNext("agent", kLeaseDuration).value().value();
+  ASSERT_TRUE(store.Finish(claimed.lease, {}, {SolveState::kSucceeded, answer, "", true}).ok());
+  ASSERT_TRUE(store.Create({"human", "", human.SerializeAsString(), ""}).ok());
+  ASSERT_TRUE(store.Create({"own", "", own.SerializeAsString(), ""}).ok());
+  ASSERT_TRUE(store.Create({"unread", "", "\xff", ""}).ok());
+}
+
+// The ids of a page that the filter passes, newest first.
+inline std::vector<std::string> Listed(SolveStore& store, const SolveFilter& filter,
+                                       const std::optional<std::string>& tenant = std::nullopt) {
+  std::vector<std::string> ids;
+  const SolvePage page = store.List({1000, "", std::nullopt, tenant, filter}).value();
+  for (const SolveRecord& record : page.records) ids.push_back(record.id);
+  return ids;
+}
+
+// In a store that was filled by FillForFilters and then migrated.
+inline void ExpectFiltersFindThem(SolveStore& store) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(Listed(store, {.model = "planar"}).size(), 101u);
+  EXPECT_EQ(Listed(store, {.model = "human29"}), Ids{"human"});
+  EXPECT_EQ(Listed(store, {.model = "own"}), Ids{"own"});
+  EXPECT_EQ(Listed(store, {.termination = v1::TERMINATION_ACCEPTABLE}), Ids{"planar0"});
+  EXPECT_EQ(Listed(store, {.verdict = v1::VERDICT_WITHIN, .model = "planar"}), Ids{"planar0"});
+  EXPECT_EQ(store.Get("unread").value().labels, Labels());
+  NewSolve labelled{"labelled", "", "s", ""};
+  labelled.labels = {{"sweep", "hills"}};
+  ASSERT_TRUE(store.Create(labelled).ok());
+  EXPECT_EQ(Listed(store, {.labels = {{"sweep", "hills"}}}), Ids{"labelled"});
+}
+
 inline const SolveEnd kAnswer{SolveState::kSucceeded, "the result", "", true};
 
 }  // namespace rollgait::server
