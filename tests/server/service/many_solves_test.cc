@@ -245,6 +245,11 @@ TEST(FindWatchedTest, ByNamesOrByLabelsOfTheCaller) {
   EXPECT_EQ(bench.service().FindWatched(blue, request).error().code, ErrorCode::kNotFound);
   *request.add_solves() = Named<v1::WatchSolveRequest>(made.solves(0).name());
   EXPECT_EQ(FieldRefused(bench.service().FindWatched(red, request).error()), "solves[1].name");
+  request.mutable_solves(1)->set_name(made.solves(1).name());
+  request.mutable_solves(1)->set_iterates_per_second(kMostIteratesPerSecond + 1);
+  EXPECT_EQ(FieldRefused(bench.service().FindWatched(red, request).error()), "solves[1].iterates_per_second");
+  request.mutable_solves(1)->set_iterates_per_second(2);
+  EXPECT_EQ(bench.service().FindWatched(red, request).value().positions[1].iterates_per_second, 2);
   for (int i = 0; i < 255; ++i) request.add_solves()->set_name("solves/x" + std::to_string(i));
   EXPECT_EQ(FieldRefused(bench.service().FindWatched(red, request).error()), "solves");
 }
