@@ -1,6 +1,5 @@
 #include "client/view/page_server.h"
 
-#include <httplib.h>
 #include <sys/random.h>
 #include <sys/socket.h>
 
@@ -17,6 +16,7 @@
 
 #include "client/failure.h"
 #include "client/report/report.h"
+#include "client/view/http_library.h"
 
 namespace rollgait::client {
 namespace {

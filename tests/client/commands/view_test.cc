@@ -1,7 +1,6 @@
 // view: the page in a browser, while a solve runs and after it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
 #include <signal.h>
 
 #include <cstdlib>
@@ -9,6 +8,7 @@
 #include <fstream>
 #include <optional>
 
+#include "client/view/http_library.h"
 #include "tests/client/client_process.h"
 #include "tests/client/fake_gait_service.h"
 

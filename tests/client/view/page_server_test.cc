@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
 
 #include <atomic>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "client/failure.h"
+#include "client/view/http_library.h"
 
 namespace rollgait::client {
 namespace {
