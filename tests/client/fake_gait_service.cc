@@ -1,7 +1,5 @@
 #include "tests/client/fake_gait_service.h"
 
-#include <google/rpc/error_details.pb.h>
-#include <google/rpc/status.pb.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
@@ -11,6 +9,7 @@
 #include <iterator>
 
 #include "tests/client/fake_filter.h"
+#include "tests/client/fake_refusal.h"
 #include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
@@ -18,20 +17,6 @@ namespace rollgait::client {
 namespace {
 
 grpc::Status NotFound(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "no solve is called " + name}; }
-
-grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& violations) {
-  google::rpc::BadRequest details;
-  for (const auto& [field, description] : violations) {
-    auto* const violation = details.add_field_violations();
-    violation->set_field(field);
-    violation->set_description(description);
-  }
-  google::rpc::Status rich;
-  rich.set_code(static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
-  rich.set_message("the request is not valid");
-  rich.add_details()->PackFrom(details);
-  return {grpc::StatusCode::INVALID_ARGUMENT, rich.message(), rich.SerializeAsString()};
-}
 
 v1::SolveEvent NewEvent(const std::string& name, int64_t sequence) {
   v1::SolveEvent event;
