@@ -112,7 +112,8 @@ void KeepPort(int socket) {
 }
 
 // Ends the connections of this process to 127.0.0.1:port, whatever a thread is waiting for on them: the library waits
-// for each byte anew, and does not tell which connections it has accepted.
+// for each byte anew, and does not tell which connections it has accepted. Without /proc they end when their peers let
+// them.
 void EndConnections(int port) {
   std::error_code failure;
   for (std::filesystem::directory_iterator entry("/proc/self/fd", failure), end; !failure && entry != end;
