@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "client/failure.h"
 
@@ -100,6 +101,21 @@ std::string SolveName(const std::string& name) {
                   "a solve's name is empty; `rollgait list` shows the names, for example solves/1a2b");
   }
   return name.rfind("solves/", 0) == 0 ? name : "solves/" + name;
+}
+
+bool IsUtf8(const std::string& text) {
+  try {
+    nlohmann::json(text).dump();  // which is strict
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
+std::string WithoutControls(std::string text) {
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
 }
 
 std::string FormatTable(const std::vector<std::vector<std::string>>& rows, const std::string& alignment) {

@@ -39,6 +39,12 @@ std::string PhaseName(const v1::TrajectoryPhase& phase);
 // "solves/{id}" from "solves/{id}" or "{id}". Throws Failure(kUsage) for an empty name.
 std::string SolveName(const std::string& name);
 
+// Whether the bytes are UTF-8: overlong forms, surrogates, numbers beyond U+10FFFF and cut characters are not.
+bool IsUtf8(const std::string& text);
+
+// The text with a "?" in place of every control character of ASCII: a terminal would obey some of them.
+std::string WithoutControls(std::string text);
+
 // Rows of cells as lines: columns padded to their widest cell and separated by two spaces, no trailing spaces.
 // The columns whose letter in `alignment` is 'r' are set flush right; columns beyond it are flush left.
 // Width counts UTF-8 characters, not bytes.

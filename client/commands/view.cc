@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <spawn.h>
 #include <unistd.h>
 
@@ -8,6 +9,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include "client/commands/commands.h"
 #include "client/commands/finished_solve.h"
@@ -120,7 +123,8 @@ v1::Model ModelOf(Connection& connection, const v1::Solve& solve) {
   return model;
 }
 
-// With the signals of a program that is started from a shell.
+// With the signals of a program that is started from a shell, and without our standard output, which is for the
+// address.
 void OpenBrowser(const std::string& url, const Terminal& terminal) {
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -128,11 +132,19 @@ void OpenBrowser(const std::string& url, const Terminal& terminal) {
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setpgroup(&attributes, 0);  // Ctrl-C is not for it
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  sigset_t ignored;
+  sigemptyset(&ignored);
+  sigaddset(&ignored, SIGPIPE);  // by the HTTP library
+  posix_spawnattr_setsigdefault(&attributes, &ignored);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   std::string program = "xdg-open", argument = url;
   char* arguments[] = {program.data(), argument.data(), nullptr};
   pid_t pid = 0;
-  const int failure = posix_spawnp(&pid, program.c_str(), nullptr, &attributes, arguments, environ);
+  const int failure = posix_spawnp(&pid, program.c_str(), &files, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (failure != 0) {
     terminal.err << "rollgait: xdg-open cannot be started (" << std::generic_category().message(failure)
@@ -151,27 +163,26 @@ std::optional<v1::Solve> FollowInto(LiveFeed& feed, const v1::Model& model, Conn
                                     const std::string& name, double reconnect_s, Leaving& leaving) {
   SolveFollower follower(connection, name, {0, reconnect_s, kIteratesPerSecond});
   leaving.Attach(&follower);
+  const auto detach = [](Leaving* from) { from->Attach(nullptr); };
+  const std::unique_ptr<Leaving, decltype(detach)> attached(&leaving, detach);  // until the follower ends
   const auto on_event = [&](const v1::SolveEvent& event) {
     if (event.has_state_change()) feed.SetState(InWords(event.state_change()));
     if (event.has_iteration()) feed.Add(event.iteration());
     if (event.has_iterate()) feed.ShowIterate(IterateData(event.iterate(), model));
   };
   try {
-    v1::Solve solve = follower.Follow(on_event, [&feed](const std::string& note) { feed.SetState(note); });
-    leaving.Attach(nullptr);
-    return solve;
+    return follower.Follow(on_event, [&feed](const std::string& note) { feed.SetState(note); });
   } catch (const Failure&) {
-    leaving.Attach(nullptr);
     if (leaving.interrupted()) return std::nullopt;
     throw;
   }
 }
 
-void Announce(const std::string& url, const ViewOptions& options, const GlobalOptions& global,
-              const Terminal& terminal) {
+void Announce(PageServer& server, const ViewOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  const std::string url = server.url();
   terminal.out << (global.json ? nlohmann::json({{"url", url}}).dump() : url) << std::endl;
   if (!global.quiet) terminal.err << "serving the page until Ctrl-C" << std::endl;
-  if (options.opens) OpenBrowser(url, terminal);
+  if (options.opens) OpenBrowser(server.MakeUrlForOneUse(), terminal);
 }
 
 }  // namespace
@@ -196,9 +207,9 @@ ExitCode RunView(const ViewOptions& options, const GlobalOptions& global, const 
   };
   if (IsFinished(solve)) finish(solve);
   const v1::Model model = IsFinished(solve) ? v1::Model() : ModelOf(*connection, solve);
-  const PageServer server(
+  PageServer server(
       options.port, [&shown](const std::string& nonce) { return shown.Page(nonce); }, feed);
-  Announce(server.url(), options, global, terminal);
+  Announce(server, options, global, terminal);
   if (!IsFinished(solve)) {
     const std::optional<v1::Solve> finished =
         FollowInto(feed, model, *connection, solve.name(), options.reconnect_s, leaving);

@@ -64,10 +64,13 @@ MirrorChange AverageMirrorImages(v1::Model* model) {
       const double sum = ours.mass + other.mass;
       const LinkMass mean{sum / 2, (ours.mass * ours.center_of_mass + other.mass * other.center_of_mass) / sum,
                           (ours.inertia + other.inertia) / 2};
-      change.mass = std::max(change.mass, std::abs(mean.mass - ours.mass) / ours.mass);
-      change.center = std::max({change.center, (mean.center_of_mass - ours.center_of_mass).norm(),
-                                (mean.center_of_mass - other.center_of_mass).norm()});
-      change.inertia = std::max(change.inertia, (mean.inertia - ours.inertia).norm() / ours.inertia.norm());
+      for (const LinkMass& one : {ours, other}) {
+        change.mass = std::max(change.mass, std::abs(mean.mass - one.mass) / one.mass);
+        change.center = std::max(change.center, (mean.center_of_mass - one.center_of_mass).norm());
+        if (one.inertia.norm() > 0) {
+          change.inertia = std::max(change.inertia, (mean.inertia - one.inertia).norm() / one.inertia.norm());
+        }
+      }
       SetMass(mean, poses[static_cast<size_t>(i)], &joint);
       SetMass(Reflected(mean), poses[static_cast<size_t>(j)], &image);
     }

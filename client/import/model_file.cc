@@ -1,5 +1,7 @@
 #include "client/import/model_file.h"
 
+#include <utility>
+
 #include "client/failure.h"
 #include "client/import/urdf_model.h"
 #include "client/json.h"

@@ -1,6 +1,7 @@
 #include "client/import/side_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -53,7 +54,7 @@ class SideCheck {
 
  private:
   [[noreturn]] void Refuse(const std::string& field, const std::string& reason) const {
-    throw Failure(ExitCode::kUsage, path_ + ": " + field + " " + reason);
+    throw Failure(ExitCode::kUsage, WithoutControls(path_ + ": " + field + " " + reason));
   }
   static std::string At(const char* list, int index, const char* field) {
     return std::string(list) + "[" + std::to_string(index) + "]." + field;
@@ -92,8 +93,12 @@ class SideCheck {
     std::set<std::string> added, seen;
     if (!own_base) {
       for (const BaseJoint& joint : BaseJoints(side_.base())) added.insert(joint.name);
-    } else if (side_.base() != v1::ModelSideFile::BASE_UNSPECIFIED) {
-      Refuse("base", "must not be given where joints of the URDF have base roles");
+    } else {
+      const std::string reason =
+          "must not be given where joints of the URDF have base roles: they say where the body is";
+      if (side_.base() != v1::ModelSideFile::BASE_UNSPECIFIED) Refuse("base", reason);
+      if (side_.has_base_orientation()) Refuse("baseOrientation", reason);
+      if (side_.has_base_position_m()) Refuse("basePositionM", reason);
     }
     for (int i = 0; i < side_.joints_size(); ++i) {
       const v1::SideJoint& joint = side_.joints(i);

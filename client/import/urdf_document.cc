@@ -11,10 +11,12 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "client/failure.h"
 #include "client/formats/exact_number.h"
 #include "client/import/xml_guard.h"
+#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -72,17 +74,20 @@ class UrdfCleaner {
   [[noreturn]] void Refuse(const tinyxml2::XMLElement& element, const std::string& reason) const {
     const char* const name = element.Attribute("name");
     std::string where = document_->path + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name();
-    if (name != nullptr && std::strlen(name) <= kMaxUrdfName) where += " name=\"" + std::string(name) + "\"";
+    const auto is_shown = [](const char* text) {
+      return text != nullptr && std::strlen(text) <= kMaxUrdfName && IsUtf8(text);
+    };
+    if (is_shown(name)) where += " name=\"" + std::string(name) + "\"";
     const tinyxml2::XMLElement* owner = &element;
     while (owner->Attribute("name") == nullptr && owner->Parent() != nullptr &&
            owner->Parent()->ToElement() != nullptr) {
       owner = owner->Parent()->ToElement();
     }
     const char* const owner_name = owner->Attribute("name");
-    if (owner != &element && owner_name != nullptr && std::strlen(owner_name) <= kMaxUrdfName) {
+    if (owner != &element && is_shown(owner_name)) {
       where += "> of <" + std::string(owner->Name()) + " name=\"" + owner_name + "\"";
     }
-    throw Failure(ExitCode::kUsage, where + ">: " + reason);
+    throw Failure(ExitCode::kUsage, WithoutControls(where + ">: " + reason));
   }
 
   std::string Text(const tinyxml2::XMLElement& element, const char* attribute) const {
@@ -96,6 +101,7 @@ class UrdfCleaner {
       Refuse(element, std::string(attribute) + " has " + std::to_string(name.size()) + " bytes; at most " +
                           std::to_string(kMaxUrdfName) + " are accepted");
     }
+    if (!IsUtf8(name)) Refuse(element, std::string(attribute) + " is no UTF-8");
     if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
       Refuse(element, std::string(attribute) + " holds a control character");
     }
@@ -289,10 +295,8 @@ UrdfDocument CheckUrdfText(const std::string& path, const std::string& text) {
   RequireSafeXml(path, text);
   tinyxml2::XMLDocument xml;
   if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    const bool deep = xml.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    throw Failure(ExitCode::kUsage, path + ":" + std::to_string(xml.ErrorLineNum()) + ": is no XML: " +
-                                        (deep ? "elements are nested deeper than 100"
-                                              : tinyxml2::XMLDocument::ErrorIDToName(xml.ErrorID())));
+    throw Failure(ExitCode::kUsage, path + ":" + std::to_string(xml.ErrorLineNum()) +
+                                        ": is no XML: " + tinyxml2::XMLDocument::ErrorIDToName(xml.ErrorID()));
   }
   UrdfDocument document;
   document.path = path;

@@ -12,6 +12,8 @@ constexpr size_t kMaxUrdfBytes = size_t{4} << 20;
 constexpr size_t kMaxUrdfTags = 100000;    // start and end tags, comments
 constexpr size_t kMaxUrdfAttributes = 64;  // of a tag; parsers take a time that grows with their square
 constexpr size_t kMaxUrdfLinks = 1000;     // and as many joints
+// Elements within each other, the root included. Below the limit of every version of the parser.
+constexpr int kMaxUrdfDepth = 64;
 // The largest number that any attribute may have, in its unit.
 constexpr double kMaxUrdfNumber = 1e9;
 
@@ -30,10 +32,11 @@ struct UrdfDocument {
 std::string ReadUrdfBytes(const std::string& path);
 
 // Checks the text of a file; `path` is for messages. Opens no file and no address that it names. Throws Failure(kUsage)
-// with file, line, element and reason for: a text that exceeds a bound; no XML; a document type declaration, which
-// could define entities; elements nested deeper than 100; no <robot>; missing, doubled or overlong names (256 bytes);
-// unknown parents and children, links with two parents, cycles, several roots; joints without limits that need them;
-// numbers that are missing, no numbers, not finite or beyond kMaxUrdfNumber.
+// with file, element and reason, and the line where the text itself is wrong, for: a text that exceeds a bound; no XML;
+// a document type declaration, which could define entities; no <robot>; names that are missing, doubled, overlong
+// (256 bytes), no UTF-8 or hold control characters; unknown parents and children, links with two parents, cycles,
+// several roots; joints without limits that need them; numbers that are missing, no numbers, not finite or beyond
+// kMaxUrdfNumber.
 UrdfDocument CheckUrdfText(const std::string& path, const std::string& text);
 
 }  // namespace rollgait::client

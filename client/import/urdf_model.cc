@@ -1,6 +1,7 @@
 #include "client/import/urdf_model.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -47,6 +48,7 @@ class ModelMaker {
   }
 
   UrdfModel Make() {
+    RequireOneBase();
     AddBase();
     for (const UrdfJoint& joint : tree_.joints) AddUrdfJoint(joint);
     AddMasses();
@@ -78,12 +80,43 @@ class ModelMaker {
   void RequireName(const std::string& what, const std::string& name) const {
     const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
     if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), allowed)) return;
-    throw Failure(ExitCode::kUsage, tree_.document.path + ": the " + what + " \"" + name.substr(0, 80) +
+    throw Failure(ExitCode::kUsage, tree_.document.path + ": the " + what + " \"" + name +
                                         "\" must be 1 to 64 letters, digits, \"_\", \"-\" or \".\"; rename it");
   }
 
   Carried& Of(int link) { return carried_[static_cast<size_t>(link)]; }
   const UrdfLink& Link(int link) const { return tree_.links[static_cast<size_t>(link)]; }
+
+  // What is not behind the floating joint, if there is one, is the world: it must not weigh nor move.
+  void RequireOneBase() const {
+    const UrdfJoint* base = nullptr;
+    std::vector<bool> behind(tree_.links.size());
+    for (const UrdfJoint& joint : tree_.joints) {
+      const bool floats = joint.type == UrdfJoint::Type::kFloating;
+      if (floats && base != nullptr) {
+        Refuse(joint, "is floating, and so is joint \"" + base->name +
+                          "\"; a model has one floating base: make this joint fixed, or remove it");
+      }
+      if (floats) base = &joint;
+      behind[static_cast<size_t>(joint.child)] = floats || behind[static_cast<size_t>(joint.parent)];
+    }
+    if (base == nullptr) return;
+    if (Link(tree_.root).mass.mass > 0 || HasOwnBase(side_, tree_)) {
+      Refuse(*base,
+             "a floating joint must be the first of the tree, below links without mass: it is the floating base");
+    }
+    for (const UrdfJoint& joint : tree_.joints) {
+      if (behind[static_cast<size_t>(joint.child)]) continue;
+      const std::string where = "is not behind the floating joint \"" + base->name + "\", so it is part of the world";
+      if (joint.type != UrdfJoint::Type::kFixed && !Said(joint.name).locked()) {
+        Refuse(joint, where + ", which does not move; remove it, or lock it in the side file: \"locked\": true");
+      }
+      if (Link(joint.child).mass.mass > 0) {
+        Refuse(joint, where + ", but its link \"" + Link(joint.child).name + "\" has a mass of " +
+                          FormatNumber(Link(joint.child).mass.mass) + " kg; remove it, or its mass");
+      }
+    }
+  }
 
   // The base that the URDF does not have; its last joint carries the root link.
   void AddBase() {
@@ -126,10 +159,6 @@ class ModelMaker {
     const Carried& parent = Of(joint.parent);
     const Pose frame = Compose(Compose(parent.place, joint.origin), MotionOf(joint, said.reference()));
     const bool floats = joint.type == UrdfJoint::Type::kFloating;
-    if (floats && (result_.model.joints_size() > 6 || !IsMassless(joint.parent) || HasOwnBase(side_, tree_))) {
-      Refuse(joint,
-             "a floating joint must be the first of the tree, below links without mass: it is the floating base");
-    }
     if (floats) {
       result_.read.push_back("joint \"" + joint.name + "\" is the floating base, \"" + Link(joint.child).name +
                              "\" its link");
@@ -149,14 +178,13 @@ class ModelMaker {
       Refuse(joint, "is planar, which a model does not have; lock it in the side file: \"locked\": true");
     }
     if (!joint.mimics.empty()) {
-      Refuse(joint, "mimics \"" + joint.mimics.substr(0, 64) +
+      Refuse(joint, "mimics \"" + joint.mimics +
                         "\", which a model cannot express; lock it in the side file: \"locked\": true");
     }
     v1::Joint& to = *result_.model.add_joints();
     to.set_parent(parent.joint);
     Of(joint.child) = {result_.model.joints_size() - 1, Carried().place};
     RequireName("joint", joint.name);
-    RequireName("link", Link(joint.child).name);
     to.set_name(joint.name);
     to.set_link_name(Link(joint.child).name);
     to.set_type(joint.type == UrdfJoint::Type::kPrismatic ? v1::Joint::TYPE_PRISMATIC : v1::Joint::TYPE_REVOLUTE);
@@ -167,21 +195,6 @@ class ModelMaker {
     to.set_side(said.side());
     to.set_passive(said.passive());
     SetLimits(tree_, joint, side_path_, said, &to, &result_);
-  }
-
-  bool IsMassless(int link) const {
-    const auto weightless = [&](int at) { return Link(at).mass.mass == 0; };
-    // What is between the world and the floating joint are the links before it in the tree.
-    for (; link != tree_.root;) {
-      if (!weightless(link)) return false;
-      for (const UrdfJoint& joint : tree_.joints) {
-        if (joint.child == link) {
-          link = joint.parent;
-          break;
-        }
-      }
-    }
-    return weightless(tree_.root);
   }
 
   void AddMasses() {
@@ -201,6 +214,7 @@ class ModelMaker {
     for (int i = 0; i < result_.model.joints_size(); ++i) {
       const UrdfMass mass = Lump(parts[static_cast<size_t>(i)]);
       v1::Joint& joint = *result_.model.mutable_joints(i);
+      RequireName("link", joint.link_name());
       const Eigen::Vector3d moments = PrincipalMoments(mass);
       if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6)) {
         throw Failure(ExitCode::kUsage,
@@ -276,8 +290,7 @@ class ModelMaker {
     if (side_.name().empty()) RequireName("name of the robot", name);
     model.mutable_summary()->set_name(name);
     model.mutable_summary()->set_description(
-        side_.description().empty() ? "Robot " + tree_.document.robot.substr(0, 200) + ", read from a URDF."
-                                    : side_.description());
+        side_.description().empty() ? "Robot " + tree_.document.robot + ", read from a URDF." : side_.description());
     model.set_leg_length_m(side_.leg_length_m());
     *model.mutable_sources() = side_.sources();
     model.add_sources("URDF " + std::filesystem::path(tree_.document.path).filename().string() + " with side file " +

@@ -22,7 +22,8 @@ struct UrdfModel {
 // is also a line of Model.sources. `side_path` is for messages; `side` has passed CheckSideFile.
 // Throws Failure(kUsage) with file, element and reason for: joints that a model does not have and that are not locked;
 // a reference out of range; actuated joints without limits; links with mass that no joint of the base carries;
-// a floating joint behind another; names that Model does not accept.
+// a second floating joint; joints that move and links with mass that are not behind the floating joint; names that
+// Model does not accept.
 UrdfModel ModelOfUrdf(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side);
 
 // The same of two files.

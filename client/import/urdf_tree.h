@@ -35,13 +35,13 @@ struct UrdfLink {
 struct UrdfJoint {
   enum class Type { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
   std::string name;
-  Type type;
-  int parent, child;        // indices of links
-  Pose origin;              // joint frame -> parent's link frame
-  Eigen::Vector3d axis;     // unit, joint frame; zero of fixed and floating joints
-  double lower, upper;      // rad or m, lower < upper; of revolute and prismatic joints
-  double effort, velocity;  // N m or N, rad/s or m/s; >= 0, 0 if the file has none
-  std::string mimics;       // name of the joint whose position this one takes; empty: none
+  Type type = Type::kFixed;
+  int parent = -1, child = -1;                                        // indices of links
+  Pose origin{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};  // joint frame -> parent's link frame
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, joint frame; zero of fixed and floating joints
+  double lower = 0, upper = 0;                     // rad or m, lower < upper; of revolute and prismatic joints
+  double effort = 0, velocity = 0;                 // N m or N, rad/s or m/s; >= 0, 0 if the file has none
+  std::string mimics;                              // name of the joint whose position this one takes; empty: none
 };
 
 struct UrdfTree {
@@ -49,7 +49,7 @@ struct UrdfTree {
   std::vector<UrdfLink> links;
   // In the order of the file as far as parents come first.
   std::vector<UrdfJoint> joints;
-  int root;  // index of the link that is no child
+  int root = -1;  // index of the link that is no child
 
   // Index of a link or joint by name, or -1.
   int FindLink(const std::string& name) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "client/failure.h"
 #include "client/import/urdf_document.h"
@@ -15,8 +16,15 @@ size_t BehindNext(const std::string& text, const char* end, size_t from) {
   return found == std::string::npos ? text.size() : found + std::strlen(end);
 }
 
-// The place of the first tag with more attributes than are accepted, or npos. Attributes are counted by their quotes.
-size_t FindCrowdedTag(const std::string& text) {
+struct Excess {
+  size_t place;  // of the tag
+  std::string reason;
+};
+
+// The first tag with more attributes, or within more elements, than are accepted. Attributes are counted by their
+// quotes; a start tag opens an element unless it ends with "/>".
+std::optional<Excess> FindExcess(const std::string& text) {
+  int depth = 0;
   for (size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
     if (text.compare(at, 4, "<!--") == 0) {
       at = BehindNext(text, "-->", at + 4);
@@ -26,15 +34,23 @@ size_t FindCrowdedTag(const std::string& text) {
       at = BehindNext(text, "?>", at + 2);
     } else {
       const size_t start = at;
+      const bool ends = text.compare(at, 2, "</") == 0;
       size_t attributes = 0;
       while (++at < text.size() && text[at] != '>') {
         if (text[at] != '"' && text[at] != '\'') continue;
         at = std::min(text.find(text[at], at + 1), text.size());
-        if (++attributes > kMaxUrdfAttributes) return start;
+        if (++attributes > kMaxUrdfAttributes) {
+          return Excess{start, "a tag has more than " + std::to_string(kMaxUrdfAttributes) + " attributes"};
+        }
+      }
+      if (ends) {
+        depth = std::max(0, depth - 1);
+      } else if (text[std::min(at, text.size()) - 1] != '/' && ++depth > kMaxUrdfDepth) {
+        return Excess{start, "elements are nested deeper than " + std::to_string(kMaxUrdfDepth)};
       }
     }
   }
-  return std::string::npos;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -59,9 +75,8 @@ void RequireSafeXml(const std::string& path, const std::string& text) {
     throw Failure(ExitCode::kUsage,
                   line_of(at) + ": has a document type or entity declaration; a URDF needs none, remove it");
   }
-  if (const size_t at = FindCrowdedTag(text); at != std::string::npos) {
-    throw Failure(ExitCode::kUsage,
-                  line_of(at) + ": a tag has more than " + std::to_string(kMaxUrdfAttributes) + " attributes");
+  if (const std::optional<Excess> excess = FindExcess(text)) {
+    throw Failure(ExitCode::kUsage, line_of(excess->place) + ": " + excess->reason);
   }
 }
 

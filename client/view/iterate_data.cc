@@ -38,7 +38,7 @@ void RequireWhole(const v1::Iterate& iterate) {
     const v1::Iterate::Phase& phase = iterate.phases(p);
     const std::string path = "phases[" + std::to_string(p) + "].";
     RequireFit(phase.times_s_size() >= 2, path + "times_s must have at least 2 values");
-    const int values = phase.times_s_size() * iterate.joint_names_size();
+    const int64_t values = int64_t{phase.times_s_size()} * iterate.joint_names_size();
     RequireFit(phase.positions_size() == values, path + "positions must have " + std::to_string(values) + " values");
   }
 }

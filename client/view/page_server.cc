@@ -1,15 +1,23 @@
 #include "client/view/page_server.h"
 
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/random.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <charconv>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -103,6 +111,28 @@ void KeepPort(int socket) {
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
+// Ends the connections of this process to 127.0.0.1:port, whatever a thread is waiting for on them: the library waits
+// for each byte anew, and does not tell which connections it has accepted. Without /proc they end when their peers let
+// them.
+void EndConnections(int port) {
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    const std::string name = entry->path().filename().string();
+    int number = -1;
+    std::from_chars(name.data(), name.data() + name.size(), number);
+    const int socket = fcntl(number, F_DUPFD_CLOEXEC, 0);  // stays what it is while its owner closes the number
+    if (socket < 0) continue;
+    sockaddr_in own{};
+    socklen_t size = sizeof own;
+    if (getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size) == 0 && own.sin_family == AF_INET &&
+        own.sin_addr.s_addr == htonl(INADDR_LOOPBACK) && ntohs(own.sin_port) == port) {
+      shutdown(socket, SHUT_RDWR);
+    }
+    close(socket);
+  }
+}
+
 void Refuse(httplib::Response& response, int status, const std::string& reason) {
   response.status = status;
   response.set_content(reason + "\n", "text/plain; charset=utf-8");
@@ -132,6 +162,7 @@ class PageServer::Implementation {
     thread_ = std::thread([this] {
       server_.listen_after_bind();
       stopping_ = true;
+      through_ = true;
     });
     while (!server_.is_running() && !stopping_)
       std::this_thread::sleep_for(milliseconds(1));  // before that it cannot be stopped
@@ -140,10 +171,20 @@ class PageServer::Implementation {
   ~Implementation() {
     stopping_ = true;
     server_.stop();
+    while (!through_) {
+      EndConnections(port_);
+      std::this_thread::sleep_for(milliseconds(20));
+    }
     thread_.join();
   }
 
   std::string url() const { return "http://127.0.0.1:" + std::to_string(port_) + path_; }
+
+  std::string MakeUrlForOneUse() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    path_for_one_use_ = "/" + RandomToken() + "/";
+    return "http://127.0.0.1:" + std::to_string(port_) + path_for_one_use_;
+  }
 
  private:
   void Answer(const httplib::Request& request, httplib::Response& response) {
@@ -151,16 +192,24 @@ class PageServer::Implementation {
     response.set_header("Referrer-Policy", "no-referrer");
     response.set_header("Cache-Control", "no-store");
     response.set_header("Cross-Origin-Resource-Policy", "same-origin");
-    const std::string host = request.get_header_value("Host"), port = std::to_string(port_);
-    if (host != "127.0.0.1:" + port && host != "localhost:" + port) {
-      return Refuse(response, 403, "This server answers requests to 127.0.0.1:" + port + " only.");
+    if (!NamesServer(request.get_header_value("Host"), port_)) {
+      return Refuse(response, 403, "This server answers requests to 127.0.0.1:" + std::to_string(port_) + " only.");
     }
+    if (request.method == "GET" && IsForOneUse(request.path)) return response.set_redirect(path_, 303);
     if (request.path != path_ && request.path != path_ + "events") {
       return Refuse(response, 404, "There is no such page; use the address that rollgait view has printed.");
     }
     if (request.method != "GET") return Refuse(response, 405, "Only GET is answered.");
     if (request.path == path_) return SendPage(response);
     SendEvents(response);
+  }
+
+  // True once.
+  bool IsForOneUse(const std::string& path) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (path_for_one_use_.empty() || path != path_for_one_use_) return false;
+    path_for_one_use_.clear();
+    return true;
   }
 
   // Piece by piece, since the library would compress a whole text, for a second.
@@ -211,10 +260,19 @@ class PageServer::Implementation {
   const std::string path_;
   int port_ = -1;
   std::atomic<int> streams_{0};
-  std::atomic<bool> stopping_{false};
+  std::atomic<bool> stopping_{false}, through_{false};
+  std::mutex mutex_;
+  std::string path_for_one_use_;  // empty: none
   httplib::Server server_;
   std::thread thread_;
 };
+
+bool NamesServer(const std::string& host, int port) {
+  for (const std::string name : {"127.0.0.1", "localhost"}) {
+    if (host == name + ":" + std::to_string(port) || (port == 80 && host == name)) return true;
+  }
+  return false;
+}
 
 PageServer::PageServer(int port, MakePage make_page, LiveFeed& feed)
     : implementation_(std::make_unique<Implementation>(port, std::move(make_page), feed)) {}
@@ -222,5 +280,6 @@ PageServer::PageServer(int port, MakePage make_page, LiveFeed& feed)
 PageServer::~PageServer() = default;
 
 std::string PageServer::url() const { return implementation_->url(); }
+std::string PageServer::MakeUrlForOneUse() { return implementation_->MakeUrlForOneUse(); }
 
 }  // namespace rollgait::client

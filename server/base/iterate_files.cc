@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 namespace rollgait::server {
 namespace {
@@ -59,8 +60,9 @@ void IterateFiles::Remove(const std::string& solve_id) const {
 std::vector<std::string> IterateFiles::Owners() const {
   std::vector<std::string> ids;
   std::error_code failure;  // no directory: no owners
-  for (const auto& entry : std::filesystem::directory_iterator(directory_, failure)) {
-    const std::string id = entry.path().stem().string();
+  for (std::filesystem::directory_iterator entry(directory_, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    const std::string id = entry->path().stem().string();
     if (ids.empty() || ids.back() != id) ids.push_back(id);
   }
   return ids;

@@ -46,6 +46,19 @@ TEST(TextTest, TablesCountCharactersNotBytes) {
   EXPECT_EQ(FormatTable({{"a°", "1", "x"}, {"bcd", "22"}}, "lr"), "a°    1  x\nbcd  22\n");
 }
 
+TEST(TextTest, Utf8IsStrict) {
+  for (const char* good : {"", "knee", "Hüfte", "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"}) EXPECT_TRUE(IsUtf8(good)) << good;
+  for (const char* bad : {"\xff",
+                          "H\xfc"
+                          "fte",
+                          "\x80", "\xc3", "\xe2\x82", "\xc0\xaf", "\xe0\x80\xaf", "\xf0\x80\x80\xaf", "\xed\xa0\x80",
+                          "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80"}) {
+    EXPECT_FALSE(IsUtf8(bad)) << testing::PrintToString(std::string(bad));
+  }
+}
+
+TEST(TextTest, ControlCharactersAreReplaced) { EXPECT_EQ(WithoutControls("a\x1b[31m\n\x7f\tü"), "a?[31m???ü"); }
+
 TEST(ProgressTest, IterationsFitTheirHeader) {
   v1::Iteration iteration;
   iteration.set_index(12345);

@@ -106,6 +106,6 @@ take("end", () => {
   location.reload();
 });
 events.addEventListener("error", () => {
-  if (events.readyState === EventSource.CLOSED) status.textContent = "rollgait view does not answer any more.";
+  if (events.readyState === EventSource.CLOSED) status.textContent = "rollgait view does not answer, or four pages follow the solve already.";
   else status.textContent = "The connection to rollgait view is lost; trying again.";
 });

@@ -113,15 +113,23 @@ TEST_F(ViewCommandTest, OpensThePageIfAsked) {
   Start({"planar", "--open"});
   EXPECT_TRUE(view_->WaitForError("xdg-open cannot be started (No such file or directory); open the address"));
   EXPECT_EQ(Interrupt(), 0);
-  std::ofstream(program) << "#!/bin/sh\nprintf %s \"$1\" > " << opened << ".new && /bin/mv " << opened << ".new "
-                         << opened << "\n";
+  std::ofstream(program) << "#!/bin/sh\necho noise\n{ printf '%s\\n' \"$1\"; /bin/grep SigIgn /proc/$$/status; } > "
+                         << opened << ".new && /bin/mv " << opened << ".new " << opened << "\n";
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   Start({"planar", "--open"});
   for (int i = 0; i < 3000 && !std::filesystem::exists(opened); ++i) usleep(10'000);
-  std::string url;
-  std::ifstream(opened) >> url;
-  EXPECT_EQ(url + "\n", view_->out());
+  std::string url, title, mask;
+  std::ifstream(opened) >> url >> title >> mask;
+  EXPECT_THAT(url, StartsWith("http://127.0.0.1:" + std::to_string(port_) + "/"));
+  EXPECT_THAT(url, testing::Not(HasSubstr(path_))) << "other users can read what a program is started with";
+  const httplib::Result first = Client().Get(url.substr(url.find('/', 7)));
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->status, 303);
+  EXPECT_EQ(first->get_header_value("Location"), path_);
+  ASSERT_EQ(title, "SigIgn:");
+  EXPECT_EQ(std::stoull(mask, nullptr, 16) >> (SIGPIPE - 1) & 1, 0u) << mask;
   EXPECT_EQ(Interrupt(), 0);
+  EXPECT_THAT(view_->out(), testing::Not(HasSubstr("noise")));
   EXPECT_EQ(setenv("PATH", path.c_str(), 1), 0);
   std::filesystem::remove_all(folder);
 }

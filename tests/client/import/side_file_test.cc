@@ -79,6 +79,18 @@ TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
        "every component must be within ±10 m"},
       {[](v1::ModelSideFile& s) { s.mutable_base_orientation()->set_w(2); },
        "baseOrientation is a quaternion of length 2"},
+      {[](v1::ModelSideFile& s) {
+         s.mutable_joints(0)->set_role(v1::Joint::ROLE_BASE_PITCH);
+         s.mutable_base_orientation()->set_w(1);
+       },
+       "baseOrientation must not be given where joints of the URDF have base roles"},
+      {[](v1::ModelSideFile& s) {
+         s.mutable_joints(0)->set_role(v1::Joint::ROLE_BASE_PITCH);
+         s.mutable_base_position_m()->set_z(0.9);
+       },
+       "basePositionM must not be given where joints of the URDF have base roles"},
+      {[](v1::ModelSideFile& s) { s.mutable_joints(0)->set_name("hip\x1b[2J\n\x7f"); },
+       "joints[0].name \"hip?[2J??\" is no joint of x.urdf"},
       {[](v1::ModelSideFile& s) { s.set_leg_length_m(900); }, "legLengthM is 900 m; must be in [0.05, 3] m"},
   };
   for (const auto& [damage, says] : kCases) {

@@ -215,6 +215,8 @@ TEST(UrdfModelTest, SaysWhatAModelCannotHave) {
   side.mutable_joints(1)->set_reference(2.5);
   EXPECT_THAT(RefusalOf(kTwistedRobot, side), HasSubstr("its reference in x.json is 2.5, out of its range -1 to 2"));
   side = good;
+  side.clear_base_orientation();
+  side.clear_base_position_m();
   side.mutable_joints(1)->set_role(v1::Joint::ROLE_BASE_PITCH);
   EXPECT_THAT(RefusalOf(kTwistedRobot, side), HasSubstr("<link name=\"base\">: has mass, but no joint of the base"));
   side = good;
@@ -223,14 +225,62 @@ TEST(UrdfModelTest, SaysWhatAModelCannotHave) {
               HasSubstr("the name of the robot \"my robot\" must be 1 to 64 letters"));
 }
 
+// The robot on a floating joint, with something beside it.
+std::string Floating(const std::string& beside) {
+  return With("<link name=\"camera\"/>",
+              "<link name=\"camera\"/><link name=\"world\"/><joint name=\"free\" type=\"floating\">"
+              "<parent link=\"world\"/><child link=\"base\"/><origin xyz=\"0 0 1\"/></joint>" +
+                  beside);
+}
+
 TEST(UrdfModelTest, AFloatingJointAtTheRootIsTheBase) {
-  const std::string urdf = With("<link name=\"camera\"/>",
-                                "<link name=\"camera\"/><link name=\"world\"/><joint name=\"free\" type=\"floating\">"
-                                "<parent link=\"world\"/><child link=\"base\"/><origin xyz=\"0 0 1\"/></joint>");
-  const UrdfModel urdf_model = ModelOfUrdf(ReadUrdfText("x.urdf", urdf), "x.json", TwistedSide());
+  const UrdfModel urdf_model = ModelOfUrdf(ReadUrdfText("x.urdf", Floating("")), "x.json", TwistedSide());
   EXPECT_EQ(urdf_model.model.joints_size(), 9);
   EXPECT_EQ(urdf_model.model.joints(5).link_name(), "base");
   EXPECT_THAT(urdf_model.read, Contains(HasSubstr("joint \"free\" is the floating base")));
+}
+
+TEST(UrdfModelTest, BesideTheFloatingJointNothingWeighsOrMoves) {
+  const auto beside = [](const std::string& type, const std::string& link) {
+    return Floating("<link name=\"door\">" + link + "</link><joint name=\"hinge\" type=\"" + type +
+                    "\"><parent link=\"world\"/><child link=\"door\"/><axis xyz=\"0 0 1\"/></joint>");
+  };
+  const std::string mass =
+      "<inertial><mass value=\"7\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>";
+  v1::ModelSideFile side = TwistedSide();
+  EXPECT_EQ(RefusalOf(beside("fixed", ""), side), "accepted");
+  EXPECT_THAT(
+      RefusalOf(beside("fixed", mass), side),
+      HasSubstr("<joint name=\"hinge\">: is not behind the floating joint \"free\", so it is part of the world, "
+                "but its link \"door\" has a mass of 7 kg"));
+  EXPECT_THAT(
+      RefusalOf(beside("continuous", ""), side),
+      HasSubstr("<joint name=\"hinge\">: is not behind the floating joint \"free\", so it is part of the world, "
+                "which does not move"));
+  EXPECT_THAT(
+      RefusalOf(beside("floating", mass), side),
+      HasSubstr("<joint name=\"hinge\">: is floating, and so is joint \"free\"; a model has one floating base"));
+  side.set_base(v1::ModelSideFile::BASE_PLANE);
+  EXPECT_THAT(RefusalOf(beside("continuous", ""), side), HasSubstr("which does not move"));
+  AddSideJoint("hinge", &side)->set_locked(true);
+  EXPECT_EQ(RefusalOf(beside("continuous", ""), side), "accepted");
+  EXPECT_THAT(RefusalOf(beside("continuous", mass), side), HasSubstr("has a mass of 7 kg"));
+}
+
+TEST(UrdfModelTest, NamesOfLinksAreChecked) {
+  for (std::string urdf : {std::string(kTwistedRobot), Floating("")}) {
+    for (size_t at = 0; (at = urdf.find("\"base\"", at)) != std::string::npos;) urdf.replace(at, 6, "\"the base\"");
+    EXPECT_THAT(RefusalOf(urdf, TwistedSide()), HasSubstr("the link \"the base\" must be 1 to 64 letters"));
+  }
+}
+
+TEST(UrdfModelTest, ALongNameOfTheRobotStaysUtf8) {
+  std::string name = "x";
+  for (int i = 0; i < 120; ++i) name += "ü";
+  v1::ModelSideFile side = TwistedSide();
+  side.set_name("twisted");
+  const UrdfTree tree = ReadUrdfText("x.urdf", With("robot name=\"twisted\"", "robot name=\"" + name + "\""));
+  EXPECT_EQ(ModelOfUrdf(tree, "x.json", side).model.summary().description(), "Robot " + name + ", read from a URDF.");
 }
 
 }  // namespace

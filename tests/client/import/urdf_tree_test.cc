@@ -58,10 +58,15 @@ std::vector<Broken> BrokenFiles() {
       {"ExternalEntity", "<!DOCTYPE r SYSTEM \"http://127.0.0.1/evil.dtd\">" + good, "document type"},
       {"MillionLinks", Robot(std::string(1000000, '<')), "at most 100000 are accepted"},
       {"ThousandAndOneLinks", Robot(many), "<link name=\"l1000\">: is one of more than 1000"},
-      {"Deep", Robot(deep), "nested deeper than 100"},
+      {"Deep", Robot(deep), "x.urdf:2: elements are nested deeper than 64"},
       {"ZeroByte", Robot(std::string("<link name=\"a\"/>") + '\0'), "holds a zero byte"},
       {"NoName", Robot("<link/>"), "<link> of <robot name=\"r\">: needs the attribute name"},
       {"LongName", Robot("<link name=\"" + std::string(5000, 'n') + "\"/>"), "name has 5000 bytes"},
+      {"NoUtf8", Robot("<link name=\"a\xff\"/>"), "x.urdf:2: <link>: name is no UTF-8"},
+      {"Surrogate", Robot("<link name=\"&#xD800;\"/>"), "name is no UTF-8"},
+      {"CutCharacter", Replaced(good, "parent link=\"a\"", "parent link=\"\xc3\""),
+       "<parent> of <joint name=\"j\">: link is no UTF-8"},
+      {"ControlCharacters", Replaced(good, "revolute", "ball\x1b[2J\x7f"), "type \"ball?[2J?\" is unknown"},
       {"SameLinkTwice", Robot("<link name=\"a\"/><link name=\"a\"/>"), "<link name=\"a\">: the name is used twice"},
       {"SameJointTwice", Robot(std::string(kLinks) + kGoodJoint + kGoodJoint),
        "<joint name=\"j\">: the name is used twice"},
@@ -146,6 +151,18 @@ TEST(UrdfTreeTest, LargeFilesTakeBoundedMemory) {
   EXPECT_EQ(tree.links.size(), 1u);
   EXPECT_THAT(tree.document.left_out, testing::ElementsAre("elements that are not part of a body: <t>"));
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 150 * 1024) << "kB";
+}
+
+TEST(UrdfTreeTest, DepthCountsOpenElementsOnly) {
+  const auto nested = [](int depth) {
+    std::string text = "<link name=\"a\"/>";
+    for (int i = 0; i < 200; ++i) text += "<x></x><x/><x a='/'/>";
+    for (int i = 1; i < depth; ++i) text += "<x>";
+    for (int i = 1; i < depth; ++i) text += "</x>";
+    return Robot(text);
+  };
+  EXPECT_EQ(ReadUrdfText("x.urdf", nested(kMaxUrdfDepth)).links.size(), 1u);
+  EXPECT_THROW(ReadUrdfText("x.urdf", nested(kMaxUrdfDepth + 1)), Failure);
 }
 
 TEST(UrdfTreeTest, AFileThatIsTooLargeIsNotParsed) {

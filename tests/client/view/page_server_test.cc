@@ -1,9 +1,14 @@
 #include "client/view/page_server.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -79,6 +84,28 @@ TEST_F(PageServerTest, RefusesOtherHostsPathsAndMethods) {
   EXPECT_EQ(Client().Delete(Path())->status, 405);
 }
 
+TEST(PageServerHostTest, ClientsLeavePort80Out) {
+  EXPECT_TRUE(NamesServer("127.0.0.1", 80));
+  EXPECT_TRUE(NamesServer("localhost", 80));
+  EXPECT_TRUE(NamesServer("localhost:80", 80));
+  EXPECT_FALSE(NamesServer("localhost", 8080));
+  EXPECT_FALSE(NamesServer("evil.example", 80));
+  EXPECT_FALSE(NamesServer("", 80));
+}
+
+TEST_F(PageServerTest, AnAddressForOneUseLeadsToThePageOnce) {
+  const std::string url = server_.MakeUrlForOneUse(), path = url.substr(url.find('/', 7));
+  EXPECT_THAT(url, HasSubstr(server_.url().substr(0, server_.url().find('/', 7))));
+  EXPECT_THAT(path, Not(HasSubstr(Path().substr(1, 32))));
+  EXPECT_EQ(Client().Get(path, {{"Host", "evil.example"}})->status, 403);
+  const httplib::Result first = Client().Get(path);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->status, 303);
+  EXPECT_EQ(first->get_header_value("Location"), Path());
+  EXPECT_EQ(Client().Get(path)->status, 404);
+  EXPECT_EQ(Client().Get(Path())->status, 200);
+}
+
 TEST_F(PageServerTest, TellsTheEventsOfTheFeedToTheirEnd) {
   feed_.SetState("runs");
   std::thread ending([this] {
@@ -133,6 +160,36 @@ TEST_F(PageServerTest, APortIsTakenOnce) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
     EXPECT_THAT(failure.what(), HasSubstr("--port " + std::to_string(Port()) + ": the port is in use"));
   }
+}
+
+// The library would wait five seconds for each byte of each of them.
+TEST(PageServerEndTest, EndsWhileConnectionsTrickle) {
+  LiveFeed feed;
+  auto server = std::make_unique<PageServer>(
+      0, [](const std::string&) { return std::string(); }, feed);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<uint16_t>(std::stoi(server->url().substr(sizeof("http://127.0.0.1:") - 1))));
+  std::vector<int> sockets;
+  for (int i = 0; i < 20; ++i) {
+    sockets.push_back(socket(AF_INET, SOCK_STREAM, 0));
+    ASSERT_EQ(connect(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  }
+  std::atomic<bool> ended{false};
+  std::thread trickle([&] {
+    for (int i = 0; i < 30 && !ended; ++i) {
+      for (const int one : sockets) send(one, "G", 1, MSG_NOSIGNAL);
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto start = std::chrono::steady_clock::now();
+  server.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  ended = true;
+  trickle.join();
+  for (const int one : sockets) close(one);
 }
 
 TEST(PageServerEndTest, EndsWhileAStreamIsOpenAndAPageThatFailsSaysWhy) {
