@@ -1,7 +1,5 @@
 #include "tests/client/fake_gait_service.h"
 
-#include <google/rpc/error_details.pb.h>
-#include <google/rpc/status.pb.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
@@ -9,29 +7,15 @@
 #include <cmath>
 #include <ctime>
 #include <iterator>
+#include <utility>
 
 #include "tests/client/fake_filter.h"
+#include "tests/client/fake_status.h"
 #include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
 namespace rollgait::client {
 namespace {
-
-grpc::Status NotFound(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "no solve is called " + name}; }
-
-grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& violations) {
-  google::rpc::BadRequest details;
-  for (const auto& [field, description] : violations) {
-    auto* const violation = details.add_field_violations();
-    violation->set_field(field);
-    violation->set_description(description);
-  }
-  google::rpc::Status rich;
-  rich.set_code(static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
-  rich.set_message("the request is not valid");
-  rich.add_details()->PackFrom(details);
-  return {grpc::StatusCode::INVALID_ARGUMENT, rich.message(), rich.SerializeAsString()};
-}
 
 v1::SolveEvent NewEvent(const std::string& name, int64_t sequence) {
   v1::SolveEvent event;
@@ -90,6 +74,10 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
 grpc::Status FakeGaitService::BatchCreateSolves(grpc::ServerContext*, const v1::BatchCreateSolvesRequest* request,
                                                 v1::BatchCreateSolvesResponse* response) {
   std::lock_guard<std::mutex> lock(mutex_);
+  if (busy_s_ > 0) return Busy(std::exchange(busy_s_, 0));
+  if (request->requests_size() > batch_limit_) {
+    return {grpc::StatusCode::INVALID_ARGUMENT, "requests[0].spec makes it too long; send it in several batches"};
+  }
   for (const v1::CreateSolveRequest& one : request->requests()) {
     const auto known = by_request_id_.find(one.request_id());
     if (known != by_request_id_.end()) {
