@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/commands/commands.h"
+#include "client/commands/simulation_commands.h"
 #include "client/commands/sweep.h"
 
 namespace CLI {

@@ -5,6 +5,7 @@
 #include "client/command_line.h"
 #include "client/command_tree.h"
 #include "client/commands/commands.h"
+#include "client/commands/simulation_commands.h"
 #include "client/commands/sweep.h"
 #include "client/completion_scripts.h"
 #include "client/help_topics.h"

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "client/commands/scene_input.h"
 #include "client/connection.h"
 #include "client/failure.h"
 #include "client/list_filter.h"
@@ -128,24 +127,6 @@ struct ReproducePaperOptions {
 // Solves +10°, 0° and −10° one after the other and lays them beside the paper: a page, or with --json the data on
 // terminal.out. The exit code of the first solve that has no answer; Ctrl-C cancels the one that runs and ends.
 ExitCode RunReproducePaper(const ReproducePaperOptions& options, const GlobalOptions& global, const Terminal& terminal);
-
-struct SimulateOptions {
-  SceneInput scene;
-  std::string output;  // a .json file for the whole run as rollgait.v1.Simulation; empty: none
-  bool validate_only = false;
-  std::optional<double> max_wall_time_s;
-};
-// On terminal.out samples as comma separated values, or messages as JSON lines; events and the report on terminal.err.
-// kNoSolution if the simulation ended early. Ctrl-C ends it.
-ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global, const Terminal& terminal);
-
-struct PoincareOptions {
-  SceneInput scene;
-  std::optional<double> residual, max_wall_time_s;
-  std::optional<int> max_iterations;
-};
-// The periodic gait of a passive walker. kNoSolution if the search did not converge.
-ExitCode RunPoincare(const PoincareOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 // Success: the server says that it serves; kUnreachable: it does not, or says otherwise.
 ExitCode RunHealth(const GlobalOptions& global, const Terminal& terminal);

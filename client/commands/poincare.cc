@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "client/commands/commands.h"
 #include "client/commands/scene_input.h"
+#include "client/commands/simulation_commands.h"
 #include "client/interrupt.h"
 #include "client/json.h"
 #include "client/text.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "client/commands/commands.h"
 #include "client/commands/scene_input.h"
+#include "client/commands/simulation_commands.h"
 #include "client/commands/simulation_document.h"
 #include "client/failure.h"
 #include "client/interrupt.h"

@@ -10,12 +10,14 @@
 #include <utility>
 
 #include "tests/client/fake_filter.h"
-#include "tests/client/fake_status.h"
+#include "tests/client/fake_refusal.h"
 #include "tests/client/sample_accuracy.h"
 #include "tests/client/sample_solve.h"
 
 namespace rollgait::client {
 namespace {
+
+grpc::Status NotFound(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "no solve is called " + name}; }
 
 v1::SolveEvent NewEvent(const std::string& name, int64_t sequence) {
   v1::SolveEvent event;

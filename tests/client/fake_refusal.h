@@ -1,13 +1,18 @@
-#include "tests/client/fake_status.h"
+#ifndef ROLLGAIT_TESTS_CLIENT_FAKE_REFUSAL_H_
+#define ROLLGAIT_TESTS_CLIENT_FAKE_REFUSAL_H_
 
 #include <google/rpc/error_details.pb.h>
 #include <google/rpc/status.pb.h>
+#include <grpcpp/support/status.h>
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace rollgait::client {
 
-grpc::Status NotFound(const std::string& name) { return {grpc::StatusCode::NOT_FOUND, "no solve is called " + name}; }
-
-grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& violations) {
+// INVALID_ARGUMENT with violations, each a field and what is wrong with it, as the server answers.
+inline grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& violations) {
   google::rpc::BadRequest details;
   for (const auto& [field, description] : violations) {
     auto* const violation = details.add_field_violations();
@@ -21,7 +26,8 @@ grpc::Status Refusal(const std::vector<std::pair<std::string, std::string>>& vio
   return {grpc::StatusCode::INVALID_ARGUMENT, rich.message(), rich.SerializeAsString()};
 }
 
-grpc::Status Busy(int seconds) {
+// RESOURCE_EXHAUSTED that asks to try again after so many seconds.
+inline grpc::Status Busy(int seconds) {
   google::rpc::RetryInfo retry;
   retry.mutable_retry_delay()->set_seconds(seconds);
   google::rpc::Status rich;
@@ -31,3 +37,5 @@ grpc::Status Busy(int seconds) {
 }
 
 }  // namespace rollgait::client
+
+#endif  // ROLLGAIT_TESTS_CLIENT_FAKE_REFUSAL_H_
