@@ -15,6 +15,10 @@ namespace {
 constexpr std::pair<const char*, const char*> kDegreeFlags[] = {
     {"spec.slope_rad", "--slope"}, {"spec.accuracy.max_error.angle_rad", "--max-error angle"}};
 
+double Seconds(const google::rpc::RetryInfo& retry) {
+  return static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();
+}
+
 // The lines that the rich error adds to the message, each starting with a line feed.
 std::string Details(const grpc::Status& status) {
   google::rpc::Status rich;
@@ -33,8 +37,7 @@ std::string Details(const grpc::Status& status) {
         }
       }
     } else if (detail.UnpackTo(&retry)) {
-      const double seconds = static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();
-      text += "\n  the server asks to try again in " + FormatNumber(seconds, 3) + " s";
+      text += "\n  the server asks to try again in " + FormatNumber(Seconds(retry), 3) + " s";
     } else if (detail.UnpackTo(&quota)) {
       for (const auto& violation : quota.violations()) {
         text += "\n  " + violation.subject() + ": " + violation.description();
@@ -173,6 +176,16 @@ ExitCode ExitCodeOf(const v1::Solve& solve) {
 bool HasSolution(const v1::Solve& solve) {
   const ExitCode code = ExitCodeOf(solve);
   return code == ExitCode::kSuccess || code == ExitCode::kMissesBound;
+}
+
+std::optional<double> RetryDelay(const grpc::Status& status) {
+  google::rpc::Status rich;
+  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return std::nullopt;
+  for (const google::protobuf::Any& detail : rich.details()) {
+    google::rpc::RetryInfo retry;
+    if (detail.UnpackTo(&retry)) return Seconds(retry);
+  }
+  return std::nullopt;
 }
 
 std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {

@@ -4,6 +4,7 @@
 
 #include <grpcpp/support/status.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -49,6 +50,9 @@ bool HasSolution(const v1::Solve& solve);
 
 // Whose ranges and time limits a refusal speaks of.
 enum class CallKind { kSolve, kScene };
+
+// After how many seconds the server asks to try again; nullopt: it does not.
+std::optional<double> RetryDelay(const grpc::Status& status);
 
 // What went wrong and what to do next; several lines: one for each google.rpc.BadRequest violation ("field: message")
 // found in the status's details.

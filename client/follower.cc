@@ -1,5 +1,7 @@
 #include "client/follower.h"
 
+#include <memory>
+
 #include "client/failure.h"
 #include "client/stream_breaks.h"
 #include "client/text.h"
@@ -37,6 +39,11 @@ StreamEnd SolveFollower::ReadStream(const std::function<void(const v1::SolveEven
     if (stopped_) throw Failure(ExitCode::kCancelled, "");
     context_ = &context;
   }
+  // Also when a callback throws.
+  const std::shared_ptr<void> forget(nullptr, [this](void*) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    context_ = nullptr;
+  });
   v1::WatchSolveRequest request;
   request.set_name(name_);
   request.set_after_sequence(last_sequence_);
@@ -59,7 +66,6 @@ StreamEnd SolveFollower::ReadStream(const std::function<void(const v1::SolveEven
   const grpc::Status status = reader->Finish();
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    context_ = nullptr;
     if (finished) return {true, heard_, grpc::Status::OK};
     if (stopped_) throw Failure(ExitCode::kCancelled, "");
   }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -16,6 +18,7 @@
 #include "client/commands/follow.h"
 #include "client/interrupt.h"
 #include "client/output.h"
+#include "client/sweep/batches.h"
 #include "client/sweep/grid.h"
 #include "client/sweep/group_follower.h"
 #include "client/sweep/sweep_table.h"
@@ -25,8 +28,6 @@ namespace rollgait::client {
 namespace {
 
 constexpr char kLabel[] = "sweep";
-// Of one batch and of one stream; the server's limits are 256 and 4 MiB.
-constexpr size_t kMostAtOnce = 256, kMostBytesAtOnce = 3 << 20;
 constexpr int kMostAttempts = 100;  // of a point, with --again
 
 std::string Digest(const std::string& bytes) {
@@ -76,52 +77,14 @@ std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, SpecFlags fl
   return requests;
 }
 
-std::vector<v1::Solve> CreateBatch(Connection& connection, const v1::BatchCreateSolvesRequest& request) {
-  v1::BatchCreateSolvesResponse response;
-  grpc::Status status;
-  for (int attempt = 0; attempt < 2; ++attempt) {  // the request_ids make that safe
-    grpc::ClientContext context;
-    connection.SetDeadline(context);
-    status = connection.stub().BatchCreateSolves(&context, request, &response);
-    if (status.error_code() != grpc::StatusCode::UNAVAILABLE) break;
-  }
-  RequireOk(status, "create the solves", connection.server());
-  if (response.solves_size() != request.requests_size()) {
-    throw Failure(ExitCode::kInternal, "the server answered " + std::to_string(response.solves_size()) + " solves to " +
-                                           std::to_string(request.requests_size()) + " requests");
-  }
-  return {response.solves().begin(), response.solves().end()};
-}
-
-// The solves of the requests, in their order: made, or attached to.
-std::vector<v1::Solve> CreateAll(Connection& connection, const std::vector<v1::CreateSolveRequest>& requests) {
-  std::vector<v1::Solve> solves;
-  v1::BatchCreateSolvesRequest batch;
-  size_t bytes = 0;
-  const auto send = [&] {
-    if (batch.requests_size() == 0) return;
-    for (v1::Solve& solve : CreateBatch(connection, batch)) solves.push_back(std::move(solve));
-    batch.Clear();
-    bytes = 0;
-  };
-  for (const v1::CreateSolveRequest& request : requests) {
-    if (batch.requests_size() == static_cast<int>(kMostAtOnce) || bytes + request.ByteSizeLong() > kMostBytesAtOnce) {
-      send();
-    }
-    bytes += request.ByteSizeLong();
-    *batch.add_requests() = request;
-  }
-  send();
-  return solves;
-}
-
 bool EndedWithoutAnswer(const v1::Solve& solve) {
   return solve.state() == v1::SOLVE_STATE_FAILED || solve.state() == v1::SOLVE_STATE_CANCELLED;
 }
 
 // The same, and those that were attached to and had ended without an answer once more.
-std::vector<v1::Solve> CreateAgain(Connection& connection, std::vector<v1::CreateSolveRequest> requests) {
-  std::vector<v1::Solve> solves = CreateAll(connection, requests);
+std::vector<v1::Solve> CreateAgain(Connection& connection, std::vector<v1::CreateSolveRequest> requests,
+                                   const std::function<void(double seconds)>& wait) {
+  std::vector<v1::Solve> solves = CreateInBatches(connection, requests, wait);
   for (int attempt = 2; attempt <= kMostAttempts; ++attempt) {
     std::vector<size_t> places;
     std::vector<v1::CreateSolveRequest> further;
@@ -132,7 +95,7 @@ std::vector<v1::Solve> CreateAgain(Connection& connection, std::vector<v1::Creat
       further.back().set_request_id(requests[i].request_id() + "-" + std::to_string(attempt));
     }
     if (places.empty()) break;
-    std::vector<v1::Solve> made = CreateAll(connection, further);
+    std::vector<v1::Solve> made = CreateInBatches(connection, further, wait);
     for (size_t i = 0; i < places.size(); ++i) solves[places[i]] = std::move(made[i]);
   }
   return solves;
@@ -149,6 +112,14 @@ class Leave {
     follower_ = follower;
     if (interrupted_ && follower_ != nullptr) follower_->Stop();
   }
+  // Throws Failure(kCancelled) at a Ctrl-C.
+  void Wait(double seconds) {
+    progress_.Note("the server asks to wait " + FormatDuration(seconds) + " before it makes the next solves");
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (interrupts_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return interrupted_; })) {
+      throw Failure(ExitCode::kCancelled, "");
+    }
+  }
 
  private:
   void OnInterrupt(int count) {
@@ -156,10 +127,12 @@ class Leave {
     progress_.Note("leaving; the solves go on, and the same command goes on with them");
     const std::lock_guard<std::mutex> lock(mutex_);
     interrupted_ = true;
+    interrupts_.notify_all();
     if (follower_ != nullptr) follower_->Stop();
   }
 
   Progress& progress_;
+  std::condition_variable interrupts_;
   std::mutex mutex_;  // protects what follows
   GroupFollower* follower_ = nullptr;
   bool interrupted_ = false;
@@ -268,8 +241,9 @@ ExitCode RunSweep(const SweepOptions& options, const GlobalOptions& global, cons
   Progress progress(terminal, silent ? Progress::Style::kSilent : ProgressStyle(global, terminal));
   Leave leave(progress);
   Connection connection(global);
+  const auto wait = [&leave](double seconds) { leave.Wait(seconds); };
   const std::vector<v1::Solve> solves =
-      options.again ? CreateAgain(connection, requests) : CreateAll(connection, requests);
+      options.again ? CreateAgain(connection, requests, wait) : CreateInBatches(connection, requests, wait);
   progress.Note(std::to_string(solves.size()) + " solves, `rollgait list --label " + std::string(kLabel) + "=" + name +
                 "` lists them");
 

@@ -1,6 +1,7 @@
 #include "client/sweep/group_follower.h"
 
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include "client/failure.h"
@@ -35,6 +36,11 @@ StreamEnd GroupFollower::ReadStream(const std::function<void(const v1::SolveEven
     if (stopped_) throw Failure(ExitCode::kCancelled, "");
     context_ = &context;
   }
+  // Also when on_event throws.
+  const std::shared_ptr<void> forget(nullptr, [this](void*) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    context_ = nullptr;
+  });
   v1::WatchSolvesRequest request;
   for (const auto& [name, sequence] : after_) {
     v1::WatchSolveRequest* const one = request.add_solves();
@@ -57,7 +63,6 @@ StreamEnd GroupFollower::ReadStream(const std::function<void(const v1::SolveEven
   const grpc::Status status = reader->Finish();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    context_ = nullptr;
     if (after_.empty()) return {true, heard, grpc::Status::OK};
     if (stopped_) throw Failure(ExitCode::kCancelled, "");
   }

@@ -40,7 +40,8 @@ class Admission {
   const Caller& caller() const { return caller_; }
   // What makes work has been made: the call no longer counts as one that is being answered.
   void WorkIsMade() { place_.reset(); }
-  // The call has made so many more than one that count towards creates_per_s (Quotas::OweCreates).
+  // The call has made so many more than one that count towards creates_per_s (Quotas::OweCreates);
+  // negative: fewer.
   void OweCreates(int count);
   // What the call's answer occupies until the client has read it.
   AnswerHold& answer() { return *answer_; }

@@ -27,7 +27,7 @@ class Quotas {
   // the quota and the time until there is one.
   std::optional<Error> TakeCreate(const std::string& tenant, double creates_per_s);
   // So many more that were made with the one taken: the next TakeCreate waits until they would have been made one by
-  // one.
+  // one. Negative: so many fewer.
   void OweCreates(const std::string& tenant, double creates_per_s, int count);
   // Takes a watch until the hold is released. kResourceExhausted.
   Outcome<std::shared_ptr<void>> TakeWatch(const std::string& tenant, int max_watches);

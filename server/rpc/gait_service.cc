@@ -184,8 +184,10 @@ grpc::ServerUnaryReactor* GaitServiceRpc::BatchCreateSolves(grpc::CallbackServer
   const auto create = [&service = service_, request, response](Admission& admission) -> Outcome<Done> {
     const int count = std::clamp(request->requests_size(), 1, SolveService::kMostAtOnce);
     admission.OweCreates(count - 1);  // one was taken when the call was admitted
-    Outcome<v1::BatchCreateSolvesResponse> solves = service.BatchCreateSolves(admission.caller(), *request);
+    int attached = 0;
+    Outcome<v1::BatchCreateSolvesResponse> solves = service.BatchCreateSolves(admission.caller(), *request, &attached);
     if (!solves.ok()) return solves.error();
+    admission.OweCreates(-std::min(attached, count - 1));  // what was there costs nothing; the one taken stays
     admission.answer().Owe(MemoryOf(solves.value()));
     *response = std::move(solves).value();
     return Done{};

@@ -40,6 +40,9 @@ void ReadStates(const v1::SolveFilter& filter, SolveFilter* read, Violations* vi
 }  // namespace
 
 void ReadFilter(const v1::ListSolvesRequest& request, ListQuery* query, Violations* violations) {
+  if (request.tenant().find('\0') != std::string::npos) {
+    violations->push_back({"tenant", "holds a NUL, which no tenant's name has"});
+  }
   if (request.state() != v1::SOLVE_STATE_UNSPECIFIED) query->state = static_cast<SolveState>(request.state());
   const v1::SolveFilter& filter = request.filter();
   SolveFilter& read = query->filter;
@@ -58,6 +61,8 @@ void ReadFilter(const v1::ListSolvesRequest& request, ListQuery* query, Violatio
   if (read.model.size() > kLongestModel) {
     violations->push_back({"filter.model", "is " + std::to_string(read.model.size()) + " bytes long, the limit is " +
                                                std::to_string(kLongestModel)});
+  } else if (read.model.find('\0') != std::string::npos) {
+    violations->push_back({"filter.model", "holds a NUL, which no model's name has"});
   }
   if (filter.has_create_time_from()) {
     read.created_from_us = Micros(filter.create_time_from(), "filter.create_time_from", violations);

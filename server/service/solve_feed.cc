@@ -39,15 +39,23 @@ Outcome<bool> SolveFeed::Refresh() {
   int64_t position = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (terminal_) return false;
+    if (terminal_ || gone_) return false;
     position = last_sequence_;
   }
   Outcome<std::vector<EventPtr>> read = Read(position, static_cast<int>(kHeld));
-  if (!read.ok()) return read.error();
+  if (!read.ok() && read.error().code != ErrorCode::kNotFound) return read.error();
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (!read.ok()) {
+    gone_ = read.error();
+    return true;
+  }
   for (EventPtr& event : read.value()) {
     last_sequence_ = event->sequence();
     terminal_ = event->has_finished();
+    if (event->ByteSizeLong() > kLongestHeld) {
+      held_.clear();
+      continue;
+    }
     held_.push_back(std::move(event));
     if (held_.size() > kHeld) held_.pop_front();
   }
@@ -76,7 +84,10 @@ std::shared_ptr<const v1::Iterate> SolveFeed::iterate() const {
 Outcome<std::vector<EventPtr>> SolveFeed::After(int64_t position, int max_events) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (position >= last_sequence_) return std::vector<EventPtr>();
+    if (position >= last_sequence_) {
+      if (gone_) return *gone_;
+      return std::vector<EventPtr>();
+    }
     if (!held_.empty() && held_.front()->sequence() <= position + 1) {
       const auto first = held_.begin() + (position + 1 - held_.front()->sequence());
       const auto count = std::min<int64_t>(max_events, held_.end() - first);

@@ -44,9 +44,11 @@ class SolveService {
                std::function<void(const std::string& id)> announce);
 
   Outcome<v1::Solve> CreateSolve(const Caller& caller, const v1::CreateSolveRequest& request);
-  // Refuses the first request that is wrong, with its index in the paths; answers without results.
+  // Refuses the first request that is wrong, with its index in the paths; answers without results. `attached`, unless
+  // null, is raised by the number of solves that had been made before.
   Outcome<v1::BatchCreateSolvesResponse> BatchCreateSolves(const Caller& caller,
-                                                           const v1::BatchCreateSolvesRequest& request);
+                                                           const v1::BatchCreateSolvesRequest& request,
+                                                           int* attached = nullptr);
   // Asks for room before it reads: `hold` is told about how many bytes the answer has, and its error is the answer.
   Outcome<SolveBytes> GetSolve(const Caller& caller, const v1::GetSolveRequest& request,
                                const std::function<Outcome<Done>(int64_t bytes)>& hold);

@@ -12,7 +12,8 @@
 namespace rollgait::server {
 namespace {
 
-// Of all specs of a batch, with the stored models that they name in them.
+// Of all specs of a batch, with the stored models that they name in them and their warm starts. The first one is taken
+// whatever its length, so that halves of a batch are taken in the end.
 constexpr int64_t kMaxBatchBytes = 16 << 20;
 
 std::string Index(const char* field, int i) { return std::string(field) + "[" + std::to_string(i) + "]"; }
@@ -37,6 +38,10 @@ Violations CheckBatch(const v1::BatchCreateSolvesRequest& request, int most) {
   return {};
 }
 
+Error CarriedBy(const std::string& solves) {
+  return InvalidArgument({{"labels", "are carried by " + solves + "; ListSolves lists them"}});
+}
+
 // The error of one of several requests.
 Error OfRequest(Error error, int index) {
   const std::string prefix = Index("requests", index) + ".";
@@ -54,11 +59,14 @@ Outcome<NewSolve> SolveService::MakeOneOf(const Caller& caller, const v1::Create
     resolved = request;
     std::optional<Error> refusal = models_.Resolve(caller, "spec.model.", resolved.mutable_spec()->mutable_model());
     if (refusal.has_value()) return *std::move(refusal);
+    Violations violations = CheckRequest(resolved);
+    if (!violations.empty()) return InvalidArgument(std::move(violations));
   }
   Outcome<NewSolve> solve = MakeNew(caller, names_stored ? resolved : request);
   if (!solve.ok()) return solve;
+  const bool is_first = *bytes == 0;
   *bytes += static_cast<int64_t>(solve.value().spec.size() + solve.value().warm_start.size());
-  if (*bytes > kMaxBatchBytes) {
+  if (!is_first && *bytes > kMaxBatchBytes) {
     return InvalidArgument({{"spec", "makes the batch, with stored models and warm starts, " + std::to_string(*bytes) +
                                          " bytes long up to here, the limit is " + std::to_string(kMaxBatchBytes) +
                                          " bytes; send it in several batches"}});
@@ -67,7 +75,8 @@ Outcome<NewSolve> SolveService::MakeOneOf(const Caller& caller, const v1::Create
 }
 
 Outcome<v1::BatchCreateSolvesResponse> SolveService::BatchCreateSolves(const Caller& caller,
-                                                                       const v1::BatchCreateSolvesRequest& request) {
+                                                                       const v1::BatchCreateSolvesRequest& request,
+                                                                       int* attached) {
   Violations violations = CheckRequest(request);
   if (violations.empty()) violations = CheckBatch(request, kMostAtOnce);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
@@ -86,10 +95,18 @@ Outcome<v1::BatchCreateSolvesResponse> SolveService::BatchCreateSolves(const Cal
     }
     return response;
   }
+  if (std::optional<Error> full = full_queue_.Refusal(caller.tenant)) {
+    for (const NewSolve& solve : solves) {
+      const Outcome<bool> needs_place = store_.NeedsPlace(solve);
+      if (!needs_place.ok()) return needs_place.error();
+      if (needs_place.value()) return *std::move(full);
+    }
+  }
   const Outcome<std::vector<CreatedSolve>> created = store_.CreateAll(solves);
   if (!created.ok()) return created.error();
   for (const CreatedSolve& one : created.value()) {
     Announce(one);
+    if (attached != nullptr && !one.created) ++*attached;
     Outcome<v1::Solve> solve = ToSolve(one.record);
     if (!solve.ok()) return solve.error();
     *response.add_solves() = std::move(solve).value();
@@ -110,11 +127,9 @@ Outcome<std::vector<WatchPosition>> SolveService::FindLabelled(const Caller& cal
     for (const SolveRecord& record : page.value().records) positions.push_back({record.id, record.trimmed_sequence});
     query.page_token = page.value().next_page_token;
   } while (!query.page_token.empty() && positions.size() <= static_cast<size_t>(kMostAtOnce));
-  if (positions.empty() || positions.size() > static_cast<size_t>(kMostAtOnce)) {
-    const std::string carried = positions.empty() ? "are carried by none of your solves"
-                                                  : "are carried by more than " + std::to_string(kMostAtOnce) +
-                                                        " of your solves, the most that are watched at once";
-    return InvalidArgument({{"labels", carried + "; ListSolves lists them"}});
+  if (positions.empty()) return CarriedBy("none of your solves");
+  if (positions.size() > static_cast<size_t>(kMostAtOnce)) {
+    return CarriedBy("more than " + std::to_string(kMostAtOnce) + " of your solves, the most that are watched at once");
   }
   return positions;
 }
@@ -148,11 +163,18 @@ Outcome<SolveService::Watched> SolveService::FindWatched(const Caller& caller, c
     if (!refused.empty()) return InvalidArgument(std::move(refused));
     watched.positions.push_back({std::move(id).value(), one.after_sequence(), one.iterates_per_second()});
   }
-  for (const WatchPosition& position : watched.positions) {
+  const bool by_labels = count == 0;
+  std::vector<WatchPosition> there;
+  for (WatchPosition& position : watched.positions) {
     const Outcome<SolveExtent> extent = ExtentFor(caller, position.id);
+    // Deleted since it was found.
+    if (by_labels && !extent.ok() && extent.error().code == ErrorCode::kNotFound) continue;
     if (!extent.ok()) return extent.error();
     watched.longest_bytes = std::max(watched.longest_bytes, extent.value().bytes);
+    there.push_back(std::move(position));
   }
+  if (there.empty()) return CarriedBy("none of your solves");
+  watched.positions = std::move(there);
   return watched;
 }
 

@@ -189,13 +189,22 @@ std::vector<std::string> WatchHub::ChangedIds() {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [id, entry] : entries_) {
     const auto number = newest.value().find(id);
-    const bool has_news = number != newest.value().end() && number->second > entry.feed->last_sequence();
-    if (has_news || entry.WantsIterates()) changed.push_back(id);
+    const bool is_gone = number == newest.value().end();
+    if (is_gone || number->second > entry.feed->last_sequence()) changed.push_back(id);
   }
   return changed;
 }
 
-void WatchHub::Refresh(const std::string& id) {
+std::vector<std::string> WatchHub::IteratedIds() {
+  std::vector<std::string> iterated;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [id, entry] : entries_) {
+    if (entry.WantsIterates()) iterated.push_back(id);
+  }
+  return iterated;
+}
+
+void WatchHub::Refresh(const std::string& id, bool read_events) {
   std::shared_ptr<SolveFeed> feed;
   bool wants_iterates = false;
   {
@@ -205,7 +214,7 @@ void WatchHub::Refresh(const std::string& id) {
     feed = entry->second.feed;
     wants_iterates = entry->second.WantsIterates();
   }
-  const Outcome<bool> changed = feed->Refresh();
+  const Outcome<bool> changed = read_events ? feed->Refresh() : Outcome<bool>(false);
   if (!changed.ok()) spdlog::warn("reading new events of solves/{} failed: {}", id, changed.error().message);
   const bool has_iterate = wants_iterates && feed->RefreshIterate();
   if (!has_iterate && (!changed.ok() || !changed.value())) return;
@@ -246,13 +255,16 @@ void WatchHub::Loop() {
       ids.insert(ids.end(), changed_.begin(), changed_.end());
       changed_.clear();
     }
+    std::vector<std::string> iterated;
     if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
       last_poll_ns = SteadyNanos();
       const std::vector<std::string> missed = ChangedIds();
       ids.insert(ids.end(), missed.begin(), missed.end());
+      iterated = IteratedIds();
       WakeTheDue();
     }
-    for (const std::string& id : ids) Refresh(id);
+    for (const std::string& id : ids) Refresh(id, true);
+    for (const std::string& id : iterated) Refresh(id, false);
   }
 }
 

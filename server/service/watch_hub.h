@@ -114,12 +114,15 @@ class WatchHub {
   using Wakes = std::vector<std::shared_ptr<const std::function<void()>>>;
 
   void Loop();
-  void Refresh(const std::string& id);
+  // Tells the readers of a solve what is new: its iterate, and its events if they are to be read.
+  void Refresh(const std::string& id, bool read_events);
   // Wakes those for whom a heartbeat or an iterate is due.
   void WakeTheDue();
   void Close(Watch* watch);
-  // Those that have changed in the store since they were read, or whose readers want iterates.
+  // Those that have changed in the store since they were read, or were deleted there.
   std::vector<std::string> ChangedIds();
+  // Those with a reader that wants iterates.
+  std::vector<std::string> IteratedIds();
 
   SolveStore& store_;
   HintChannel& hints_;

@@ -245,7 +245,7 @@ CREATE INDEX labels_by_value ON labels (name, value, tenant, solve);
 // The models stand in the specs, of which a few are in memory at a time.
 void From6To7(SqlConnection& connection) {
   connection.Execute(kFilters);
-  constexpr int kSpecsAtOnce = 100;
+  constexpr int kSpecsAtOnce = 16;  // of 4 MiB at most
   int64_t last = 0;
   for (bool more = true; more;) {
     std::vector<std::pair<int64_t, std::string>> models;

@@ -103,12 +103,14 @@ TEST(DescribeTest, ShowsEveryDetail) {
   const std::string text = Describe(status, "create the solve", "host:1");
   EXPECT_THAT(text, testing::StartsWith("cannot create the solve: RESOURCE_EXHAUSTED: the queue is full\n"));
   EXPECT_THAT(text, testing::HasSubstr("try again in 2.5 s"));
+  EXPECT_EQ(RetryDelay(status), 2.5);
   EXPECT_THAT(text, testing::HasSubstr("\n  queue: holds 1000 solves, the limit is 1000"));
 }
 
 TEST(DescribeTest, DetailsThatAreNotAStatusAreIgnored) {
   const grpc::Status status(grpc::StatusCode::INVALID_ARGUMENT, "no", "\xff\xff garbage");
   EXPECT_THAT(Describe(status, "x", "host:1"), testing::StartsWith("cannot x: INVALID_ARGUMENT: no\n"));
+  EXPECT_EQ(RetryDelay(status), std::nullopt);
 }
 
 TEST(FailureTest, WhatTlsRefusesIsSaidInWords) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <iterator>
+#include <utility>
 
 #include "tests/client/fake_filter.h"
 #include "tests/client/fake_refusal.h"
@@ -75,6 +76,10 @@ grpc::Status FakeGaitService::CreateSolve(grpc::ServerContext*, const v1::Create
 grpc::Status FakeGaitService::BatchCreateSolves(grpc::ServerContext*, const v1::BatchCreateSolvesRequest* request,
                                                 v1::BatchCreateSolvesResponse* response) {
   std::lock_guard<std::mutex> lock(mutex_);
+  if (busy_s_ > 0) return Busy(std::exchange(busy_s_, 0));
+  if (request->requests_size() > batch_limit_) {
+    return {grpc::StatusCode::INVALID_ARGUMENT, "requests[0].spec makes it too long; send it in several batches"};
+  }
   for (const v1::CreateSolveRequest& one : request->requests()) {
     const auto known = by_request_id_.find(one.request_id());
     if (known != by_request_id_.end()) {

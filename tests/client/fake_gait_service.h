@@ -27,6 +27,11 @@ class FakeGaitService : public v1::GaitService::Service {
   // Number of iterations of every solve made from now on; 5 if not called.
   void SetIterations(int iterations) { iterations_ = iterations; }
 
+  // Batches of more requests are refused as too long.
+  void SetBatchLimit(int requests) { batch_limit_ = requests; }
+  // The next batch is refused once, to be sent again after `seconds`.
+  void SetBusy(int seconds) { busy_s_ = seconds; }
+
   // False: as a server that does not know spell_out.
   void SetSpellsOut(bool spells_out) { spells_out_ = spells_out; }
 
@@ -69,6 +74,8 @@ class FakeGaitService : public v1::GaitService::Service {
   std::condition_variable changed_;
   int iterations_ = 5;
   bool spells_out_ = true;
+  int batch_limit_ = 256;
+  int busy_s_ = 0;  // 0: not busy
   std::map<std::string, Record> records_;
   std::multiset<int64_t> breaks_;
   int broken_ = 0;

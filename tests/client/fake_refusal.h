@@ -26,6 +26,16 @@ inline grpc::Status Refusal(const std::vector<std::pair<std::string, std::string
   return {grpc::StatusCode::INVALID_ARGUMENT, rich.message(), rich.SerializeAsString()};
 }
 
+// RESOURCE_EXHAUSTED that asks to try again after so many seconds.
+inline grpc::Status Busy(int seconds) {
+  google::rpc::RetryInfo retry;
+  retry.mutable_retry_delay()->set_seconds(seconds);
+  google::rpc::Status rich;
+  rich.set_code(static_cast<int>(grpc::StatusCode::RESOURCE_EXHAUSTED));
+  rich.add_details()->PackFrom(retry);
+  return {grpc::StatusCode::RESOURCE_EXHAUSTED, "too many a second", rich.SerializeAsString()};
+}
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_TESTS_CLIENT_FAKE_REFUSAL_H_

@@ -1,6 +1,7 @@
 """The service for programs that wait."""
 from __future__ import annotations
 
+import time
 from typing import Dict, Iterable, Iterator, List, Optional
 
 import grpc
@@ -16,6 +17,21 @@ from rollgait.v1 import gait_service_pb2_grpc, model_pb2, solve_pb2, solve_spec_
 TIMEOUT_S = 30.0  # for the answer of one call that does not stream
 RESUMPTIONS = 5   # of a stream that breaks
 MOST_AT_ONCE = 256  # solves that one call makes
+MOST_BYTES_AT_ONCE = 3 << 20  # of their requests; the server's limit is 4 MiB
+TOO_LONG = "send it in several batches"  # words of the server's refusal, which counts stored models and warm starts too
+
+
+def _batches(requests: Iterable[calls.CreateSolveRequest]) -> Iterator[List[calls.CreateSolveRequest]]:
+    batch: List[calls.CreateSolveRequest] = []
+    size = 0
+    for request in requests:
+        if batch and (len(batch) == MOST_AT_ONCE or size + request.ByteSize() > MOST_BYTES_AT_ONCE):
+            yield batch
+            batch, size = [], 0
+        batch.append(request)
+        size += request.ByteSize()
+    if batch:
+        yield batch
 
 
 def gait_of(solve: solve_pb2.Solve) -> Gait:
@@ -69,9 +85,29 @@ class Client:
 
     def create_all(self, specs: Iterable[solve_spec_pb2.SolveSpec], *,
                    labels: Optional[Dict[str, str]] = None) -> List[solve_pb2.Solve]:
-        """Stores up to MOST_AT_ONCE solves with the same labels, in the order of the specs: all of them, or none."""
-        requests = [calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]
-        return list(self._call(self._stub.BatchCreateSolves, calls.BatchCreateSolvesRequest(requests=requests)).solves)
+        """Stores solves with the same labels, in the order of the specs. As many as the server takes at once are a batch, of
+        which all are stored or none: MOST_AT_ONCE, fewer if they are long. A server that is too busy for a batch is waited for
+        once, as long as it says."""
+        made: List[solve_pb2.Solve] = []
+        for batch in _batches([calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]):
+            made += self._create_batch(batch)
+        return made
+
+    def _create_batch(self, requests: List[calls.CreateSolveRequest]) -> List[solve_pb2.Solve]:
+        batch = calls.BatchCreateSolvesRequest(requests=requests)
+        try:
+            try:
+                return list(self._call(self._stub.BatchCreateSolves, batch).solves)
+            except errors.ServerBusy as busy:
+                if busy.retry_after_s is None:
+                    raise
+                time.sleep(busy.retry_after_s)
+                return list(self._call(self._stub.BatchCreateSolves, batch).solves)
+        except errors.InvalidRequest as refused:
+            if len(requests) < 2 or TOO_LONG not in str(refused):
+                raise
+        half = len(requests) // 2
+        return self._create_batch(requests[:half]) + self._create_batch(requests[half:])
 
     def check(self, spec: solve_spec_pb2.SolveSpec) -> None:
         """Raises InvalidRequest if the server would refuse the spec; stores nothing."""
@@ -159,8 +195,7 @@ class Client:
         told to `progress`, which takes exceptions too if it is a function."""
         slopes = list(slopes_deg)
         specs = [make_spec(model, slope_deg=slope, **request) for slope in slopes]
-        made = [solve for first in range(0, len(specs), MOST_AT_ONCE) for solve in self.create_all(specs[first:first + MOST_AT_ONCE])]
-        names = {slope: solve.name for slope, solve in zip(slopes, made)}
+        names = {slope: solve.name for slope, solve in zip(slopes, self.create_all(specs))}
         gaits: Dict[float, Gait] = {}
         try:
             for slope, name in names.items():

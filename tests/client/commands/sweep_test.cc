@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -114,6 +115,34 @@ TEST_F(SweepCommandTest, WhatFailedIsSolvedAgainOnlyIfAsked) {
   // The fake's solves of this model have failed at once, so that the command tries as often as it does at most.
   EXPECT_GT(service_.created().size(), 2u);
   EXPECT_THAT(service_.created()[2].request_id(), testing::EndsWith("-2"));
+}
+
+TEST_F(SweepCommandTest, ABatchThatIsTooLongIsSentInParts) {
+  service_.SetBatchLimit(2);
+  const Ended ended = Run({"--model", "planar", "--slope", "0:4:1", "--csv", "-"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(service_.created().size(), 5u);
+  for (const char* row : {"\n0,solves/planar0,", "\n2,solves/planar2,", "\n4,solves/planar4,"}) {
+    EXPECT_THAT(ended.out, HasSubstr(row));
+  }
+  service_.SetBatchLimit(0);
+  const Ended refused = Run({"--model", "planar", "--slope", "5,6"});
+  EXPECT_EQ(refused.code, 2) << "one alone is not divided";
+  EXPECT_THAT(refused.err, HasSubstr("send it in several batches"));
+}
+
+TEST_F(SweepCommandTest, ABusyServerIsWaitedForAsLongAsItSays) {
+  service_.SetBusy(1);
+  const auto start = std::chrono::steady_clock::now();
+  const Ended ended = Run({"--model", "planar", "--slope", "0,5"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_THAT(ended.err, HasSubstr("the server asks to wait 1"));
+  service_.SetBusy(600);
+  ClientProcess client(Line({"--model", "planar", "--slope", "0,6"}));
+  ASSERT_TRUE(client.WaitForError("the server asks to wait"));
+  client.Signal(SIGINT);
+  EXPECT_EQ(client.Wait(), 6);
 }
 
 TEST_F(SweepCommandTest, TablesAsCommaSeparatedValues) {

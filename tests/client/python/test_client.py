@@ -5,13 +5,14 @@ import pathlib
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import grpc
 import numpy as np
 
 import rollgait
 from rollgait.gait import _hermite
-from rollgait.v1 import solve_pb2
+from rollgait.v1 import solve_pb2, solve_spec_pb2
 from server import Server, work
 
 
@@ -91,6 +92,27 @@ class Solving(unittest.TestCase):
         self.assertEqual(list(client.list(labels={"study": "python-test"}, model="human29")), [])
         with self.assertRaisesRegex(rollgait.RollgaitError, r"requests\[1\].spec"):
             client.create_all([specs[0], rollgait.make_spec("planar", slope_deg=80)])
+
+    def test_sends_in_parts_what_is_too_long_and_waits_for_a_busy_server(self):
+        sent = []
+
+        def answer(_, batch):
+            sent.append(len(batch.requests))
+            if len(sent) == 1:
+                raise rollgait.ServerBusy("too many a second", 0.01)
+            if len(batch.requests) > 2:
+                raise rollgait.InvalidRequest("requests[2].spec is too long; send it in several batches", [])
+            return unittest.mock.Mock(solves=[request.spec.slope_rad for request in batch.requests])
+        specs = [rollgait.make_spec("planar", slope_deg=slope) for slope in range(5)]
+        with unittest.mock.patch.object(client, "_call", answer):
+            made = client.create_all(specs)
+        self.assertEqual(made, [spec.slope_rad for spec in specs])
+        self.assertEqual(sent, [5, 5, 2, 3, 1, 2])
+        long = [solve_spec_pb2.SolveSpec(warm_start="x" * (1 << 20)) for _ in range(4)]
+        sent[:] = [0]
+        with unittest.mock.patch.object(client, "_call", answer):
+            client.create_all(long)
+        self.assertEqual(sent, [0, 2, 2])
 
     def test_cancels(self):
         name = client.create(rollgait.make_spec("human29", preset="torque", accuracy="fine", intervals=60)).name

@@ -144,6 +144,25 @@ TEST(WatchStreamTest, ABatchCountsAsManyCreations) {
       << "the bucket held two";
 }
 
+TEST(WatchStreamTest, ABatchThatAttachesCountsAsOneCreation) {
+  Gatekeeper::Options gate;
+  gate.limits.creates_per_s = 1;
+  RpcBench bench({}, {}, std::chrono::hours(1), gate);
+  v1::BatchCreateSolvesRequest batch, further;
+  for (int i = 0; i < 100; ++i) {
+    *batch.add_requests()->mutable_spec() = PlanarSpec(0.001 * i);
+    batch.mutable_requests(i)->set_request_id("slope " + std::to_string(i));
+  }
+  *further.add_requests()->mutable_spec() = PlanarSpec(0.3);
+  const v1::BatchCreateSolvesResponse before = bench.bench().service().BatchCreateSolves({}, batch).value();
+  v1::BatchCreateSolvesResponse made;
+  grpc::ClientContext first, second;
+  ASSERT_TRUE(bench.stub().BatchCreateSolves(&first, batch, &made).ok());
+  EXPECT_EQ(made.solves(99).name(), before.solves(99).name());
+  const grpc::Status status = bench.stub().BatchCreateSolves(&second, further, &made);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
 TEST(WatchStreamTest, BadPlacesHaveTheirCodes) {
   RpcBench bench;
   const std::string id = bench.bench().Create();

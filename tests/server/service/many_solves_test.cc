@@ -1,6 +1,7 @@
 // Labels, filters and batches of the service.
 #include <gtest/gtest.h>
 
+#include "server/service/request_check.h"
 #include "server/service/solve_message.h"
 #include "tests/server/service/service_fixture.h"
 
@@ -122,6 +123,8 @@ TEST(ListFilterTest, WhatMeansNothingIsRefused) {
             }),
             "state");
   EXPECT_EQ(refused([](Request*, Filter* filter) { filter->set_model(std::string(129, 'm')); }), "filter.model");
+  EXPECT_EQ(refused([](Request*, Filter* filter) { filter->set_model(std::string("planar\0", 7)); }), "filter.model");
+  EXPECT_EQ(refused([](Request* request, Filter*) { request->set_tenant(std::string("a\0", 2)); }), "tenant");
   EXPECT_EQ(refused([](Request*, Filter* filter) {
               for (const char* key : {"a", "b", "c", "d", "e"}) (*filter->mutable_labels())[key] = "v";
             }),
@@ -203,6 +206,23 @@ TEST(BatchCreateTest, StoredModelsAreReadAndCountTowardsTheBatch) {
   EXPECT_EQ(ListedSlopes(bench, {}).size(), 2u);
 }
 
+TEST(BatchCreateTest, ARequestIsNoLongerWithItsStoredModelThanOneAloneMayBe) {
+  ServiceBench bench;
+  v1::CreateModelRequest create;
+  create.mutable_model()->mutable_summary()->set_name("walker");
+  create.mutable_model()->mutable_summary()->set_description(std::string(kMaxRequestBytes - 1000, 'd'));
+  create.mutable_model()->add_joints()->set_mass_kg(70);
+  ASSERT_TRUE(bench.service().models().CreateModel({}, create).ok());
+  v1::BatchCreateSolvesRequest batch = BatchOf({0.1, 0.2});
+  v1::SolveSpec& spec = *batch.mutable_requests(1)->mutable_spec();
+  spec.mutable_model()->set_name("models/walker");
+  spec.set_warm_start(std::string(2000, 's'));
+  const Outcome<v1::BatchCreateSolvesResponse> made = bench.service().BatchCreateSolves({}, batch);
+  ASSERT_FALSE(made.ok());
+  EXPECT_EQ(FieldRefused(made.error()).substr(0, 12), "requests[1].") << made.error().message;
+  EXPECT_NE(made.error().message.find(std::to_string(kMaxRequestBytes)), std::string::npos) << made.error().message;
+}
+
 TEST(BatchCreateTest, AQueueWithoutRoomForAllTakesNone) {
   ServiceOptions options;
   options.max_queued = 2;
@@ -211,6 +231,42 @@ TEST(BatchCreateTest, AQueueWithoutRoomForAllTakesNone) {
             ErrorCode::kResourceExhausted);
   EXPECT_TRUE(ListedSlopes(bench, {}).empty());
   EXPECT_TRUE(bench.service().BatchCreateSolves({}, BatchOf({0.1, 0.2})).ok());
+}
+
+TEST(BatchCreateTest, AQueueThatWasFullAMomentAgoRefusesOnlyWhatNeedsAPlaceInIt) {
+  ServiceOptions options;
+  options.max_queued = 1;
+  ServiceBench bench(std::chrono::hours(1), options);
+  const v1::BatchCreateSolvesResponse made = bench.service().BatchCreateSolves({}, BatchOf({0.1})).value();
+  std::string at_the_door, of_batch;
+  for (int attempt = 0; attempt < 20 && (attempt == 0 || of_batch != at_the_door); ++attempt) {  // it is a short moment
+    at_the_door = bench.service().CreateSolve({}, LabelledRequest(0.2, "")).error().message;
+    of_batch = bench.service().BatchCreateSolves({}, BatchOf({0.1, 0.3})).error().message;
+  }
+  EXPECT_EQ(of_batch, at_the_door) << "the store was not asked: it names the request";
+  const Outcome<v1::BatchCreateSolvesResponse> again = bench.service().BatchCreateSolves({}, BatchOf({0.1}));
+  ASSERT_TRUE(again.ok()) << again.error().message;
+  EXPECT_EQ(again.value().solves(0).name(), made.solves(0).name());
+}
+
+TEST(BatchCreateTest, TheFirstIsTakenHoweverLongItsWarmStartIs) {
+  ServiceBench bench;
+  const std::string start = SolveName(bench.Create());
+  v1::SolveResult result;
+  result.set_termination(v1::TERMINATION_OPTIMAL);
+  result.mutable_trajectory()->add_phases()->mutable_node_positions()->mutable_values()->Resize(17 << 17, 0.5);
+  ASSERT_TRUE(
+      bench.store().Finish(bench.Claim(), {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
+  v1::BatchCreateSolvesRequest batch = BatchOf({-0.1, -0.2});
+  batch.mutable_requests(0)->mutable_spec()->set_warm_start(start);
+  const Error refused = bench.service().BatchCreateSolves({}, batch).error();
+  EXPECT_EQ(FieldRefused(refused), "requests[1].spec");
+  EXPECT_NE(refused.message.find("send it in several batches"), std::string::npos)
+      << "the words that clients know: " << refused.message;
+  batch.mutable_requests()->RemoveLast();
+  const Outcome<v1::BatchCreateSolvesResponse> made = bench.service().BatchCreateSolves({}, batch);
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  EXPECT_EQ(made.value().solves_size(), 1);
 }
 
 TEST(BatchCreateTest, ADryRunStoresNothing) {

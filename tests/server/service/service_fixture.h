@@ -124,10 +124,10 @@ class ServiceBench {
     ROLLGAIT_CHECK(store_->AppendEvents(lease, events).ok());
     Hint(lease.solve_id);
   }
-  void Finish(const Lease& lease) {
+  void Finish(const Lease& lease, const std::string& message = "found") {
     v1::SolveResult result;
     result.set_termination(v1::TERMINATION_OPTIMAL);
-    result.set_message("found");
+    result.set_message(message);
     ROLLGAIT_CHECK(store_->Finish(lease, {}, {SolveState::kSucceeded, result.SerializeAsString(), "", true}).ok());
     Hint(lease.solve_id);
   }

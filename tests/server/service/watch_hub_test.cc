@@ -132,6 +132,66 @@ TEST(WatchHubTest, AFinishedSolveEndsAtOnce) {
   EXPECT_TRUE(nothing.events.empty());
 }
 
+// True once the hub has read what is new: some reader is behind.
+bool HubHasNews(ServiceBench& bench) {
+  for (int i = 0; i < 1000 && bench.hub().GetStats().max_lag == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return bench.hub().GetStats().max_lag > 0;
+}
+
+TEST(WatchHubTest, AShortResultIsHeldAndALongOneIsReadFromTheStoreByEachReader) {
+  for (const size_t length : {size_t{1} << 10, size_t{1} << 17}) {
+    ServiceBench bench;
+    const std::string id = bench.Create();
+    const Lease lease = bench.Claim();
+    Reader kept(bench, id, 2);
+    bench.Finish(lease, std::string(length, 'm'));
+    ASSERT_TRUE(HubHasNews(bench));
+    ASSERT_TRUE(kept.UntilEnd()) << length;
+    ASSERT_EQ(kept.events.size(), 1u);
+    EXPECT_EQ(kept.events[0]->sequence(), 3);
+    EXPECT_EQ(kept.events[0]->finished().result().message().size(), length);
+    Reader late(bench, id, 2);
+    ASSERT_TRUE(late.UntilEnd()) << length;
+    EXPECT_EQ(late.events[0]->finished().result().message().size(), length);
+  }
+  for (const size_t length : {size_t{1} << 10, size_t{1} << 17}) {
+    ServiceBench bench;
+    const std::string id = bench.Create();
+    const Lease lease = bench.Claim();
+    Reader reader(bench, id, 2);
+    bench.Finish(lease, std::string(length, 'm'));
+    ASSERT_TRUE(HubHasNews(bench));
+    ASSERT_TRUE(bench.store().Delete(id).ok());
+    if (length < (64 << 10)) {
+      EXPECT_TRUE(reader.UntilEnd()) << "from memory";
+    } else {
+      EXPECT_FALSE(reader.UntilEnd()) << "nowhere";
+      ASSERT_TRUE(reader.failure.has_value());
+      EXPECT_EQ(reader.failure->code, ErrorCode::kNotFound);
+    }
+  }
+}
+
+TEST(WatchHubTest, ASolveThatWasDeletedUnseenIsNotFound) {
+  ServiceBench bench;
+  bool unseen = false;
+  for (int attempt = 0; attempt < 20 && !unseen; ++attempt) {  // the hub may look between the two calls
+    const std::string id = bench.Create();
+    Reader reader(bench, id, 0);
+    ASSERT_TRUE(reader.UntilCount(1));
+    ASSERT_TRUE(bench.store().RequestCancel(id).ok());
+    ASSERT_TRUE(bench.store().Delete(id).ok());  // nobody says so
+    if (reader.UntilEnd()) continue;
+    unseen = true;
+    ASSERT_TRUE(reader.failure.has_value());
+    EXPECT_EQ(reader.failure->code, ErrorCode::kNotFound);
+    EXPECT_NE(reader.failure->message.find(id), std::string::npos) << reader.failure->message;
+  }
+  EXPECT_TRUE(unseen);
+}
+
 TEST(WatchHubTest, BadPlacesAreRefused) {
   ServiceBench bench;
   const std::string id = bench.Create();
