@@ -57,7 +57,10 @@ TEST(TextTest, Utf8IsStrict) {
   }
 }
 
-TEST(TextTest, ControlCharactersAreReplaced) { EXPECT_EQ(WithoutControls("a\x1b[31m\n\x7f\tü"), "a?[31m???ü"); }
+TEST(TextTest, ControlCharactersAreReplaced) {
+  EXPECT_EQ(WithoutControls("a\x1b[31m\n\x7f\tü"), "a?[31m???ü");
+  EXPECT_EQ(WithoutControls(""), "");
+}
 
 TEST(ProgressTest, IterationsFitTheirHeader) {
   v1::Iteration iteration;
