@@ -13,7 +13,7 @@ struct LimbJoint {
   int index;  // of the joint in its tree
   std::string name;
   v1::BodySide side;
-  bool in_leg;    // on the way from the root to a foot
+  bool in_leg;    // between the root and a foot
   double across;  // |component| of the axis along y of the world, 0 to 1; 0 of a prismatic joint
 };
 

@@ -35,11 +35,11 @@ class BarrierParameter {
   // Lets μ fall as far as the point allows: `error` is the scaled optimality error of the barrier problem of a μ. Once
   // at least where the solve is stuck. True if it fell.
   bool Reduce(bool stuck, const std::function<double(double mu)>& error);
-  // After a step of length `primal_step`, in (0, 1]. True if μ was raised.
+  // Where the settings are faster than Ipopt's, after a step of length `primal_step`, in (0, 1]. True if μ was raised.
   bool RaiseWhereStepsAreShort(double primal_step);
 
  private:
-  double least_, tolerance_, exponent_;
+  double least_, tolerance_, exponent_, raised_;
   Memory memory_;
 };
 

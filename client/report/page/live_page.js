@@ -69,7 +69,7 @@ function showIterate(iterate) {
     sceneSection(
       "The newest iterate",
       "The motion of the solver's newest point, drawn without forces. Until the solver has converged it satisfies neither " +
-        "the equations of motion nor the contacts: feet may float, sink or slip. On the way it may be a motion of an " +
+        "the equations of motion nor the contacts: feet may float, sink or slip. Meanwhile it may be a motion of an " +
         "easier problem. Drag to turn the view.",
     );
     page.insertBefore(page.lastElementChild, log);

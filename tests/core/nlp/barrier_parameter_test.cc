@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rollgait {
@@ -64,8 +65,27 @@ TEST(BarrierParameter, IsRaisedWhereStepsStayShort) {
 TEST(BarrierParameter, StaysWhereOneStepInThreeIsLong) {
   BarrierParameter parameter(Fast());
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(parameter.RaiseWhereStepsAreShort(i % 3 == 2 ? 1 : 0.05)) << i;
-  BarrierParameter far{NlpOptions()};  // 0.1 is far from every bound
-  EXPECT_EQ(StepsUntilRaised(&far, 0.01), -1);
+}
+
+// Short steps after a slow fall have other causes: squared torque crawls along valleys.
+TEST(BarrierParameter, StaysWhereItDidNotFallFasterThanThatOfIpopt) {
+  NlpOptions options = Fast();
+  options.barrier_tolerance = 10;
+  options.barrier_exponent = 1.5;
+  BarrierParameter slow(options);
+  EXPECT_TRUE(slow.Reduce(false, NoError));
+  EXPECT_EQ(StepsUntilRaised(&slow, 0.01), -1);
+}
+
+TEST(BarrierParameter, IsRaisedToTenTimesItsFirstValue) {
+  for (const double first : {1e-1, 1e-2, 1e-4, 1e-6}) {
+    NlpOptions options = Fast();
+    options.initial_barrier = first;
+    BarrierParameter parameter(options);
+    EXPECT_TRUE(parameter.Reduce(false, NoError));
+    EXPECT_GT(StepsUntilRaised(&parameter, 0.01), 0);
+    EXPECT_DOUBLE_EQ(parameter.mu(), std::min(1e-2, 10 * first));
+  }
 }
 
 TEST(BarrierParameter, GoesOnFromItsMemory) {

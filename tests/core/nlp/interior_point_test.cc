@@ -204,7 +204,7 @@ TEST(InteriorPoint, EstimatesMultipliersOfASolution) {
 // At wrong bounds with a small barrier steps are short until the barrier is raised; Problem 71 has three minima.
 TEST(InteriorPoint, RaisesTheBarrierWhereStepsAreShort) {
   NlpOptions options;
-  options.initial_barrier = 1e-6;
+  options.initial_barrier = 1e-3;
   options.warm_push = 1e-8;
   options.barrier_tolerance = 1000;
   options.barrier_exponent = 2.2;
