@@ -249,18 +249,23 @@ class ModelMaker {
     return {link.joint, Compose(link.place, {ToRotation(from.orientation()), ToVector(from.center_m())})};
   }
 
+  // Name, joint, shape and place of a surface, whether it touches the ground or other bodies.
+  template <typename From, typename To>
+  static void SetSurface(const Carried& carried, const From& from, To* to) {
+    to->set_name(from.name());
+    to->set_joint(carried.joint);
+    *to->mutable_surface() = from.surface();
+    SetXyz(carried.place.position, to->mutable_center_m());
+    SetOrientation(carried.place.rotation, to);
+  }
+
   void AddContacts() {
     const bool in_plane =
         std::none_of(result_.model.joints().begin(), result_.model.joints().end(),
                      [](const v1::Joint& joint) { return joint.role() == v1::Joint::ROLE_BASE_LATERAL; });
     for (const v1::SideContact& from : side_.contacts()) {
       v1::ContactSurface& to = *result_.model.add_contacts();
-      const Carried carried = PlaceOf("contact", from);
-      to.set_name(from.name());
-      to.set_joint(carried.joint);
-      *to.mutable_surface() = from.surface();
-      SetXyz(carried.place.position, to.mutable_center_m());
-      SetOrientation(carried.place.rotation, &to);
+      SetSurface(PlaceOf("contact", from), from, &to);
       to.set_mirror_contact(from.mirror_contact());
       for (const int axis : {0, 1, 2}) {
         if (!in_plane || axis != 1) SetXyz(Eigen::Vector3d::Unit(axis), to.add_directions());
@@ -273,12 +278,7 @@ class ModelMaker {
   void AddBodies() {
     for (const v1::SideBody& from : side_.bodies()) {
       v1::BodySurface& to = *result_.model.add_bodies();
-      const Carried carried = PlaceOf("body", from);
-      to.set_name(from.name());
-      to.set_joint(carried.joint);
-      *to.mutable_surface() = from.surface();
-      SetXyz(carried.place.position, to.mutable_center_m());
-      SetOrientation(carried.place.rotation, &to);
+      SetSurface(PlaceOf("body", from), from, &to);
       to.set_mirror_body(from.mirror_body());
     }
     *result_.model.mutable_body_pairs() = side_.body_pairs();

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <condition_variable>
 #include <map>
 #include <set>
 
 #include "tests/server/service/service_fixture.h"
+#include "tests/server/service/wake_bell.h"
 
 namespace rollgait::server {
 namespace {
@@ -15,16 +15,14 @@ namespace {
 class GroupReader {
  public:
   GroupReader(ServiceBench& bench, const std::vector<WatchPosition>& positions)
-      : group_(WatchGroup::Open(bench.hub(), positions, [this] { Wake(); }).value()) {}
+      : group_(WatchGroup::Open(bench.hub(), positions, [this] { bell_.Ring(); }).value()) {}
 
   // The next batch with something in it, or the last one.
   Outcome<WatchBatch> Next() {
     while (true) {
       Outcome<WatchBatch> batch = group_->Take();
       if (!batch.ok() || batch.value().ended || !batch.value().events.empty()) return batch;
-      std::unique_lock<std::mutex> lock(mutex_);
-      woken_.wait(lock, [this] { return wakes_ > 0; });
-      wakes_ = 0;
+      bell_.Wait();
     }
   }
   // All that comes until the end, by name; every batch is of one solve and no longer than a Watch's.
@@ -49,15 +47,7 @@ class GroupReader {
   }
 
  private:
-  void Wake() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++wakes_;
-    woken_.notify_one();
-  }
-
-  std::mutex mutex_;
-  std::condition_variable woken_;
-  int wakes_ = 0;
+  WakeBell bell_;
   std::unique_ptr<EventSource> group_;
 };
 

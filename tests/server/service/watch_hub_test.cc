@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <thread>
 
 #include "tests/server/service/service_fixture.h"
+#include "tests/server/service/wake_bell.h"
 
 namespace rollgait::server {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 class Reader {
  public:
   Reader(ServiceBench& bench, const std::string& id, int64_t after, int iterates_per_second = 0)
-      : watch_(bench.hub().Open({id, after, iterates_per_second}, [this] { Wake(); }).value()) {}
+      : watch_(bench.hub().Open({id, after, iterates_per_second}, [this] { bell_.Ring(); }).value()) {}
 
   // Adds what comes until `done(events)`; false if the watch ended or failed before.
   template <typename Condition>
@@ -30,9 +30,7 @@ class Reader {
       ended = batch.value().ended;
       if (ended) return done(events);
       if (!batch.value().events.empty()) continue;
-      std::unique_lock<std::mutex> lock(mutex_);
-      woken_.wait(lock, [this] { return wakes_ > 0; });
-      wakes_ = 0;
+      bell_.Wait();
     }
     return true;
   }
@@ -49,15 +47,7 @@ class Reader {
   std::optional<Error> failure;
 
  private:
-  void Wake() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++wakes_;
-    woken_.notify_one();
-  }
-
-  std::mutex mutex_;
-  std::condition_variable woken_;
-  int wakes_ = 0;
+  WakeBell bell_;
   std::unique_ptr<Watch> watch_;
 };
 
