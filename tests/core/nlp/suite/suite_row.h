@@ -22,6 +22,7 @@ struct Answer {
   std::string why = "";
   Termination ours = Termination::kOptimal;   // of SolveNlp
   Termination ipopt = Termination::kOptimal;  // of Ipopt alone
+  bool restores = false;                      // SolveNlp enters its restoration phase
   bool is_taken_over = false;                 // SolveNlp ends by Ipopt
 };
 
