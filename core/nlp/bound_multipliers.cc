@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/nlp/step_length.h"
+
 namespace rollgait {
 namespace {
 
@@ -28,6 +30,35 @@ void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::
       const double given = warm && i < n ? start.upper_bound_multipliers(i) : row;
       multipliers->upper(i) = first(given, barrier.upper(i) - point.w(i));
     }
+  }
+}
+
+void MoveBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& from,
+                          const BarrierProblem::Point& to, double mu, double tau, double most,
+                          Multipliers* multipliers) {
+  Multipliers step;
+  step.lower.setZero(barrier.unknowns());
+  step.upper = step.lower;
+  for (int i = 0; i < barrier.unknowns(); ++i) {
+    const double move = to.w(i) - from.w(i);
+    if (barrier.has_lower(i)) {
+      const double distance = from.w(i) - barrier.lower(i), z = multipliers->lower(i);
+      step.lower(i) = mu / distance - z - z / distance * move;
+    }
+    if (barrier.has_upper(i)) {
+      const double distance = barrier.upper(i) - from.w(i), z = multipliers->upper(i);
+      step.upper(i) = mu / distance - z + z / distance * move;
+    }
+  }
+  const double alpha = MaxDualStep(*multipliers, step, tau);
+  multipliers->lower += alpha * step.lower;
+  multipliers->upper += alpha * step.upper;
+  if (std::max(multipliers->lower.lpNorm<Eigen::Infinity>(), multipliers->upper.lpNorm<Eigen::Infinity>()) <= most) {
+    return;
+  }
+  for (int i = 0; i < barrier.unknowns(); ++i) {
+    multipliers->lower(i) = barrier.has_lower(i) ? 1 : 0;
+    multipliers->upper(i) = barrier.has_upper(i) ? 1 : 0;
   }
 }
 

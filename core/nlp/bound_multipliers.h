@@ -16,6 +16,12 @@ void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::
 void KeepNearCentralPath(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
                          Multipliers* multipliers);
 
+// After a move in w that was found without them: their Newton step for that move, as long as they stay positive by τ;
+// all 1 if one is larger than `most` then.
+void MoveBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& from,
+                          const BarrierProblem::Point& to, double mu, double tau, double most,
+                          Multipliers* multipliers);
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_CORE_NLP_BOUND_MULTIPLIERS_H_

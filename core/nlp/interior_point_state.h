@@ -10,7 +10,7 @@
 
 namespace rollgait {
 
-// All that the interior point method carries from one iteration to the next. A solve that goes on from it takes the
+// All that the interior point method carries from one iteration to the next, but within restoration. A solve that goes on from it takes the
 // same steps as one that was not interrupted, to the last bit where program and processor are the same.
 struct InteriorPointState {
   int iteration = 0;     // the one at whose point this was taken; it has been reported

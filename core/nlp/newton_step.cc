@@ -32,7 +32,8 @@ NewtonSystem::NewtonSystem(BarrierProblem& barrier, const NlpOptions& options)
       dual_diagonal_(VectorX::Zero(barrier.rows())),
       a_(primal_diagonal_),
       b_(dual_diagonal_),
-      x_(primal_diagonal_) {
+      x_(primal_diagonal_),
+      slack_compliance_(VectorX::Zero(static_cast<int>(barrier.slack_rows().size()))) {
   no_excess_.lower = no_excess_.upper = excess_.lower = excess_.upper = sigma_;
 }
 
@@ -41,6 +42,11 @@ void NewtonSystem::Restore(const Memory& memory) {
   zero_failures_ = memory.zero_failures;
   skipped_ = memory.skipped;
   kkt_.set_threshold(memory.threshold);
+}
+
+void NewtonSystem::SetElastic(const VectorX& curvature, const VectorX& compliance) {
+  elastic_curvature_ = curvature;
+  elastic_compliance_ = compliance;
 }
 
 bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
@@ -85,12 +91,15 @@ bool NewtonSystem::TryShift(double shift, double mu) {
   const int n = barrier_.variables();
   shift_ = shift;
   primal_diagonal_ = sigma_.head(n).array() + shift;
+  if (elastic_curvature_.size() > 0) primal_diagonal_ += elastic_curvature_;
   for (int trial = 0; trial < 2; ++trial) {
     dual_diagonal_.setConstant(degenerate_ ? kDualShift * std::pow(mu, kDualShiftExponent) : 0);
     for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
       const double curvature = std::max(sigma_(n + static_cast<int>(k)) + shift, kLeastCurvature);
+      slack_compliance_(static_cast<int>(k)) = 1 / curvature;
       dual_diagonal_(barrier_.slack_rows()[k]) = 1 / curvature;
     }
+    if (elastic_compliance_.size() > 0) dual_diagonal_ += elastic_compliance_;
     for (const int row : barrier_.free_rows()) dual_diagonal_(row) = kFreeRow;
     const auto outcome = kkt_.Factorise(primal_diagonal_, dual_diagonal_);
     if (outcome != KktSystem::Outcome::kSingular || degenerate_) return outcome == KktSystem::Outcome::kRight;
@@ -181,7 +190,7 @@ bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& 
   b_ = -c;
   for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
     const int row = barrier_.slack_rows()[k];
-    b_(row) += right(n + static_cast<int>(k)) * dual_diagonal_(row);
+    b_(row) += right(n + static_cast<int>(k)) * slack_compliance_(static_cast<int>(k));
   }
   step->w.resize(barrier_.unknowns());
   if (!kkt_.Solve(a_, b_, &x_, &step->multipliers.y)) return false;
@@ -189,7 +198,7 @@ bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& 
   step->w.head(n) = x_;
   for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
     const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];
-    step->w(i) = (step->multipliers.y(row) + right(i)) * dual_diagonal_(row);
+    step->w(i) = (step->multipliers.y(row) + right(i)) * slack_compliance_(static_cast<int>(k));
   }
   step->multipliers.lower.setZero(barrier_.unknowns());
   step->multipliers.upper.setZero(barrier_.unknowns());

@@ -54,10 +54,16 @@ bool StepAcceptance::Accepts(const LinePoint& from, double alpha, const LinePoin
     }
   }
   if (!filter_.Accepts(to.theta, to.phi)) return false;
-  if (!Switching(from, alpha) || !Armijo(from, alpha, to.phi)) {
-    filter_.Add((1 - kGammaTheta) * from.theta, from.phi - kGammaPhi * from.theta);
-  }
+  if (!Switching(from, alpha) || !Armijo(from, alpha, to.phi)) Exclude(from);
   return true;
+}
+
+void StepAcceptance::Exclude(const LinePoint& point) {
+  filter_.Add((1 - kGammaTheta) * point.theta, point.phi - kGammaPhi * point.theta);
+}
+
+bool StepAcceptance::TakesFromAnywhere(const LinePoint& point) const {
+  return std::isfinite(point.phi) && point.theta <= theta_max_ && filter_.Accepts(point.theta, point.phi);
 }
 
 double StepAcceptance::SmallestStep(const LinePoint& from) const {

@@ -23,6 +23,10 @@ class StepAcceptance {
   void ForgetFilter() { filter_.Reset(theta_max_); }
   // Whether the step of length α leads from one point to the other acceptably. The filter grows by what is accepted.
   bool Accepts(const LinePoint& from, double alpha, const LinePoint& to);
+  // From here on nothing is acceptable that is no better than this point.
+  void Exclude(const LinePoint& point);
+  // Whether the filter takes a point, wherever it was reached from.
+  bool TakesFromAnywhere(const LinePoint& point) const;
   // What it knows of the steps so far, from which it can go on.
   struct Memory {
     double theta_min = 0, theta_max = 0;

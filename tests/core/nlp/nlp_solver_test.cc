@@ -65,7 +65,6 @@ TEST_P(NlpSolverTest, KeepsBoundsAsExactlyAsTheToleranceAsks) {
 
 // With x ≤ 5 the squares add up to at most 100.
 TEST_P(NlpSolverTest, SaysThatAProblemIsInfeasible) {
-  if (GetParam() == SolveAlone) GTEST_SKIP() << "has no restoration phase; see InteriorPoint.AsksForRestoration";
   const NlpResult result = SolveHs071(150, {});
   EXPECT_EQ(result.termination, Termination::kInfeasible) << result.message;
   ASSERT_EQ(result.x.size(), 4);

@@ -1,0 +1,292 @@
+#include "core/nlp/restoration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/nlp/barrier_parameter.h"
+#include "core/nlp/bound_multipliers.h"
+#include "core/nlp/step_length.h"
+#include "core/nlp/termination.h"
+
+namespace rollgait {
+namespace {
+
+// Constants of Ipopt: resto_penalty_parameter; kappa_sigma.
+constexpr double kPenalty = 1000, kElasticKappaSigma = 1e10;
+
+// The barrier parameter falls by Ipopt's settings, whatever those of the solve.
+NlpOptions BarrierOptions(const NlpOptions& options) {
+  NlpOptions plain;
+  plain.tolerance = options.tolerance;
+  return plain;
+}
+
+}  // namespace
+
+Restoration::Restoration(BarrierProblem& barrier, NewtonSystem& newton, const NlpOptions& options)
+    : barrier_(barrier),
+      newton_(newton),
+      options_(options),
+      parameter_(BarrierOptions(options)),
+      is_elastic_(VectorX::Ones(barrier.rows())) {
+  for (const int row : barrier.free_rows()) is_elastic_(row) = 0;
+}
+
+double Restoration::eta() const { return std::sqrt(mu()); }
+
+Restoration::End Restoration::Run(const Point& from, const Multipliers& multipliers, double first_mu,
+                                  const std::function<bool(const Point&)>& is_acceptable,
+                                  const std::function<bool()>& goes_on) {
+  const NewtonSystem::Memory memory = newton_.memory();
+  const End end = [&] {
+    if (!Begin(from, multipliers, first_mu)) return End::kFailed;
+    bool has_been_reset = true;
+    for (;;) {
+      error_ = ErrorAt(0);
+      if (IsWithin(error_, options_.tolerance)) {
+        const bool is_violated = point_.c.lpNorm<Eigen::Infinity>() > AcceptableError(options_.tolerance);
+        return is_violated ? End::kInfeasible : End::kFailed;
+      }
+      if (parameter_.Reduce(false, [this](double barrier) { return ErrorAt(barrier).scaled; })) {
+        acceptance_.ForgetFilter();
+      }
+      if (!ComputeStep()) return End::kFailed;
+      if (!LineSearch()) {
+        if (has_been_reset) return End::kFailed;
+        has_been_reset = true;
+        MinimiseElastic();
+        acceptance_.ForgetFilter();
+        continue;
+      }
+      has_been_reset = false;
+      barrier_.KeepDistance(point_.w, mu());
+      KeepNearCentralPath(barrier_, point_, mu(), &multipliers_);
+      if (is_acceptable(point_)) return End::kRestored;
+      if (!goes_on()) return End::kStopped;
+      if (!Linearise()) return End::kFailed;
+    }
+  }();
+  newton_.SetElastic({}, {});
+  newton_.Restore(memory);
+  return end;
+}
+
+bool Restoration::Begin(const Point& from, const Multipliers& multipliers, double mu) {
+  point_ = from;
+  parameter_.Restore({std::max(mu, from.c.lpNorm<Eigen::Infinity>()), 1, 0});
+  reference_ = from.w.head(barrier_.variables());
+  scale_ = reference_.cwiseAbs().cwiseMax(1).cwiseAbs2().cwiseInverse();
+  multipliers_.y.setZero(barrier_.rows());
+  multipliers_.lower = multipliers.lower.cwiseMin(kPenalty);
+  multipliers_.upper = multipliers.upper.cwiseMin(kPenalty);
+  NewtonSystem::Memory nothing_but_threshold;
+  nothing_but_threshold.threshold = newton_.memory().threshold;
+  newton_.Restore(nothing_but_threshold);
+  MinimiseElastic();
+  if (!Linearise()) return false;
+  Residual(point_, elastic_, &residual_);
+  acceptance_.Begin(residual_.lpNorm<1>());
+  return true;
+}
+
+// p and n that minimise  ρ (p + n) − μ ln p − μ ln n  subject to  p − n = c, and multipliers on the central path.
+void Restoration::MinimiseElastic() {
+  const int m = barrier_.rows();
+  elastic_.p.setZero(m);
+  elastic_.n.setZero(m);
+  elastic_.z_p.setOnes(m);
+  elastic_.z_n.setOnes(m);
+  for (int r = 0; r < m; ++r) {
+    if (!is_elastic(r)) continue;
+    const double c = point_.c(r), half = mu() / (2 * kPenalty);
+    // The smaller of the two; the larger is it plus |c|.
+    const double b = half - std::abs(c) / 2;
+    const double root = std::sqrt(b * b + half * std::abs(c));
+    const double least = b > 0 ? b + root : half * std::abs(c) / (root - b);
+    elastic_.p(r) = c > 0 ? least + c : least;
+    elastic_.n(r) = c > 0 ? least : least - c;
+    elastic_.z_p(r) = mu() / elastic_.p(r);
+    elastic_.z_n(r) = mu() / elastic_.n(r);
+    multipliers_.y(r) = c > 0 ? kPenalty - elastic_.z_p(r) : elastic_.z_n(r) - kPenalty;
+  }
+}
+
+bool Restoration::Linearise() {
+  if (!barrier_.problem().Derivatives(point_.w.data(), 0, multipliers_.y.data(), newton_.kkt().jacobian(),
+                                      newton_.kkt().hessian())) {
+    return false;
+  }
+  proximity_ = scale_.cwiseProduct(point_.w.head(barrier_.variables()) - reference_);
+  for (int i = 0; i < barrier_.variables(); ++i) {
+    if (barrier_.fixed(i)) proximity_(i) = 0;
+  }
+  gradient_ = VectorX::Zero(barrier_.variables());
+  AddConstraintGradients(barrier_, newton_.kkt(), multipliers_.y, &gradient_);
+  return true;
+}
+
+void Restoration::Residual(const Point& point, const Elastic& elastic, VectorX* residual) const {
+  *residual = point.c - elastic.p + elastic.n;
+}
+
+OptimalityError Restoration::ErrorAt(double mu) const {
+  constexpr double kSMax = 100;
+  const int n = barrier_.variables();
+  VectorX lagrangian = gradient_;
+  lagrangian.head(n) += eta() * proximity_;
+  OptimalityError error = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian, mu);
+  error.primal = 0;
+  double sum_z = 0;
+  int bounds = 0;
+  for (int i = 0; i < barrier_.unknowns(); ++i) {
+    bounds += (barrier_.has_lower(i) ? 1 : 0) + (barrier_.has_upper(i) ? 1 : 0);
+  }
+  sum_z = multipliers_.lower.sum() + multipliers_.upper.sum();
+  for (int r = 0; r < barrier_.rows(); ++r) {
+    if (!is_elastic(r)) continue;
+    const double y = multipliers_.y(r), p = elastic_.p(r), q = elastic_.n(r), z_p = elastic_.z_p(r),
+                 z_n = elastic_.z_n(r);
+    error.primal = std::max(error.primal, std::abs(point_.c(r) - p + q));
+    error.dual = std::max({error.dual, std::abs(kPenalty - y - z_p), std::abs(kPenalty + y - z_n)});
+    error.complementarity = std::max({error.complementarity, std::abs(p * z_p - mu), std::abs(q * z_n - mu)});
+    sum_z += z_p + z_n;
+    bounds += 2;
+  }
+  const double sum_y = multipliers_.y.lpNorm<1>();
+  const double dual_scale = std::max(kSMax, (sum_y + sum_z) / std::max(1, barrier_.rows() + bounds)) / kSMax;
+  const double bound_scale = std::max(kSMax, sum_z / std::max(1, bounds)) / kSMax;
+  error.scaled = std::max({error.primal, error.dual / dual_scale, error.complementarity / bound_scale});
+  return error;
+}
+
+bool Restoration::ComputeStep() {
+  const int m = barrier_.rows();
+  curvature_ = eta() * scale_;
+  compliance_.setZero(m);
+  effective_ = point_;
+  for (int r = 0; r < m; ++r) {
+    if (!is_elastic(r)) continue;
+    const double y = multipliers_.y(r), p = elastic_.p(r), n = elastic_.n(r);
+    const double soft_p = p / elastic_.z_p(r), soft_n = n / elastic_.z_n(r);
+    compliance_(r) = soft_p + soft_n;
+    effective_.c(r) += n - p - (y - kPenalty + mu() / p) * soft_p - (y + kPenalty - mu() / n) * soft_n;
+  }
+  newton_.SetElastic(curvature_, compliance_);
+  lagrangian_ = gradient_;
+  lagrangian_.head(barrier_.variables()) += eta() * proximity_;
+  if (!newton_.Compute(effective_, multipliers_, lagrangian_, mu(), &step_)) return false;
+  // Of p and n the larger would be a difference of numbers of the size of ρ over a curvature of μ/p²: rounding. It
+  // follows from the smaller one and the row.
+  LinearChange();
+  elastic_step_.p.setZero(m);
+  elastic_step_.n = elastic_step_.z_p = elastic_step_.z_n = elastic_step_.p;
+  for (int r = 0; r < m; ++r) {
+    if (!is_elastic(r)) continue;
+    const double y = multipliers_.y(r) + step_.multipliers.y(r), p = elastic_.p(r), n = elastic_.n(r);
+    const double z_p = elastic_.z_p(r), z_n = elastic_.z_n(r);
+    const double difference = change_(r) + point_.c(r) - p + n;  // of Δp and Δn, by the linearised row
+    if (p > n) {
+      elastic_step_.n(r) = (-y - kPenalty + mu() / n) * n / z_n;
+      elastic_step_.p(r) = difference + elastic_step_.n(r);
+    } else {
+      elastic_step_.p(r) = (y - kPenalty + mu() / p) * p / z_p;
+      elastic_step_.n(r) = elastic_step_.p(r) - difference;
+    }
+    elastic_step_.z_p(r) = mu() / p - z_p - z_p / p * elastic_step_.p(r);
+    elastic_step_.z_n(r) = mu() / n - z_n - z_n / n * elastic_step_.n(r);
+  }
+  return true;
+}
+
+// Δc by the Jacobian.
+void Restoration::LinearChange() {
+  const SparsityPattern& pattern = barrier_.problem().jacobian_pattern();
+  const double* value = newton_.kkt().jacobian();
+  change_.setZero(barrier_.rows());
+  for (int e = 0; e < pattern.size(); ++e) change_(pattern.rows[e]) += value[e] * step_.w(pattern.columns[e]);
+  for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
+    change_(barrier_.slack_rows()[k]) -= step_.w(barrier_.variables() + static_cast<int>(k));
+  }
+}
+
+double Restoration::MaxStep(const VectorX& value, const VectorX& step, double tau) const {
+  double alpha = 1;
+  for (int r = 0; r < value.size(); ++r) {
+    if (step(r) < 0) alpha = std::min(alpha, tau * value(r) / -step(r));
+  }
+  return alpha;
+}
+
+// θ and φ of the problem of restoration.
+LinePoint Restoration::At(const Point& point, const Elastic& elastic) const {
+  VectorX residual;
+  Residual(point, elastic, &residual);
+  Point without = point;
+  const VectorX moved = point.w.head(barrier_.variables()) - reference_;
+  without.f = kPenalty * (elastic.p.sum() + elastic.n.sum()) + 0.5 * eta() * moved.dot(scale_.cwiseProduct(moved));
+  double logarithms = 0;
+  for (int r = 0; r < barrier_.rows(); ++r) {
+    if (is_elastic(r)) logarithms += std::log(elastic.p(r)) + std::log(elastic.n(r));
+  }
+  return {residual.lpNorm<1>(), barrier_.Barrier(without, mu()) - mu() * logarithms, 0};
+}
+
+double Restoration::Slope() const {
+  VectorX base = VectorX::Zero(barrier_.unknowns()), gradient;
+  base.head(barrier_.variables()) = eta() * proximity_;
+  barrier_.AddBarrierGradient(point_, mu(), base, &gradient);
+  double slope = gradient.dot(step_.w);
+  for (int r = 0; r < barrier_.rows(); ++r) {
+    if (!is_elastic(r)) continue;
+    slope += (kPenalty - mu() / elastic_.p(r)) * elastic_step_.p(r);
+    slope += (kPenalty - mu() / elastic_.n(r)) * elastic_step_.n(r);
+  }
+  return slope;
+}
+
+bool Restoration::LineSearch() {
+  LinePoint from = At(point_, elastic_);
+  from.slope = Slope();
+  double alpha = std::min({MaxPrimalStep(barrier_, point_, step_.w, parameter_.tau()),
+                           MaxStep(elastic_.p, elastic_step_.p, parameter_.tau()),
+                           MaxStep(elastic_.n, elastic_step_.n, parameter_.tau())});
+  dual_step_ = std::min({MaxDualStep(multipliers_, step_.multipliers, parameter_.tau()),
+                         MaxStep(elastic_.z_p, elastic_step_.z_p, parameter_.tau()),
+                         MaxStep(elastic_.z_n, elastic_step_.z_n, parameter_.tau())});
+  const double least = acceptance_.SmallestStep(from);
+  trials_ = 0;
+  for (bool first = true; first || alpha > least; first = false, alpha *= 0.5) {
+    ++trials_;
+    trial_.w = point_.w + alpha * step_.w;
+    trial_.c.resize(barrier_.rows());
+    if (!barrier_.Evaluate(&trial_)) continue;
+    trial_elastic_.p = elastic_.p + alpha * elastic_step_.p;
+    trial_elastic_.n = elastic_.n + alpha * elastic_step_.n;
+    if (!acceptance_.Accepts(from, alpha, At(trial_, trial_elastic_))) continue;
+    Accept(alpha);
+    return true;
+  }
+  return false;
+}
+
+void Restoration::Accept(double alpha) {
+  primal_step_ = alpha;
+  step_norm_ = step_.w.lpNorm<Eigen::Infinity>();
+  std::swap(point_, trial_);
+  std::swap(elastic_.p, trial_elastic_.p);
+  std::swap(elastic_.n, trial_elastic_.n);
+  multipliers_.y += alpha * step_.multipliers.y;
+  multipliers_.lower += dual_step_ * step_.multipliers.lower;
+  multipliers_.upper += dual_step_ * step_.multipliers.upper;
+  for (int r = 0; r < barrier_.rows(); ++r) {
+    if (!is_elastic(r)) continue;
+    const auto central = [this](double z, double distance) {
+      return std::clamp(z, mu() / (kElasticKappaSigma * distance), kElasticKappaSigma * mu() / distance);
+    };
+    elastic_.z_p(r) = central(elastic_.z_p(r) + dual_step_ * elastic_step_.z_p(r), elastic_.p(r));
+    elastic_.z_n(r) = central(elastic_.z_n(r) + dual_step_ * elastic_step_.z_n(r), elastic_.n(r));
+  }
+}
+
+}  // namespace rollgait
