@@ -15,7 +15,7 @@ namespace rollgait::server {
 struct HttpLimits {
   unsigned connections = 256;            // more wait in the kernel
   unsigned connections_per_peer = 64;    // of an address; not of unix sockets, whose peer is the door
-  size_t connection_memory = 32 << 10;   // request line and headers; more is answered with 414 or 431
+  size_t connection_memory = 64 << 10;   // request line and headers; more is answered with 414 or 431
   size_t body_bytes = size_t{16} << 20;  // what gRPC reads of a message; more is answered with 413
   size_t short_body_bytes = 64 << 10;    // longer ones are `long_bodies` at a time, more are answered with 503
   int long_bodies = 4;
