@@ -23,7 +23,7 @@ def schema_problems(document, schema, where):
         try:
             resolve(document, schema["$ref"])
         except KeyError:
-            found.append(f"{where}: {schema['$ref']} leads nowhere")
+            found.append(f"{where}: {schema['$ref']} names nothing")
         return found + ([f"{where}: keys beside $ref"] if len(schema) > 1 else [])
     for index, part in enumerate(schema.get("allOf", [])):
         found += schema_problems(document, part, f"{where}.allOf[{index}]")

@@ -72,7 +72,7 @@ TEST(Routes, PathsLeadToTheirCalls) {
   EXPECT_EQ(table.Match("POST", "/v1/solves/abc:cancel").route->DocumentPath(), "/v1/solves/{solve}:cancel");
 }
 
-TEST(Routes, OtherPathsLeadNowhere) {
+TEST(Routes, OtherPathsAreNoCalls) {
   const RouteTable table;
   for (const char* path : {"",
                            "/",
