@@ -62,9 +62,8 @@ class Session {
 
 class UnarySession final : public Session {
  public:
-  UnarySession(CallContext context, std::atomic<int64_t>& held, int64_t most)
-      : Session(std::move(context)), held_(held), most_(most) {}
-  ~UnarySession() override { held_ -= bytes_; }
+  UnarySession(CallContext context, int64_t most) : Session(std::move(context)), most_(most) {}
+  ~UnarySession() override { context_.use->answer_bytes -= bytes_; }
 
   void OnMessage(std::string message) {
     // JSON takes about three times the wire format, and both are held for a moment.
@@ -72,9 +71,7 @@ class UnarySession final : public Session {
     if (!too_much_) {
       readable_ = WireToJson(message, *context_.route->method->output_type(), &json_);
       json_ += '\n';
-      held_ -= bytes_;
-      bytes_ = static_cast<int64_t>(json_.size());
-      held_ += bytes_;
+      Hold(static_cast<int64_t>(json_.size()));
     }
     ReadNext();
   }
@@ -96,12 +93,10 @@ class UnarySession final : public Session {
 
  private:
   void Hold(int64_t bytes) {
-    bytes_ = bytes;
-    held_ += bytes;
-    too_much_ = held_ > most_ && held_ != bytes;
+    const int64_t all = context_.use->answer_bytes += bytes - std::exchange(bytes_, bytes);
+    too_much_ = all > most_ && all != bytes;
   }
 
-  std::atomic<int64_t>& held_;
   const int64_t most_;
   int64_t bytes_ = 0;
   bool too_much_ = false, readable_ = false;
@@ -110,8 +105,8 @@ class UnarySession final : public Session {
 
 class StreamSession final : public Session {
  public:
-  StreamSession(CallContext context, std::atomic<int>& streams) : Session(std::move(context)), streams_(streams) {}
-  ~StreamSession() override { --streams_; }
+  explicit StreamSession(CallContext context) : Session(std::move(context)) {}
+  ~StreamSession() override { --context_.use->streams; }
 
   void OnWait() { BeginOnce(); }
 
@@ -159,7 +154,6 @@ class StreamSession final : public Session {
     context_.answer->Begin(context_.headers);
   }
 
-  std::atomic<int>& streams_;
   std::mutex begin_mutex_;
   bool begun_ = false;
 };
@@ -176,8 +170,8 @@ void SendProblem(const Problem& problem, HttpHeaders headers, HttpAnswer& answer
 }
 
 void AnswerOnce(const CallContext& context, const std::shared_ptr<grpc::Channel>& channel,
-                UpstreamCall::Request request, std::atomic<int64_t>& held, int64_t most) {
-  const auto session = std::make_shared<UnarySession>(context, held, most);
+                UpstreamCall::Request request, int64_t most) {
+  const auto session = std::make_shared<UnarySession>(context, most);
   if (!context.answer->Listen({{}, {}, {}, [session] { session->Cancel(); }})) return;
   session->Attach(UpstreamCall::Start(channel, std::move(request),
                                       {[session](std::string message) { session->OnMessage(std::move(message)); },
@@ -185,8 +179,8 @@ void AnswerOnce(const CallContext& context, const std::shared_ptr<grpc::Channel>
 }
 
 void AnswerWithEvents(const CallContext& context, const std::shared_ptr<grpc::Channel>& channel,
-                      UpstreamCall::Request request, std::atomic<int>& streams) {
-  const auto session = std::make_shared<StreamSession>(context, streams);
+                      UpstreamCall::Request request) {
+  const auto session = std::make_shared<StreamSession>(context);
   if (!context.answer->Listen({[session] { session->OnWait(); }, [session] { session->ReadNext(); },
                                [session] { session->OnSlow(); }, [session] { session->Cancel(); }})) {
     return;

@@ -7,13 +7,12 @@
 
 #include "generated/openapi.h"
 #include "server/base/trace_context.h"
-#include "server/gateway/calls.h"
 #include "server/gateway/request_message.h"
 
 namespace rollgait::server {
 namespace {
 
-constexpr int kThreads = 4;       // that turn requests into messages
+constexpr int kThreads = 6;       // that turn requests into messages: more than there are long bodies at a time
 constexpr size_t kWaiting = 256;  // requests
 constexpr size_t kLongBody = 1 << 16;
 constexpr size_t kMostMessage = size_t{16} << 20;  // that rollgaitd reads
@@ -149,18 +148,18 @@ UpstreamCall::Request Gateway::MakeCall(const ResolvedRoute& route, const HttpRe
 
 void Gateway::Begin(const RouteMatch& match, const HttpRequest& request, std::string message, HttpHeaders headers,
                     const std::shared_ptr<HttpAnswer>& answer) {
-  const CallContext context{match.route, std::move(headers), options_.behind_door, answer};
+  const CallContext context{match.route, std::move(headers), options_.behind_door, answer, use_};
   UpstreamCall::Request call = MakeCall(*match.route, request, std::move(message));
   if (!match.route->streams()) {
-    return AnswerOnce(context, upstream_.channel(), std::move(call), answer_bytes_, options_.answer_bytes);
+    return AnswerOnce(context, upstream_.channel(), std::move(call), options_.answer_bytes);
   }
-  if (++streams_ > options_.streams) {
-    --streams_;
+  if (++use_->streams > options_.streams) {
+    --use_->streams;
     return SendProblem(MakeProblem(503, grpc::StatusCode::UNAVAILABLE,
                                    std::to_string(options_.streams) + " streams are open already; try again later", 5),
                        context.headers, *answer);
   }
-  AnswerWithEvents(context, upstream_.MakeChannel(), std::move(call), streams_);
+  AnswerWithEvents(context, upstream_.MakeChannel(), std::move(call));
 }
 
 }  // namespace rollgait::server

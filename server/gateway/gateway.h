@@ -1,13 +1,13 @@
 #ifndef ROLLGAIT_SERVER_GATEWAY_GATEWAY_H_
 #define ROLLGAIT_SERVER_GATEWAY_GATEWAY_H_
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "server/base/executor.h"
+#include "server/gateway/calls.h"
 #include "server/gateway/http_exchange.h"
 #include "server/gateway/problem.h"
 #include "server/gateway/routes.h"
@@ -32,7 +32,7 @@ struct GatewayOptions {
 class Gateway {
  public:
   explicit Gateway(const GatewayOptions& options);
-  // Answers in its own time; never blocks. The gateway outlives all answers.
+  // Answers in its own time; never blocks. The gateway outlives the server that calls it.
   void Handle(HttpRequest request, std::shared_ptr<HttpAnswer> answer);
 
  private:
@@ -45,8 +45,7 @@ class Gateway {
   const GatewayOptions options_;
   const RouteTable routes_;
   const Upstream upstream_;
-  std::atomic<int> streams_{0};
-  std::atomic<int64_t> answer_bytes_{0};
+  const std::shared_ptr<GatewayUse> use_ = std::make_shared<GatewayUse>();
   Executor executor_;
 };
 

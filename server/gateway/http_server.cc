@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -57,15 +59,14 @@ class MhdServer final : public HttpServer {
     if (daemon_ == nullptr) return;
     const int listener = MHD_quiesce_daemon(daemon_);
     if (listener >= 0) close(listener);
+    Close([](const Peer& peer) { return peer.exchange == nullptr || !peer.exchange->IsUnderWay(); });
     for (const auto& exchange : Exchanges()) exchange->OnStop();
     for (const auto end = Clock::now() + grace; Clock::now() < end && !Exchanges().empty();) {
       std::this_thread::sleep_for(milliseconds(10));
     }
     // The library must not be stopped while connections are suspended.
-    while (true) {
-      const auto left = Exchanges();
-      if (left.empty()) break;
-      for (const auto& exchange : left) exchange->Abort();
+    while (!Exchanges().empty()) {
+      Close([](const Peer&) { return true; });
       std::this_thread::sleep_for(milliseconds(5));
     }
     {
@@ -151,22 +152,28 @@ class MhdServer final : public HttpServer {
       for (const auto& exchange : Exchanges()) {
         if (exchange->OnTick(Clock::now())) late.push_back(exchange);
       }
+      Close([&](const Peer& peer) {
+        return peer.exchange == nullptr ? Clock::now() > peer.deadline
+                                        : std::find(late.begin(), late.end(), peer.exchange) != late.end();
+      });
       lock.lock();
-      for (const auto& peer : peers_) {
-        const bool is_late = peer->exchange == nullptr
-                                 ? Clock::now() > peer->deadline
-                                 : std::find(late.begin(), late.end(), peer->exchange) != late.end();
-        if (!is_late) continue;
-        shutdown(peer->fd, SHUT_RDWR);
-        if (peer->exchange != nullptr) peer->exchange->Abort();
-      }
+    }
+  }
+
+  // Ends connections, whatever their peers do: the library sees their end when it reads or writes next.
+  void Close(const std::function<bool(const Peer&)>& which) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& peer : peers_) {
+      if (!which(*peer)) continue;
+      shutdown(peer->fd, SHUT_RDWR);
+      if (peer->exchange != nullptr) peer->exchange->Abort();
     }
   }
 
   const HttpLimits limits_;
   const HttpHandler handler_;
   std::string address_;
-  std::atomic<int> long_bodies_{0};
+  const std::shared_ptr<std::atomic<int>> long_bodies_ = std::make_shared<std::atomic<int>>(0);
   MHD_Daemon* daemon_ = nullptr;
   std::mutex mutex_;  // protects what follows
   std::condition_variable wake_;

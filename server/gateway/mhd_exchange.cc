@@ -42,13 +42,13 @@ MHD_Result ReadHeader(void* cls, MHD_ValueKind, const char* name, const char* va
 
 }  // namespace
 
-MhdExchange::MhdExchange(const HttpLimits& limits, std::atomic<int>& long_bodies, std::string uri)
-    : limits_(limits), long_bodies_(long_bodies), deadline_(Clock::now() + limits.head_time) {
+MhdExchange::MhdExchange(const HttpLimits& limits, std::shared_ptr<std::atomic<int>> long_bodies, std::string uri)
+    : limits_(limits), long_bodies_(std::move(long_bodies)), deadline_(Clock::now() + limits.head_time) {
   request_.uri = std::move(uri);
 }
 
 MhdExchange::~MhdExchange() {
-  if (is_long_) --long_bodies_;
+  if (is_long_) --*long_bodies_;
 }
 
 MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size,
@@ -104,7 +104,7 @@ MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb) {
   }
   if (bytes > limits_.short_body_bytes) {
     is_long_ = true;
-    if (++long_bodies_ > limits_.long_bodies) {
+    if (++*long_bodies_ > limits_.long_bodies) {
       return Refuse(connection, 503,
                     std::to_string(limits_.long_bodies) + " long bodies are under way already; try again", 1);
     }
@@ -214,6 +214,11 @@ bool MhdExchange::OnTick(Clock::time_point now) {
   }
   if (tell) tell();
   return false;
+}
+
+bool MhdExchange::IsUnderWay() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return state_ == State::kWorking || state_ == State::kAnswered || state_ == State::kSent;
 }
 
 void MhdExchange::OnStop() { NotifyClosed(); }

@@ -20,7 +20,8 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
  public:
   using Clock = std::chrono::steady_clock;
 
-  MhdExchange(const HttpLimits& limits, std::atomic<int>& long_bodies, std::string uri);
+  // `long_bodies` counts those of all requests; an answer may outlive its server.
+  MhdExchange(const HttpLimits& limits, std::shared_ptr<std::atomic<int>> long_bodies, std::string uri);
   ~MhdExchange() override;
 
   // Whatever libmicrohttpd has to say of the request: headers (first call), a piece of its body, its end, and that it
@@ -34,6 +35,8 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
 
   // From another thread, a few times a second. True: the connection has taken too long and must be closed.
   bool OnTick(Clock::time_point now);
+  // Its request is here and its answer is not sent yet.
+  bool IsUnderWay();
   // on_closed, so that the answer ends soon.
   void OnStop();
   // Ends the connection at the next opportunity, without an answer.
@@ -56,8 +59,8 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
   void NotifyClosed();  // mutex_ is not held
   std::chrono::milliseconds TimeToTake(size_t bytes) const;
 
-  const HttpLimits& limits_;
-  std::atomic<int>& long_bodies_;
+  const HttpLimits limits_;
+  const std::shared_ptr<std::atomic<int>> long_bodies_;
 
   std::mutex mutex_;  // protects what follows
   State state_ = State::kHead;

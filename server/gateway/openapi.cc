@@ -185,7 +185,7 @@ Json Operation(const ResolvedRoute& route, const std::string& id, Schemas& schem
         {"content", {{"text/event-stream", {{"schema", {{"type", "string"}}}}}}}};
   }
   operation["responses"] = {{"200", good}};
-  if (*route.route->cursor != '\0')
+  if (route.streams())
     operation["responses"]["204"] = {{"description", "The stream has ended; nothing more will come."}};
   operation["responses"]["default"] = {
       {"description", "An error."},

@@ -101,7 +101,7 @@ std::shared_ptr<grpc::Channel> Upstream::MakeChannel() const {
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
   arguments.SetUserAgentPrefix("rollgait-gateway");
   return grpc::CreateCustomChannel(server_, grpc::InsecureChannelCredentials(), arguments);
 }

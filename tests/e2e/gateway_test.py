@@ -13,6 +13,7 @@ import socket
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 
 import openapi_check
@@ -252,8 +253,13 @@ class Stopped(unittest.TestCase):
                 events.close()
             following = next(iter(events))
             self.assertEqual(int(following["id"]), int(number) + 1)
-            # The gateway stops although a stream is open.
-            service.stop()
+            # The gateway stops although a stream is open, and half a request.
+            with socket.create_connection(service.address) as half, socket.create_connection(service.address) as head:
+                half.sendall(b"POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{")
+                head.sendall(b"GET /v1/solves HTTP/1.1\r\nHost: loc")
+                while service.ask("GET", "/v1/serverInfo").status == 503:
+                    pass  # the gateway waits a moment before it connects again; by then both have been read
+                service.stop()
             events.close()
 
     def test_flags_that_would_open_it(self):
@@ -387,6 +393,8 @@ class Slow(WithService):
                      + str(len(body)).encode() + b"\r\n\r\n" + body)
         while "stream.dropped" not in self.service.logged():
             self.assertIsNone(self.service.gateway.poll())
+            time.sleep(0.05)
+        peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         answer = b""
         while piece := peer.recv(65536):
             answer += piece
