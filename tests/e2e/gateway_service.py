@@ -68,7 +68,7 @@ class Service:
             return log.read()
 
     def connect(self):
-        return http.client.HTTPConnection(*self.address, timeout=60)
+        return http.client.HTTPConnection(*self.address, timeout=20)
 
     def ask(self, verb, path, body=None, headers=None):
         """The whole answer. A body that is no bytes goes as JSON."""

@@ -27,6 +27,15 @@ def token(service, *scopes):
                            "--scopes", ",".join(scopes)], check=True, capture_output=True, text=True).stdout.strip()
 
 
+def until(holds):
+    """Waits for what other threads and processes do."""
+    for _ in range(600):
+        if holds():
+            return
+        time.sleep(0.05)
+    raise AssertionError("this has not come to be within 30 s")
+
+
 class WithService(unittest.TestCase):
     flags, gateway_flags = (), ()
 
@@ -220,8 +229,7 @@ class Limited(WithService):
         self.assertEqual([stream.status for stream in streams], [200, 200])
         self.refused(self.service.ask("GET", f"/v1/{names[0]}:watch", headers=caller), 503, "UNAVAILABLE", "2 streams")
         streams[0].close()
-        while self.service.ask("GET", f"/v1/{names[0]}:watch?afterSequence=9999999", headers=caller).status == 503:
-            pass
+        until(lambda: self.service.ask("GET", f"/v1/{names[0]}:watch?afterSequence=9999999", headers=caller).status != 503)
         streams[1].close()
         # A server that stands still.
         self.service.rollgaitd.send_signal(signal.SIGSTOP)
@@ -249,16 +257,15 @@ class Stopped(unittest.TestCase):
             service.rollgaitd.stdout.close()
             self.assertEqual(service.ask("GET", "/v1/solves").status, 503)
             service.start_rollgaitd(())
-            while (events := Events(service, f"/v1/{name}:watch", last_event_id=number)).status == 503:
-                events.close()
+            until(lambda: service.ask("GET", "/v1/serverInfo").status == 200)
+            events = Events(service, f"/v1/{name}:watch", last_event_id=number)
             following = next(iter(events))
             self.assertEqual(int(following["id"]), int(number) + 1)
             # The gateway stops although a stream is open, and half a request.
             with socket.create_connection(service.address) as half, socket.create_connection(service.address) as head:
                 half.sendall(b"POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{")
                 head.sendall(b"GET /v1/solves HTTP/1.1\r\nHost: loc")
-                while service.ask("GET", "/v1/serverInfo").status == 503:
-                    pass  # the gateway waits a moment before it connects again; by then both have been read
+                self.assertEqual(service.ask("GET", "/v1/serverInfo").status, 200)  # both have been read
                 service.stop()
             events.close()
 
@@ -309,14 +316,13 @@ class Harm(WithService):
             peer.sendall(b"POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 16777216\r\n\r\n"
                          + b" " * 1_000_000)
             peers.append(peer)
-        while (answer := self.service.ask("POST", "/v1/solves", b" " * 100_000)).status == 400:
-            pass  # the last of the four is not read yet
-        self.refused(answer, 503, "UNAVAILABLE", "long bodies")
+        # Once the last of the four is read.
+        until(lambda: self.service.ask("POST", "/v1/solves", b" " * 100_000).status == 503)
+        self.refused(self.service.ask("POST", "/v1/solves", b" " * 100_000), 503, "UNAVAILABLE", "long bodies")
         self.assertEqual(self.service.ask("POST", "/v1/solves", b" " * 10_000).status, 400)
         for peer in peers:
             peer.close()
-        while self.service.ask("POST", "/v1/solves", b" " * 100_000).status == 503:
-            pass
+        until(lambda: self.service.ask("POST", "/v1/solves", b" " * 100_000).status == 400)
 
     def test_heads(self):
         many = "".join(f"x-{i}: {i}\r\n" for i in range(10_000))
@@ -359,10 +365,11 @@ class Harm(WithService):
                 closed += 1
         for peer in peers:
             peer.close()
-        while True:
+
+        def is_served():
             with contextlib.suppress(ConnectionError):
-                if self.service.ask("GET", "/v1/serverInfo").status == 200:
-                    break
+                return self.service.ask("GET", "/v1/serverInfo").status == 200
+        until(is_served)
 
     def test_answers_that_nobody_reads(self):
         model = self.service.ask("GET", "/v1/models:get?model.name=human29")
@@ -391,9 +398,7 @@ class Slow(WithService):
         peer.connect(self.service.address)
         peer.sendall(b"POST /v1/scenes:simulate HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
                      + str(len(body)).encode() + b"\r\n\r\n" + body)
-        while "stream.dropped" not in self.service.logged():
-            self.assertIsNone(self.service.gateway.poll())
-            time.sleep(0.05)
+        until(lambda: "stream.dropped" in self.service.logged())
         peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         answer = b""
         while piece := peer.recv(65536):
