@@ -25,7 +25,7 @@ set(core_gait base math geometry multibody nlp contact models ocp trajectory tra
 
 # The same for the parts of the server; "core" stands for core/, "proto" for the generated headers. Result and the
 # contract checks of core/base are common property of the server.
-set(SERVER_PARTS base convert store access service rpc agent solve simulate)
+set(SERVER_PARTS base convert store access service rpc agent solve simulate gateway)
 set(server_base proto)
 set(server_convert base proto core)
 set(server_store convert base proto)
@@ -34,13 +34,14 @@ set(server_service access store convert base proto core)
 set(server_rpc service access simulate store convert base proto)
 set(server_agent store convert base proto)
 set(server_solve convert base proto core)
+set(server_gateway base proto)  # a client of rollgaitd
 set(server_simulate agent convert base proto core)  # agent: the child process and its stream
 
 # Headers with few friends: the pattern of what is written in the #include, then the pattern of the files that may.
 set(RESTRICTED
   "^(coin/|coin-or/)?Ip[A-Z][A-Za-z]*[.]hpp$"  "^core/nlp/ipopt_solver[.]cc$"
   "^core/gait/optimizing_gait_solver[.]h$"     "^(core/gait/optimizing_gait_solver[.]cc|server/solve/.*)$"
-  "^(grpc|grpcpp)/|[.]grpc[.]pb[.]h$"          "^(server/rpc/.*|server/main[.]cc|client/.*)$"
+  "^(grpc|grpcpp)/|[.]grpc[.]pb[.]h$"          "^(server/rpc/.*|server/gateway/.*|server/main[.]cc|client/.*)$"
   "^(google|rollgait)/.*[.]pb[.]h$|^google/"   "^(server|client)/"
   "^spdlog/"                                   "^server/"
   "^prometheus/"                               "^server/"

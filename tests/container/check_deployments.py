@@ -3,7 +3,7 @@
     python3 tests/container/check_deployments.py DIRECTORY [CERTIFICATE]
 
 The files parse; every service and pod is confined as docs/how-to/operations.md says; flags that they give to programs exist (DIRECTORY
-holds what `rollgaitd --help` and `rollgait-agent --help` print, in files of these names); haproxy takes the door's configuration
+holds what `--help` of rollgaitd, rollgait-agent and rollgait-gateway prints, in files of these names); haproxy takes the door's configuration
 (with CERTIFICATE, name.crt beside its name.key); names that refer to each other agree.
 Prints one line a problem; exit code 1 if there is one.
 """
@@ -31,7 +31,7 @@ def flags_of(program):
     return flags
 
 
-FLAGS = {program: flags_of(program) for program in ("rollgaitd", "rollgait-agent")}
+FLAGS = {program: flags_of(program) for program in ("rollgaitd", "rollgait-agent", "rollgait-gateway")}
 
 
 def check_command(where, command):
@@ -121,8 +121,8 @@ expect(door is None or door.returncode == 0 and "WARNING" not in door.stderr, "h
 for unit in (DOCKER / "systemd").glob("*.service"):
     for line in re.findall(r"^ExecStart=(.*)$", unit.read_text().replace("\\\n", " "), re.M):
         words = line.split()
-        if words[0].endswith("/rollgaitd"):
-            check_command(unit.name, ["rollgaitd", *words[1:]])
+        if pathlib.Path(words[0]).name in FLAGS:
+            check_command(unit.name, [pathlib.Path(words[0]).name, *words[1:]])
 for script in (DOCKER / "slurm/agents.sbatch", DOCKER / "runtime-packages"):
     checked = subprocess.run(["bash", "-n", script], capture_output=True, text=True)
     expect(checked.returncode == 0, script.name, checked.stderr.strip())

@@ -11,7 +11,7 @@ refused() {
 deployments_are_right() {
   local program
   mkdir -p "$work/help"
-  for program in rollgaitd rollgait-agent; do in_image $program --help > "$work/help/$program" || return 1; done
+  for program in rollgaitd rollgait-agent rollgait-gateway; do in_image $program --help > "$work/help/$program" || return 1; done
   python3 $here/check_deployments.py "$work/help"
 }
 no_compiler() { ! in_image sh -c 'command -v gcc g++ cc ld make cmake python3 curl'; }
@@ -23,7 +23,7 @@ check_image() {
   size=$(inspect '{{.Size}}')
   echo "  size: $((size / 1000000)) MB, of which $((base_size / 1000000)) MB are the base"
   check "the programs run: $(in_image rollgaitd --version || true)" in_image rollgaitd --version
-  for program in rollgait-agent rollgait-solve rollgait-simulate rollgait; do
+  for program in rollgait-agent rollgait-solve rollgait-simulate rollgait-gateway rollgait; do
     check "$program finds its libraries" in_image $program --version
   done
   check "it runs as user 10001 without privileges" equal "$(in_image id -u):$(in_image id -g)" 10001:10001

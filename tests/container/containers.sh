@@ -113,7 +113,7 @@ make_base_image() {
 # Programs from elsewhere, where the image can be built from: only what lies in this repository can.
 take_programs() {
   local from=$1 program
-  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate; do
+  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate rollgait-gateway; do
     [ -x "$from/$program" ] || fail "--programs $from holds no program $program"
   done
   [ -s "$from/runtime-packages" ] ||
@@ -144,7 +144,7 @@ build_image() {
   pod_limit=2400 pod build --isolation chroot --network host "${limits[@]}" --format docker -f docker/Dockerfile -t "$image" \
     "${arguments[@]}" . > "$logs/build.log" 2>&1 ||
     { tail -n 30 "$logs/build.log" >&2; fail "the image could not be built; the end of $logs/build.log is above$advice"; }
-  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate; do
+  for program in rollgait rollgaitd rollgait-agent rollgait-solve rollgait-simulate rollgait-gateway; do
     pod run --rm "${limits[@]}" "${unattended[@]}" --network none "$image" $program --version > "$logs/first-start.log" 2>&1 ||
       { cat "$logs/first-start.log" >&2; fail "$program does not start in the image; its reason is above$advice"; }
   done

@@ -19,8 +19,8 @@ def main():
     script = [sys.executable, str(options.source / "scripts" / "make-reference"), "--bin", str(options.bin), "--into", str(options.work)]
     subprocess.run(script, check=True)
     subprocess.run(script + ["--check"], check=True)
-    pages = sorted(options.work.glob("*.md"))
-    if [page.name for page in pages] != ["api.md", "errors.md", "models.md", "programs.md"]:
+    pages = sorted(page for page in options.work.iterdir() if page.suffix in (".md", ".json"))
+    if [page.name for page in pages] != ["api.md", "errors.md", "models.md", "openapi.json", "programs.md"]:
         sys.exit(f"unexpected pages: {pages}")
     for page in pages:
         text = page.read_text(encoding="utf-8")

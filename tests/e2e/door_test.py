@@ -1,17 +1,19 @@
 """The door of docs/explanation/door.md: rollgaitd behind haproxy with TLS and tokens, good calls during every attack, and that the
 server learns who calls from the door alone.
 
-  door_test.py [TEST...]    environment: ROLLGAITD, SLOW_SOLVER, ROLLGAIT_SOURCE; exit code 77: haproxy is missing
+  door_test.py [TEST...]    environment: ROLLGAITD, ROLLGAIT_GATEWAY, SLOW_SOLVER, ROLLGAIT_SOURCE; exit code 77: haproxy is missing
 
 Asserts answers and memory, not times; prints a row of docs/explanation/door.md's table for each attack.
 """
 import contextlib
+import http.client
 import json
 import os
 import re
 import shutil
 import socket
 import sqlite3
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -276,6 +278,63 @@ class DoorTest(unittest.TestCase):
         self.assertNotIn("203.0.113.9", server.logged())
         audit = run(os.environ["ROLLGAITD"], "audit", "--data-dir", server.directory + "/data")
         self.assertIn("peer=ipv4:127.0.0.1:", audit)
+
+    def test_http_comes_in_through_the_same_door(self):
+        server = self.serve("--behind-door", "--require-token", door={"ROLLGAIT_DOOR_GATEWAY": self.directory.name + "/http.sock"})
+        tls = ssl.create_default_context(cafile=self.certificates.path("ca.crt"))
+        host, port = "localhost", int(server.address.rsplit(":", 1)[1])
+
+        def answer(verb, path, body=None, **headers):
+            connection = http.client.HTTPSConnection(host, port, timeout=60, context=tls)
+            with contextlib.closing(connection):
+                connection.request(verb, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
+                response = connection.getresponse()
+                return response.status, response.read().decode(), response.headers
+        bearer = {"authorization": "Bearer " + server.token()}
+        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+        with grpc.secure_channel(server.address, credentials, (("grpc.ssl_target_name_override", "localhost"),)) as channel:
+            ask(channel, tuple(bearer.items()))
+        self.assertEqual(answer("GET", "/v1/serverInfo")[0], 503)  # no gateway yet
+        with self.start_gateway(server):
+            status, text, _ = answer("POST", "/v1/solves", '{"spec":{"model":{"name":"planar"}}}', content_type="application/json",
+                                     x_rollgait_peer="ipv4:6.6.6.6:6", **bearer)
+            self.assertEqual(status, 200, text)
+            solve = json.loads(text)
+            status, text, headers = answer("GET", f"/v1/{solve['name']}:watch", **bearer)
+            self.assertEqual((status, headers["content-type"]), (200, "text/event-stream"))
+            self.assertTrue(text.endswith("event: end\ndata: {}\n\n"), text[-200:])
+            audit = run(os.environ["ROLLGAITD"], "audit", "--data-dir", server.directory + "/data")
+            self.assertIn("peer=ipv4:127.0.0.1:", audit)
+            self.assertNotIn("6.6.6.6", audit)
+            # HTTP/2, as browsers speak it.
+            shown = run("curl", "--silent", "--show-error", "--http2", "--cacert", self.certificates.path("ca.crt"), "--write-out",
+                        "%{http_version} %{http_code}", "--header", "authorization: " + bearer["authorization"],
+                        f"https://localhost:{port}/v1/{solve['name']}")
+            self.assertTrue(shown.endswith("2 200"), shown[-200:])
+            self.assertEqual(answer("GET", "/elsewhere")[0], 415)
+            self.assertEqual(answer("POST", "/v1/solves", content_length=str(17 << 20), **bearer)[0], 413)
+            # Who guesses tokens is counted as with gRPC: 100 refusals in 10 s.
+            statuses = set()
+            for _ in range(400):
+                status, _, headers = answer("GET", "/v1/serverInfo")
+                statuses.add(status)
+                self.assertNotIn("x-rollgait-refused", headers)
+                if status == 429:
+                    break
+            self.assertEqual(statuses, {401, 429})
+
+    @contextlib.contextmanager
+    def start_gateway(self, server):
+        gateway = subprocess.Popen(
+            [os.environ["ROLLGAIT_GATEWAY"], "--listen", f"unix:{self.directory.name}/http.sock", "--server",
+             f"unix:{server.directory}/door.sock", "--behind-door"], stdout=subprocess.PIPE, stderr=server.log)
+        try:
+            self.assertIn(b"listening on unix:", gateway.stdout.readline())
+            yield gateway
+        finally:
+            gateway.terminate()
+            self.assertEqual(gateway.wait(60), 0)
+            gateway.stdout.close()
 
     def test_the_configuration_holds_no_warning(self):
         for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")}):

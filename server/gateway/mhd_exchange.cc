@@ -1,0 +1,296 @@
+#include "server/gateway/mhd_exchange.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <utility>
+
+#include "server/gateway/problem.h"
+
+namespace rollgait::server {
+namespace {
+
+using std::chrono::milliseconds;
+using Holder = std::shared_ptr<MhdExchange>;
+
+constexpr int64_t kSlowestBytesPerMs = 128;  // of a client that takes a long text: 1 Mbit/s
+constexpr size_t kBlock = 16 << 10;          // that the library asks for at once
+
+ssize_t ReadStream(void* holder, uint64_t, char* buffer, size_t size) {
+  return (*static_cast<Holder*>(holder))->Read(buffer, size);
+}
+void FreeStream(void* holder) { delete static_cast<Holder*>(holder); }
+void FreeBody(void* body) { delete static_cast<std::shared_ptr<const std::string>*>(body); }
+
+// Headers as they come; `twice` is set to a name that came twice.
+struct HeadersRead {
+  std::map<std::string, std::string>& headers;
+  std::string twice = "";
+};
+
+MHD_Result ReadHeader(void* cls, MHD_ValueKind, const char* name, const char* value) {
+  auto& read = *static_cast<HeadersRead*>(cls);
+  std::string key = name == nullptr ? "" : name;
+  std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return c < 128 ? std::tolower(c) : c; });
+  const auto known =
+      std::find_if(std::begin(kHeadersRead), std::end(kHeadersRead), [&](const char* header) { return key == header; });
+  if (known == std::end(kHeadersRead)) return MHD_YES;
+  if (!read.headers.emplace(key, value == nullptr ? "" : value).second) read.twice = key;
+  return MHD_YES;
+}
+
+}  // namespace
+
+MhdExchange::MhdExchange(const HttpLimits& limits, std::shared_ptr<std::atomic<int>> long_bodies, std::string uri)
+    : limits_(limits), long_bodies_(std::move(long_bodies)), deadline_(Clock::now() + limits.head_time) {
+  request_.uri = std::move(uri);
+}
+
+MhdExchange::~MhdExchange() {
+  if (is_long_) --*long_bodies_;
+}
+
+MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size,
+                               const HttpHandler& handler) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  switch (state_) {
+    case State::kHead:
+      return OnHead(connection, verb);
+    case State::kBody:
+      if (*size > 0) {
+        request_.body.append(data, *size);
+        *size = 0;
+        return MHD_YES;
+      }
+      state_ = State::kWorking;
+      working_since_ = Clock::now();
+      deadline_ = Clock::time_point::max();
+      suspended_ = true;
+      MHD_suspend_connection(connection);
+      lock.unlock();
+      handler(std::move(request_), shared_from_this());
+      return MHD_YES;
+    case State::kAnswered:
+      return QueueAnswer(connection);
+    case State::kSent:
+      *size = 0;  // the rest of a body that was refused
+      return MHD_YES;
+    case State::kWorking:
+    case State::kAborted:
+      return MHD_NO;
+  }
+  return MHD_NO;
+}
+
+MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb) {
+  connection_ = connection;
+  request_.verb = verb;
+  HeadersRead read{request_.headers};
+  MHD_get_connection_values(connection, MHD_HEADER_KIND, ReadHeader, &read);
+  if (!read.twice.empty()) return Refuse(connection, 400, "the header " + read.twice + " is given twice");
+  if (request_.headers.count("transfer-encoding") > 0) {
+    return Refuse(connection, 411, "a body must come with Content-Length, not with Transfer-Encoding");
+  }
+  const std::string length = request_.Header("content-length");
+  uint64_t bytes = 0;
+  const auto parsed = std::from_chars(length.data(), length.data() + length.size(), bytes);
+  if (!length.empty() && (parsed.ec != std::errc() || parsed.ptr != length.data() + length.size())) {
+    return Refuse(connection, 400, "Content-Length is no number");
+  }
+  if (bytes > limits_.body_bytes) {
+    return Refuse(connection, 413,
+                  "the body has " + length + " bytes, the limit is " + std::to_string(limits_.body_bytes));
+  }
+  if (bytes > limits_.short_body_bytes) {
+    is_long_ = true;
+    if (++*long_bodies_ > limits_.long_bodies) {
+      return Refuse(connection, 503,
+                    std::to_string(limits_.long_bodies) + " long bodies are under way already; try again", 1);
+    }
+  }
+  state_ = State::kBody;
+  deadline_ = Clock::now() + limits_.body_time;
+  return MHD_YES;
+}
+
+MHD_Result MhdExchange::Refuse(MHD_Connection* connection, int status, const std::string& message, int retry_after_s) {
+  const auto code = status == 503 ? grpc::StatusCode::UNAVAILABLE : grpc::StatusCode::INVALID_ARGUMENT;
+  response_.status = status;
+  response_.content_type = "application/json";
+  if (retry_after_s > 0) response_.headers.emplace_back("Retry-After", std::to_string(retry_after_s));
+  // What is left of the body is not read.
+  response_.headers.emplace_back("Connection", "close");
+  response_.body = std::make_shared<const std::string>(MakeProblem(status, code, message).json + "\n");
+  return QueueAnswer(connection);
+}
+
+MHD_Result MhdExchange::QueueAnswer(MHD_Connection* connection) {
+  state_ = State::kSent;
+  if (streams_) {
+    response_.content_type = "text/event-stream";
+    sent_ = Clock::now();
+    return Queue(connection, 200, response_.headers,
+                 MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kBlock, &ReadStream,
+                                                   new Holder(shared_from_this()), &FreeStream));
+  }
+  deadline_ = Clock::now() + TimeToTake(response_.body->size());
+  auto* body = new std::shared_ptr<const std::string>(response_.body);
+  return Queue(connection, response_.status, response_.headers,
+               MHD_create_response_from_buffer_with_free_callback_cls(
+                   (*body)->size(), const_cast<char*>((*body)->data()), &FreeBody, body));
+}
+
+MHD_Result MhdExchange::Queue(MHD_Connection* connection, int status, const HttpHeaders& headers,
+                              MHD_Response* response) {
+  if (response == nullptr) return MHD_NO;
+  if (!response_.content_type.empty()) {
+    MHD_add_response_header(response, "Content-Type", response_.content_type.c_str());
+  }
+  MHD_add_response_header(response, "Cache-Control", "no-store");
+  MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+  for (const auto& [name, value] : headers) MHD_add_response_header(response, name.c_str(), value.c_str());
+  const MHD_Result queued = MHD_queue_response(connection, static_cast<unsigned>(status), response);
+  MHD_destroy_response(response);
+  return queued;
+}
+
+ssize_t MhdExchange::Read(char* buffer, size_t size) {
+  std::function<void()> on_read;
+  size_t count = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state_ != State::kSent) return MHD_CONTENT_READER_END_WITH_ERROR;
+    count = std::min(size, text_.size() - taken_);
+    if (count == 0) {
+      if (ended_) return MHD_CONTENT_READER_END_OF_STREAM;
+      suspended_ = true;
+      MHD_suspend_connection(connection_);
+      return 0;
+    }
+    std::memcpy(buffer, text_.data() + taken_, count);
+    taken_ += count;
+    sent_ = Clock::now();
+    if (taken_ == text_.size()) {
+      text_ = std::string();
+      taken_ = 0;
+      if (std::exchange(owned_, false) && !ended_) on_read = listener_.on_read;
+    }
+  }
+  if (on_read) on_read();
+  return static_cast<ssize_t>(count);
+}
+
+void MhdExchange::OnCompleted() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    connection_ = nullptr;
+    suspended_ = false;
+    state_ = State::kAborted;
+    text_ = std::string();
+  }
+  NotifyClosed();
+}
+
+bool MhdExchange::OnTick(Clock::time_point now) {
+  std::function<void()> tell;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (now > deadline_) return true;
+    if (state_ == State::kWorking && !told_wait_ && now > working_since_ + limits_.patience) {
+      told_wait_ = true;
+      tell = listener_.on_wait;
+    }
+    const bool is_open = streams_ && state_ == State::kSent && !ended_;
+    if (is_open && !text_.empty() && !told_slow_ && now > pushed_ + TimeToTake(text_.size())) {
+      told_slow_ = true;
+      deadline_ = now + limits_.read_time;
+      tell = listener_.on_slow;
+    } else if (is_open && text_.empty() && suspended_ && now > sent_ + limits_.heartbeat) {
+      text_ = ": heartbeat\n\n";
+      pushed_ = now;
+      Resume();
+    }
+  }
+  if (tell) tell();
+  return false;
+}
+
+bool MhdExchange::IsUnderWay() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return state_ == State::kWorking || state_ == State::kAnswered || state_ == State::kSent;
+}
+
+void MhdExchange::OnStop() { NotifyClosed(); }
+
+void MhdExchange::Abort() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_ = State::kAborted;
+  ended_ = true;
+  Resume();
+}
+
+bool MhdExchange::Listen(Listener listener) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ == State::kAborted) return false;
+  listener_ = std::move(listener);
+  return true;
+}
+
+void MhdExchange::Send(HttpResponse response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ != State::kWorking) return;
+  response_ = std::move(response);
+  state_ = State::kAnswered;
+  Resume();
+}
+
+void MhdExchange::Begin(HttpHeaders headers) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ != State::kWorking) return;
+  streams_ = true;
+  response_.headers = std::move(headers);
+  state_ = State::kAnswered;
+  Resume();
+}
+
+void MhdExchange::Push(std::string text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!streams_ || ended_ || state_ == State::kAborted) return;
+  if (text_.empty()) {
+    text_ = std::move(text);
+  } else {
+    text_ += text;
+  }
+  owned_ = true;
+  pushed_ = Clock::now();
+  Resume();
+}
+
+void MhdExchange::End(std::string text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!streams_ || ended_ || state_ == State::kAborted) return;
+  text_ += text;
+  ended_ = true;
+  deadline_ = std::min(deadline_, Clock::now() + TimeToTake(text_.size()));
+  Resume();
+}
+
+void MhdExchange::Resume() {
+  if (connection_ != nullptr && std::exchange(suspended_, false)) MHD_resume_connection(connection_);
+}
+
+void MhdExchange::NotifyClosed() {
+  Listener last;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last = std::exchange(listener_, {});
+  }
+  if (last.on_closed) last.on_closed();
+}
+
+milliseconds MhdExchange::TimeToTake(size_t bytes) const {
+  return limits_.read_time + milliseconds(static_cast<int64_t>(bytes) / kSlowestBytesPerMs);
+}
+
+}  // namespace rollgait::server
