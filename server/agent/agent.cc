@@ -44,6 +44,12 @@ bool Readable(int fd) {
   return fd >= 0 && poll(&entry, 1, 0) > 0;
 }
 
+Outcome<std::unique_ptr<RunningSolver>> StartProcess(const SolverProcess::Options& options) {
+  Outcome<SolverProcess> process = SolverProcess::Spawn(options);
+  if (!process.ok()) return process.error();
+  return std::unique_ptr<RunningSolver>(std::make_unique<SolverProcess>(std::move(process).value()));
+}
+
 }  // namespace
 
 Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, const Surroundings& surroundings) {
@@ -51,7 +57,7 @@ Outcome<std::unique_ptr<Agent>> Agent::Create(const Options& options, const Surr
   if (mkdir(directory.AgentsDir().c_str(), 0700) != 0 && errno != EEXIST) {
     return Error{ErrorCode::kUnavailable, "cannot make " + directory.AgentsDir() + ": " + std::strerror(errno)};
   }
-  std::string owner = NewOwner();
+  std::string owner = options.owner.empty() ? NewOwner() : options.owner;
   Outcome<std::optional<FileLock>> lock = FileLock::TryAcquire(directory.AgentLock(owner));
   if (!lock.ok()) return lock.error();
   if (!lock.value()) return Error{ErrorCode::kInternal, directory.AgentLock(owner) + " is locked by another process"};
@@ -81,7 +87,9 @@ Agent::Agent(const Options& options, const Surroundings& surroundings, std::stri
                .lease = options.lease,
                .max_event_bytes = options.max_event_bytes,
                .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s),
-               .solver_fingerprint = options.solver_fingerprint} {}
+               .solver_fingerprint = options.solver_fingerprint},
+      start_solver_(surroundings.start_solver ? surroundings.start_solver
+                                              : [solver = options.solver] { return StartProcess(solver); }) {}
 
 Agent::~Agent() {
   GiveUpAll();
@@ -90,20 +98,30 @@ Agent::~Agent() {
 }
 
 void Agent::Run() {
-  ReplayDead("");
-  RemoveOldJournals();
-  RemoveOldIterates();
+  Start();
   while (Step(std::chrono::hours(1))) {
   }
 }
 
+void Agent::Start() {
+  ReplayDead("");
+  RemoveOldJournals();
+  RemoveOldIterates();
+}
+
 bool Agent::Step(milliseconds at_most) {
   Wait(at_most);
-  const SteadyTime now = std::chrono::steady_clock::now();
-  if (Readable(options_.stop_fd)) {
-    StopAll();
-    return false;
+  bool goes_on = Turn(std::chrono::steady_clock::now());
+  while (goes_on && stopping_) {
+    Wait(milliseconds(100));
+    goes_on = Turn(std::chrono::steady_clock::now());
   }
+  return goes_on;
+}
+
+bool Agent::Turn(SteadyTime now) {
+  if (!stopping_ && Readable(options_.stop_fd)) Stop(now);
+  if (stopping_) return GoOnStopping(now);
   if (!draining_ && AtEnd(options_.lifeline_fd)) {
     Drain();
   }
@@ -115,7 +133,7 @@ bool Agent::Step(milliseconds at_most) {
   if (poked_ || now >= look_at_ || runs_.size() < before) {
     poked_ = false;
     look_at_ = now + options_.look;
-    LookForCancels();
+    LookForCancels(now);
     if (!draining_) ClaimWork(now);
   }
   if (!draining_) KeepIdleProcesses(now);
@@ -123,18 +141,19 @@ bool Agent::Step(milliseconds at_most) {
 }
 
 // Solvers have a moment to keep what they have come to.
-void Agent::StopAll() {
+void Agent::Stop(SteadyTime now) {
+  if (stopping_) return;
   stopping_ = true;
   idle_.clear();
-  SteadyTime now = std::chrono::steady_clock::now();
-  const SteadyTime end = now + options_.kill_after + milliseconds(1000);
+  stop_end_ = now + options_.kill_after + milliseconds(1000);
   for (const auto& run : runs_) run->Stop(now);
-  while (!runs_.empty() && now < end) {
-    ServiceRuns(now);
-    if (!runs_.empty()) Wait(milliseconds(100));
-    now = std::chrono::steady_clock::now();
-  }
+}
+
+bool Agent::GoOnStopping(SteadyTime now) {
+  if (!runs_.empty() && now < stop_end_) ServiceRuns(now);
+  if (!runs_.empty() && now < stop_end_) return true;
   GiveUpAll();
+  return false;
 }
 
 void Agent::Drain() {
@@ -158,13 +177,13 @@ void Agent::Wait(milliseconds at_most) {
     entries.push_back({draining_ ? -1 : options_.lifeline_fd, POLLIN, 0});
   }
   for (const auto& run : runs_) {
-    const SolverProcess& process = run->process();
+    const RunningSolver& process = run->process();
     const short writing = process.wants_to_write() ? POLLOUT : 0;
     // A stream that has ended stays readable: then NextDue sets the pace.
     entries.push_back({run->stream_ended() ? -1 : process.stream_fd(), static_cast<short>(POLLIN | writing), 0});
     entries.push_back({process.output_fd(), POLLIN, 0});
   }
-  for (const IdleProcess& idle : idle_) entries.push_back({idle.process.stream_fd(), POLLIN, 0});
+  for (const IdleProcess& idle : idle_) entries.push_back({idle.process->stream_fd(), POLLIN, 0});
   const SteadyTime now = std::chrono::steady_clock::now();
   milliseconds timeout = std::chrono::ceil<milliseconds>(NextDue(now) - now);
   timeout = std::clamp(timeout, milliseconds(0), at_most);
@@ -172,13 +191,13 @@ void Agent::Wait(milliseconds at_most) {
 }
 
 SteadyTime Agent::NextDue(SteadyTime now) const {
-  SteadyTime due = stopping_ ? SteadyTime::max() : poked_ ? now : look_at_;
+  SteadyTime due = stopping_ ? stop_end_ : poked_ ? now : look_at_;
   if (!draining_ && !stopping_) {
     due = std::min(due, reclaim_at_);
     const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
     if (idle_.size() < wanted) due = std::min(due, spawn_at_);
   }
-  for (const auto& run : runs_) due = std::min(due, run->NextDue());
+  for (const auto& run : runs_) due = std::min(due, run->NextDue(now));
   return due;
 }
 
@@ -210,14 +229,13 @@ void Agent::StoreEvents(SteadyTime now) {
   }
 }
 
-void Agent::LookForCancels() {
+void Agent::LookForCancels(SteadyTime now) {
   if (runs_.empty()) return;
   const Outcome<std::vector<std::string>> ids = store_.CancelRequests(owner_);
   if (!ids.ok()) {
     StoreFailed("cancellations", ids.error());
     return;
   }
-  const SteadyTime now = std::chrono::steady_clock::now();
   for (const auto& run : runs_) {
     if (std::find(ids.value().begin(), ids.value().end(), run->id()) != ids.value().end()) run->Cancel(now);
   }
@@ -228,14 +246,15 @@ void Agent::HearIdleProcesses(SteadyTime now) {
   const size_t before = idle_.size();
   std::erase_if(idle_, [&](IdleProcess& idle) {
     std::vector<std::string> payloads;
-    idle.process.ReadOutput();
-    const FrameStatus status = idle.process.Receive(&payloads);
+    idle.process->ReadOutput();
+    const FrameStatus status = idle.process->Receive(&payloads);
     if (!payloads.empty() && !idle.ready) idle.ready = poked_ = true;
-    if (idle.process.Reap()) {
-      LogEvent(spdlog::level::err, "solver.died_idle", {{"reason", idle.process.LastOutput()}});
+    if (idle.process->Reap()) {
+      LogEvent(spdlog::level::err, "solver.died_idle", {{"reason", idle.process->LastOutput()}});
       return true;
     }
-    if (status != FrameStatus::kNeedMore || (!idle.ready && now > idle.since + kStartLimit)) idle.process.Kill(SIGKILL);
+    if (status != FrameStatus::kNeedMore || (!idle.ready && now > idle.since + kStartLimit))
+      idle.process->Kill(SIGKILL);
     return false;
   });
   if (idle_.size() < before) spawn_at_ = std::max(spawn_at_, now + kSpawnRetry);
@@ -245,7 +264,7 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
   HearIdleProcesses(now);
   const size_t wanted = static_cast<size_t>(std::max(1, options_.slots - running()));
   while (idle_.size() < wanted && now >= spawn_at_) {
-    Outcome<SolverProcess> process = SolverProcess::Spawn(options_.solver);
+    Outcome<std::unique_ptr<RunningSolver>> process = start_solver_();
     if (!process.ok()) {
       LogEvent(spdlog::level::err, "solver.start_failed", {{"reason", process.error().message}});
       spawn_at_ = now + kSpawnRetry;
@@ -265,7 +284,7 @@ void Agent::ClaimWork(SteadyTime now) {
       return;
     }
     if (!claimed.value()) return;
-    SolverProcess process = std::move(idle->process);
+    std::unique_ptr<RunningSolver> process = std::move(idle->process);
     idle_.erase(idle);
     runs_.push_back(std::make_unique<SolveRun>(context_, std::move(*claimed.value()), std::move(process), now));
     context_.poke(runs_.back()->id());
@@ -281,7 +300,7 @@ void Agent::GiveUpAll() {
 std::vector<pid_t> Agent::IdleProcesses() const {
   std::vector<pid_t> pids;
   for (const IdleProcess& idle : idle_) {
-    if (idle.ready) pids.push_back(idle.process.pid());
+    if (idle.ready) pids.push_back(idle.process->pid());
   }
   return pids;
 }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@
 namespace rollgait::server {
 
 // Works on the solves of a store: claims them under a lease, runs each in a process of its own, relays events, kills.
-// One loop in one thread. See data_dir.h for how it lives and dies beside rollgaitd and other agents.
+// One loop in one thread. See data_dir.h for how it lives and dies beside rollgaitd and other agents. What it does
+// depends on the times it is given alone; Run and Step are the loop with the machine's clock and descriptors around it.
 class Agent {
  public:
   struct Options {
@@ -38,6 +40,7 @@ class Agent {
     std::chrono::milliseconds kill_after{2000};         // see SolveRun::Context; a stop takes a second more at most
     std::chrono::milliseconds wall_grace{60'000};
     size_t max_event_bytes = size_t{16} << 20;
+    std::string owner = {};  // of its leases; unique among all agents of the store; empty: made up
   };
 
   // What it works with; outlives it.
@@ -45,6 +48,8 @@ class Agent {
     SolveStore& store;
     HintChannel& hints;
     const Clock& clock;
+    // A solver that waits for its request; empty: a process of options.solver.
+    std::function<Outcome<std::unique_ptr<RunningSolver>>()> start_solver = {};
   };
   // Takes its place in the work directory (lock, spool). kUnavailable with the reason.
   static Outcome<std::unique_ptr<Agent>> Create(const Options& options, const Surroundings& surroundings);
@@ -54,6 +59,17 @@ class Agent {
   void Run();
   // One turn of the loop, waiting at most so long. False: it is time to go.
   bool Step(std::chrono::milliseconds at_most);
+
+  // The parts of these, without waiting. Start is called once, before the first turn.
+  void Start();
+  // Does what is due at a time, which never goes back. False: it is time to go.
+  bool Turn(SteadyTime now);
+  // When the next turn is due though nobody sends anything.
+  SteadyTime NextDue(SteadyTime now) const;
+  // From now on the solvers keep what they have come to; Turn gives their solves back and returns false in the end.
+  void Stop(SteadyTime now);
+  // Claims nothing more.
+  void Drain();
 
   const std::string& owner() const { return owner_; }
   int running() const { return static_cast<int>(runs_.size()); }
@@ -66,8 +82,7 @@ class Agent {
   void Wait(std::chrono::milliseconds at_most);
   void ServiceRuns(SteadyTime now);
   void StoreEvents(SteadyTime now);
-  void Drain();
-  void StopAll();
+  bool GoOnStopping(SteadyTime now);
   void RemoveOldJournals();
   void RemoveOldIterates();
   static void StoreFailed(const char* wanted, const Error& error);
@@ -76,12 +91,11 @@ class Agent {
   void LookAfterOthers(SteadyTime now);
   void ReclaimDeadOwners();
   void ReplayDead(const std::string& known_dead);
-  void LookForCancels();
+  void LookForCancels(SteadyTime now);
   void KeepIdleProcesses(SteadyTime now);
   void HearIdleProcesses(SteadyTime now);
   void ClaimWork(SteadyTime now);
   void GiveUpAll();
-  SteadyTime NextDue(SteadyTime now) const;
 
   const Options options_;
   SolveStore& store_;
@@ -92,15 +106,16 @@ class Agent {
   HintChannel& hints_;
   const SolveRun::Context context_;
   std::vector<std::unique_ptr<SolveRun>> runs_;
+  const std::function<Outcome<std::unique_ptr<RunningSolver>>()> start_solver_;
   struct IdleProcess {
-    SolverProcess process;
+    std::unique_ptr<RunningSolver> process;
     SteadyTime since;
     bool ready = false;  // it has said so
   };
   std::deque<IdleProcess> idle_;
   bool stopping_ = false, draining_ = false;
   bool poked_ = true;  // look into the store at once
-  SteadyTime look_at_, reclaim_at_, spawn_at_;
+  SteadyTime look_at_, reclaim_at_, spawn_at_, stop_end_;
 };
 
 }  // namespace rollgait::server

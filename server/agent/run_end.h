@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "server/agent/solver_process.h"
+#include "server/agent/running_solver.h"
 #include "server/base/wire.pb.h"
 #include "server/store/solve_store.h"
 

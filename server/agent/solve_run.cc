@@ -33,7 +33,7 @@ void Warn(const char* event, const std::string& reason) { LogEvent(spdlog::level
 
 }  // namespace
 
-SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now)
+SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, std::unique_ptr<RunningSolver> process, SteadyTime now)
     : context_(context),
       lease_(std::move(claimed.lease)),
       fields_{
@@ -47,20 +47,20 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess p
   v1::SolveSpec spec;  // one that cannot be read is the solver's to refuse
   if (!spec.ParseFromString(claimed.record.spec)) spec.Clear();
   wall_end_ = now + WallTime(spec) + context_.wall_grace;
-  process_.Send(claimed.record.spec);
-  if (!spec.warm_start().empty()) process_.Send(claimed.warm_start);
+  process_->Send(claimed.record.spec);
+  if (!spec.warm_start().empty()) process_->Send(claimed.warm_start);
   const LogScope scope(fields_);
   journal_.TakeUp(context_.store, claimed.record);
-  process_.Send(journal_.records().SerializeAsString());
-  LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_.pid()}});
+  process_->Send(journal_.records().SerializeAsString());
+  LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_->pid()}});
   if (claimed.record.cancel_requested) Cancel(now);
 }
 
 void SolveRun::Service(SteadyTime now) {
   const LogScope scope(fields_);
   if (state_ == State::kSolving) {
-    process_.Write();
-    process_.ReadOutput();
+    process_->Write();
+    process_->ReadOutput();
     ReadSolver(now);
     EnforceDeadlines(now);
   }
@@ -69,37 +69,36 @@ void SolveRun::Service(SteadyTime now) {
   if (state_ == State::kCommitting && now >= commit_at_) Commit(now);
 }
 
-SteadyTime SolveRun::NextDue() const {
+SteadyTime SolveRun::NextDue(SteadyTime now) const {
   SteadyTime due = renew_at_;
   if (state_ == State::kCommitting) return std::min(due, commit_at_);
   due = std::min(due, wall_end_);
   if (flush_at_) due = std::min(due, *flush_at_);
   if (kill_at_) due = std::min(due, *kill_at_);
-  if (stream_end_) due = std::min(due, std::chrono::steady_clock::now() + kReapTick);
+  if (stream_end_) due = std::min(due, now + kReapTick);
   return due;
 }
 
 void SolveRun::Cancel(SteadyTime now) {
   if (cancelled_ || state_ != State::kSolving) return;
   cancelled_ = true;
-  process_.Kill(kCancelSignal);
+  process_->Kill(kCancelSignal);
   KillBy(now + context_.kill_after);
 }
 
 void SolveRun::Stop(SteadyTime now) {
   stopping_ = true;
   if (state_ != State::kSolving) return;
-  process_.Kill(kCancelSignal);
+  process_->Kill(kCancelSignal);
   KillBy(now + context_.kill_after);
 }
 
 void SolveRun::GiveUp() {
   const LogScope scope(fields_);
-  process_.Kill(SIGKILL);
+  process_->Kill(SIGKILL);
   if (state_ == State::kOver) return;
   if (state_ == State::kCommitting) {
-    commit_at_ = SteadyTime{};
-    Commit(std::chrono::steady_clock::now());
+    Commit(SteadyTime{});
     return;
   }
   state_ = State::kOver;
@@ -114,7 +113,7 @@ void SolveRun::KillBy(SteadyTime deadline) { kill_at_ = kill_at_ ? std::min(*kil
 void SolveRun::ReadSolver(SteadyTime now) {
   if (stream_end_) return;
   std::vector<std::string> payloads;
-  const FrameStatus status = process_.Receive(&payloads);
+  const FrameStatus status = process_->Receive(&payloads);
   for (const std::string& payload : payloads) Take(payload, now);
   if (status != FrameStatus::kNeedMore && !stream_end_) stream_end_ = status;
   // It ends by itself in an instant; a process that closed or spoilt its stream is of no use any more.
@@ -212,7 +211,7 @@ void SolveRun::RenewLease(SteadyTime now) {
 
 void SolveRun::LoseLease(const std::string& reason) {
   Warn("lease.lost", reason);
-  process_.Kill(SIGKILL);
+  process_->Kill(SIGKILL);
   if (state_ == State::kCommitting) context_.spool.Remove(lease_);
   context_.iterates.Remove(id());
   state_ = State::kOver;
@@ -224,16 +223,16 @@ void SolveRun::EnforceDeadlines(SteadyTime now) {
     kill_at_ = now;
   }
   if (kill_at_ && now >= *kill_at_) {
-    process_.Kill(SIGKILL);
+    process_->Kill(SIGKILL);
     kill_at_ = now + kRetry;  // until it is gone
   }
 }
 
 void SolveRun::ConcludeIfGone(SteadyTime now) {
   if (!stream_end_) return;
-  const std::optional<ProcessEnd> end = process_.Reap();
+  const std::optional<ProcessEnd> end = process_->Reap();
   if (!end) return;
-  process_.ReadOutput();
+  process_->ReadOutput();
   RunFacts facts;
   facts.last = std::move(last_);
   facts.process = *end;
@@ -241,7 +240,7 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   facts.cancelled = cancelled_;
   facts.out_of_time = out_of_time_;
   facts.cpu_limit_s = context_.cpu_limit_s;
-  facts.output = process_.LastOutput();
+  facts.output = process_->LastOutput();
   context_.iterates.Remove(id());
   outcome_ = JudgeRun(std::move(facts));
   if (SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -10,7 +11,7 @@
 
 #include "server/agent/run_end.h"
 #include "server/agent/run_journal.h"
-#include "server/agent/solver_process.h"
+#include "server/agent/running_solver.h"
 #include "server/agent/spool.h"
 #include "server/base/clock.h"
 #include "server/base/iterate_files.h"
@@ -43,10 +44,10 @@ class SolveRun {
     std::string solver_fingerprint = {};  // results for keys of another solver are not reused; empty: unknown
   };
 
-  SolveRun(const Context& context, ClaimedSolve claimed, SolverProcess process, SteadyTime now);
+  SolveRun(const Context& context, ClaimedSolve claimed, std::unique_ptr<RunningSolver> process, SteadyTime now);
 
   const std::string& id() const { return lease_.solve_id; }
-  const SolverProcess& process() const { return process_; }
+  const RunningSolver& process() const { return *process_; }
   // Its stream stays readable for ever then.
   bool stream_ended() const { return stream_end_.has_value(); }
   // Does what is due: reads the solver, renews the lease, kills, commits the end. Events are left to the agent, which
@@ -60,7 +61,7 @@ class SolveRun {
   // What became of them.
   void EventsStored(const Outcome<LeaseState>& appended, SteadyTime now);
   // When Service is due again though no descriptor is ready.
-  SteadyTime NextDue() const;
+  SteadyTime NextDue(SteadyTime now) const;
   // The store knows the end, or the solve is no longer ours.
   bool over() const { return state_ == State::kOver; }
   // Asks the solver to stop because a client wants that.
@@ -92,7 +93,7 @@ class SolveRun {
   const LogFields fields_;   // of every line about this run
   const bool other_solver_;  // the key was made for another one than ours
   RunJournal journal_;
-  SolverProcess process_;
+  const std::unique_ptr<RunningSolver> process_;
   State state_ = State::kSolving;
 
   std::optional<wire::SolverMessage> last_;  // result or error

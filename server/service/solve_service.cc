@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "server/base/digest.h"
 #include "server/base/logging.h"
 #include "server/service/filter_check.h"
 #include "server/service/label_check.h"
@@ -131,7 +130,7 @@ Outcome<NewSolve> SolveService::MakeNew(const Caller& caller, const v1::CreateSo
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   Outcome<Checked> checked = CheckSpec(caller, request.spec(), request.has_spec());
   if (!checked.ok()) return checked.error();
-  NewSolve solve{RandomId(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key,
+  NewSolve solve{options_.new_id(), request.request_id(), CanonicalBytes(request.spec()), checked.value().key,
                  options_.max_queued};
   solve.actor = caller.actor();
   solve.traceparent = caller.traceparent;

@@ -9,6 +9,7 @@
 
 #include "rollgait/v1/gait_service.pb.h"
 #include "server/access/caller.h"
+#include "server/base/digest.h"
 #include "server/base/outcome.h"
 #include "server/service/full_queue.h"
 #include "server/service/gait_knowledge.h"
@@ -29,7 +30,8 @@ struct ServiceOptions {
   int max_queued = 1000;
   bool reuse_results = true;  // false: every request is solved, equal ones too
   std::string store_name = "sqlite";
-  DiskRoom store_disk;  // none: ServerInfo says nothing of it
+  DiskRoom store_disk;                             // none: ServerInfo says nothing of it
+  std::function<std::string()> new_id = RandomId;  // ids of solves, each once
 };
 
 // The use cases, one method an RPC; what the errors mean is in gait_service.proto. Requests are refused with every

@@ -87,19 +87,19 @@ Outcome<WatchBatch> Watch::Take() {
 }
 
 WatchHub::WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval,
-                   IterateFiles iterates)
+                   IterateFiles iterates, Drive drive)
     : store_(store),
       hints_(hints),
       iterates_(std::move(iterates)),
       heartbeat_interval_(heartbeat_interval),
       event_fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   ROLLGAIT_CHECK(event_fd_ >= 0);
-  thread_ = std::thread([this] { Loop(); });
+  if (drive == Drive::kThread) thread_ = std::thread([this] { Loop(); });
 }
 
 WatchHub::~WatchHub() {
   Stop();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
   close(event_fd_);
 }
 
@@ -247,25 +247,30 @@ void WatchHub::Loop() {
   while (!stopped_) {
     pollfd entries[] = {{hints_.fd(), POLLIN, 0}, {event_fd_, POLLIN, 0}};
     poll(entries, 2, kNotifyPollMillis);
-    uint64_t count = 0;
-    if (read(event_fd_, &count, sizeof(count)) < 0) count = 0;  // nobody rang
-    std::vector<std::string> ids = hints_.Drain();
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ids.insert(ids.end(), changed_.begin(), changed_.end());
-      changed_.clear();
-    }
-    std::vector<std::string> iterated;
-    if (SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000) {
-      last_poll_ns = SteadyNanos();
-      const std::vector<std::string> missed = ChangedIds();
-      ids.insert(ids.end(), missed.begin(), missed.end());
-      iterated = IteratedIds();
-      WakeTheDue();
-    }
-    for (const std::string& id : ids) Refresh(id, true);
-    for (const std::string& id : iterated) Refresh(id, false);
+    const bool look = SteadyNanos() - last_poll_ns >= int64_t{kNotifyPollMillis} * 1'000'000;
+    if (look) last_poll_ns = SteadyNanos();
+    Turn(look);
   }
+}
+
+void WatchHub::Turn(bool look) {
+  uint64_t count = 0;
+  if (read(event_fd_, &count, sizeof(count)) < 0) count = 0;  // nobody rang
+  std::vector<std::string> ids = hints_.Drain();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ids.insert(ids.end(), changed_.begin(), changed_.end());
+    changed_.clear();
+  }
+  std::vector<std::string> iterated;
+  if (look) {
+    const std::vector<std::string> missed = ChangedIds();
+    ids.insert(ids.end(), missed.begin(), missed.end());
+    iterated = IteratedIds();
+    WakeTheDue();
+  }
+  for (const std::string& id : ids) Refresh(id, true);
+  for (const std::string& id : iterated) Refresh(id, false);
 }
 
 }  // namespace rollgait::server

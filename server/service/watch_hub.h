@@ -86,7 +86,10 @@ class WatchHub {
  public:
   // Store and hints outlive the hub, which alone receives from them. Heartbeats come within a poll of their time.
   // `iterates`: where the agents of this machine keep those of running solves.
-  WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval, IterateFiles iterates);
+  // `drive`: kCaller has no thread, and its owner calls Turn.
+  enum class Drive { kThread, kCaller };
+  WatchHub(SolveStore& store, HintChannel& hints, std::chrono::milliseconds heartbeat_interval, IterateFiles iterates,
+           Drive drive = Drive::kThread);
   ~WatchHub();
 
   // A reader from a position. `wake` is called, from any thread, when Take may have something: soon after opening too.
@@ -97,6 +100,9 @@ class WatchHub {
   // Wakes every reader; from now on Take and Open answer kUnavailable.
   void Stop();
   bool stopped() const { return stopped_; }
+  // One turn of the loop, without waiting: tells readers of what was hinted at or, if `look`, of all that is new in the
+  // store.
+  void Turn(bool look);
   std::chrono::milliseconds heartbeat_interval() const { return heartbeat_interval_; }
   struct Stats {
     int readers = 0;

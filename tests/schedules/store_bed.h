@@ -1,0 +1,34 @@
+#ifndef ROLLGAIT_TESTS_SCHEDULES_STORE_BED_H_
+#define ROLLGAIT_TESTS_SCHEDULES_STORE_BED_H_
+
+#include <cstdint>
+#include <memory>
+
+#include "server/base/clock.h"
+#include "server/store/sql_connection.h"
+#include "tests/schedules/store_view.h"
+
+namespace rollgait::server {
+
+// A database for one seed after the other.
+class StoreBed {
+ public:
+  virtual ~StoreBed() = default;
+  virtual std::unique_ptr<SqlConnection> Connect(const Clock& clock) = 0;
+  // Removes all rows and counts from the start again; no transaction is open.
+  virtual void Clear() = 0;
+  virtual StoreView& view() = 0;
+  // One writer has the whole database.
+  virtual bool one_writer() const = 0;
+  // What its own clock shows, if it has one.
+  virtual void SetTime(int64_t now_us) = 0;
+};
+
+// A file in memory (/dev/shm, if there is such a folder).
+std::unique_ptr<StoreBed> MakeSqliteBed();
+// A server of its own, with a clock that shows what it is told.
+std::unique_ptr<StoreBed> MakePostgresBed();
+
+}  // namespace rollgait::server
+
+#endif  // ROLLGAIT_TESTS_SCHEDULES_STORE_BED_H_
