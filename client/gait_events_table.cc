@@ -1,8 +1,14 @@
 #include "client/gait_events_table.h"
 
+#include <cmath>
+
 #include "client/text.h"
 
 namespace rollgait::client {
+
+namespace {
+constexpr double kVisible = 5e-4;  // half of the last digit that is written
+}  // namespace
 
 std::string EventName(v1::GaitEvent::Kind kind) {
   switch (kind) {
@@ -42,6 +48,18 @@ std::vector<std::vector<std::string>> GaitEventRows(const v1::GaitEvents& events
       when += (when.empty() ? "" : ", ") + EventName(event.kind()) + " " + FormatNumber(event.percent(), 3);
     }
     rows.push_back({"  stance, " + SideName(foot.foot()) + " foot", share(foot.stance_fraction()), when});
+  }
+  for (const v1::FootOnGround& foot : events.feet()) {
+    if (foot.step_length_m() == 0 && foot.step_duration_s() == 0) continue;
+    rows.push_back(
+        {"  step, " + SideName(foot.foot()) + " foot", FormatNumber(foot.step_length_m()) + " m",
+         FormatNumber(foot.step_duration_s()) + " s, then " + share(foot.loading_fraction()) + " on both feet"});
+  }
+  if (std::abs(events.step_length_asymmetry()) > kVisible || std::abs(events.step_duration_asymmetry()) > kVisible ||
+      std::abs(events.stance_asymmetry()) > kVisible) {
+    rows.push_back({"  asymmetry, right less left", share(events.step_length_asymmetry()),
+                    "of step length, " + share(events.step_duration_asymmetry()) + " of step duration, " +
+                        share(events.stance_asymmetry()) + " of stance"});
   }
   rows.push_back({"  double support", share(events.double_support_fraction())});
   if (events.flight_fraction() > 0) rows.push_back({"  flight", share(events.flight_fraction())});

@@ -6,7 +6,6 @@
 #include "client/bound_flags.h"
 #include "client/failure.h"
 #include "client/flag_values.h"
-#include "client/import/model_file.h"
 #include "client/json.h"
 #include "client/spec_words.h"
 #include "client/text.h"
@@ -61,12 +60,6 @@ void ApplyGround(const SpecFlags& flags, v1::SolveSpec& spec) {
   }
 }
 
-void SetVector(const std::vector<double>& numbers, size_t first, v1::Vector3& vector) {
-  vector.set_x(numbers[first]);
-  vector.set_y(numbers[first + 1]);
-  vector.set_z(numbers[first + 2]);
-}
-
 // "X,Y" or "X,Y,A,B,C": the place, and the rotation vector (A, B, C) in degrees.
 void ApplyState(const std::string& flag, const std::string& text, v1::Manoeuvre::State& state) {
   const std::vector<double> numbers =
@@ -87,12 +80,6 @@ void ApplyManoeuvre(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.from) ApplyState("--from", *flags.from, *spec.mutable_manoeuvre()->mutable_start());
   if (flags.to) ApplyState("--to", *flags.to, *spec.mutable_manoeuvre()->mutable_end());
   if (flags.duration_s) spec.mutable_manoeuvre()->set_duration_s(*flags.duration_s);
-}
-
-bool HasBodyFlags(const SpecFlags& flags) {
-  return flags.model || !flags.side_file.empty() || flags.sex || flags.stature_m || flags.mass_kg || flags.feet ||
-         flags.ranges || flags.toes || flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes ||
-         !flags.locks.empty() || !flags.segments.empty();
 }
 
 void ApplyMotion(const SpecFlags& flags, v1::SolveSpec& spec) {
@@ -134,30 +121,6 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
 }
 
 }  // namespace
-
-void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
-  command
-      .add_option("--side", flags.side_file,
-                  "Of a model in FILE.urdf: rollgait.v1.ModelSideFile as JSON, with feet, roles, reference posture")
-      ->group("Body");
-  command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
-  command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
-  command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
-  command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")
-      ->group("Body");
-  command.add_option("--segment", flags.segments, "SEGMENT=LENGTH in m, for example thigh=0.45; may be repeated")
-      ->group("Body")
-      ->take_all();
-  command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
-  command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
-  command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
-  command.add_flag("--sagittal", flags.sagittal, "Fix everything that moves sideways")->group("Body");
-  command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
-  command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
-  command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
-      ->group("Body")
-      ->take_all();
-}
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--spec", flags.file,
@@ -220,52 +183,6 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 20]");
   add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");
   add("--time-limit", flags.time_limit_s, "Numerics", "Wall time of the solve in s, [0.01, 86400]");
-}
-
-std::string ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
-  std::string explanation;
-  if (!flags.side_file.empty() && !(flags.model && IsModelFile(*flags.model))) {
-    throw Failure(ExitCode::kUsage, "--side: needs a model in a .urdf file");
-  }
-  // One or the other, whatever a file of the whole request says.
-  if (flags.model && IsModelFile(*flags.model)) {
-    selection.Clear();
-    ModelFile file = ReadModelFile(*flags.model, flags.side_file);
-    *selection.mutable_own() = std::move(file.model);
-    explanation = std::move(file.explanation);
-  } else if (flags.model) {
-    selection.clear_own();
-    selection.set_name(*flags.model);
-  }
-  if (flags.sex) {
-    selection.set_sex(Lookup("--sex", *flags.sex, SexWords()));
-  }
-  if (flags.stature_m) selection.set_stature_m(*flags.stature_m);
-  if (flags.mass_kg && selection.name() == "ball") selection.mutable_rolling_body()->set_mass_kg(*flags.mass_kg);
-  if (flags.mass_kg && selection.name() != "ball") selection.set_body_mass_kg(*flags.mass_kg);
-  if (flags.semi_axes) {
-    SetVector(ParseNumbers("--semi-axes", *flags.semi_axes, "A,B,C in m", {3}), 0,
-              *selection.mutable_rolling_body()->mutable_semi_axes_m());
-  }
-  for (const std::string& text : flags.segments) {
-    const auto [segment, length] = ParseAssignment("--segment", text);
-    (*selection.mutable_segment_lengths_m())[segment] = length;
-  }
-  if (flags.feet) {
-    selection.set_feet(Lookup("--feet", *flags.feet, FeetWords()));
-  }
-  if (flags.ranges) {
-    selection.set_ranges(Lookup("--ranges", *flags.ranges, RangesWords()));
-  }
-  if (flags.toes) selection.set_toes(true);
-  if (flags.sagittal) selection.set_sagittal(true);
-  if (flags.drop_arms) selection.set_drop_arms(true);
-  if (flags.rigid_trunk) selection.set_rigid_trunk(true);
-  for (const std::string& text : flags.locks) {
-    const auto [joint, degrees] = ParseAssignment("--lock", text);
-    (*selection.mutable_locked_joints_rad())[joint] = degrees * kPi / 180.0;
-  }
-  return explanation;
 }
 
 v1::SolveSpec BuildSpec(const SpecFlags& flags) {

@@ -32,14 +32,18 @@ struct SpecFlags {
   std::optional<std::string> feet, ranges;
   bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false,
        rigid_trunk = false;
-  std::vector<std::string> locks, segments;  // "knee_l=20" in degrees, "thigh=0.45" in m
-  std::vector<std::string> costs;            // "torque", "work:0.5" …
-  std::vector<std::string> bounds;           // "max_pull_bw=1e-4" …
+  std::vector<std::string> locks, segments;            // "knee_l=20" in degrees, "thigh=0.45" in m
+  std::vector<std::string> loads, strengths, springs;  // "hand_l=10", "knee_l=0.3", "ankle_l=340,0,2"
+  std::vector<std::string> costs;                      // "torque", "work:0.5" …
+  std::vector<std::string> bounds;                     // "max_pull_bw=1e-4" …
   bool estimate_errors = false;
   std::vector<std::string> max_errors;  // "angle=0.5" in degrees …
 };
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags);
+
+// Whether any of AddBodyFlags, or the model, is given.
+bool HasBodyFlags(const SpecFlags& flags);
 
 // Only the flags of model selection but the name (--sex, --stature, --lock …), for other commands.
 void AddBodyFlags(CLI::App& command, SpecFlags& flags);

@@ -89,6 +89,11 @@ class MjcfWriter {
                                         {"axis", Exact(Eigen::Vector3d(frame.rotation * ToVector(joint.axis())))},
                                         {"limited", limited ? "true" : "false"}};
     if (limited) attributes.emplace_back("range", Exact(joint.position_min()) + " " + Exact(joint.position_max()));
+    if (joint.stiffness() != 0) {
+      attributes.emplace_back("stiffness", Exact(joint.stiffness()));
+      attributes.emplace_back("springref", Exact(joint.rest_position()));
+    }
+    if (joint.damping() != 0) attributes.emplace_back("damping", Exact(joint.damping()));
     xml_.Empty("joint", attributes);
   }
 

@@ -46,7 +46,10 @@ class OsimWriter {
     Set("JointSet", [this] {
       for (const BodyLink& body : bodies_) WriteJoint(body);
     });
-    Set("ForceSet", [this] { WriteActuators(); });
+    Set("ForceSet", [this] {
+      WriteActuators();
+      WriteSprings();
+    });
     Set("MarkerSet", [this] { WriteMarkers(); });
     xml_.Close();
     xml_.Close();
@@ -173,6 +176,19 @@ class OsimWriter {
       xml_.Leaf("optimal_force", "1");
       xml_.Leaf("min_control", Exact(std::min(a, b)));
       xml_.Leaf("max_control", Exact(std::max(a, b)));
+      xml_.Close();
+    }
+  }
+
+  void WriteSprings() {
+    for (int i = 0; i < model_.joints_size(); ++i) {
+      const v1::Joint& joint = model_.joints(i);
+      if (joint.stiffness() == 0 && joint.damping() == 0) continue;
+      xml_.Open("SpringGeneralizedForce", {{"name", coordinates_[i].name + "_spring"}});
+      xml_.Leaf("coordinate", coordinates_[i].name);
+      xml_.Leaf("stiffness", Exact(joint.stiffness()));
+      xml_.Leaf("rest_length", Exact(coordinates_[i].sign * joint.rest_position()));
+      xml_.Leaf("viscosity", Exact(joint.damping()));
       xml_.Close();
     }
   }

@@ -60,6 +60,7 @@ void WriteJoint(const v1::Joint& joint, const std::string& parent, XmlWriter& xm
     limit.emplace_back("upper", Exact(Bounded(joint.position_max())));
   }
   xml.Empty("limit", limit);
+  if (joint.damping() != 0) xml.Empty("dynamics", {{"damping", Exact(joint.damping())}});
   xml.Close();
 }
 

@@ -116,9 +116,9 @@ CheckedMotion CheckMotion(const GaitRequest& request, const Scene* scene, double
   RequestCheck own;
   const CheckedMotion motion = CheckTravel(request.motion, scene, gravity, similarity, own);
   if (own.ok() && motion.step_duration) {
-    CheckStepDuration(*motion.step_duration, "motion.step_duration_s", request.cycle, phases, own);
+    CheckStepDuration(*motion.step_duration, "motion.step_duration_s", *request.cycle, phases, own);
   } else if (own.ok() && motion.speed && motion.step_length) {
-    CheckStepDuration(*motion.step_length / *motion.speed, "motion", request.cycle, phases, own);
+    CheckStepDuration(*motion.step_length / *motion.speed, "motion", *request.cycle, phases, own);
   }
   if (own.ok()) return motion;
   for (Violation& violation : own.Take()) check.Add(std::move(violation.field), std::move(violation.message));

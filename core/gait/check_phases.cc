@@ -138,7 +138,7 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
     return {};
   }
   const std::vector<GaitRequest::Phase> phases =
-      request.phases ? *request.phases : StandardPhases(request.cycle, *scene, single, both);
+      request.phases ? *request.phases : StandardPhases(*request.cycle, *scene, single, both);
   std::vector<GaitSpec::Phase> checked;
   long total = 0;
   for (size_t i = 0; i < phases.size(); ++i) {
@@ -151,7 +151,7 @@ std::vector<GaitSpec::Phase> CheckPhases(const GaitRequest& request, const Scene
                                                              " mesh intervals in all phases together; at most " +
                                                              std::to_string(kMaxTotalIntervals) + " are accepted");
   }
-  if (scene != nullptr) CheckOrder(checked, request.cycle, *scene, check);
+  if (scene != nullptr) CheckOrder(checked, *request.cycle, *scene, check);
   return checked;
 }
 

@@ -6,6 +6,7 @@
 #include "core/gait/gait_spec.h"
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
+#include "core/models/subject_changes.h"
 
 namespace rollgait {
 namespace {
@@ -116,10 +117,26 @@ CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double g
   if (scene != nullptr && !scene->symmetric && request.cycle == Cycle::kHalf) {
     check.Add("cycle",
               "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
-              "model.locked_joints_rad); give CYCLE_FULL or lock both sides alike");
+              "model.locked_joints_rad); give CYCLE_FULL, leave it out, or make both sides alike");
   }
   *phases = CheckPhases(request, scene, similarity, check);
   return CheckMotion(request, scene, gravity, similarity, *phases, check);
+}
+
+// The request without what makes left and right of its body differ.
+GaitRequest ForBothSidesAlike(GaitRequest request) {
+  request.body = WithSidesAlike(std::move(request.body));
+  request.cycle = Cycle::kFull;
+  request.warm_start = false;
+  return request;
+}
+
+// Null where left and right of the body do not differ, and where nothing else is known of it.
+std::shared_ptr<const GaitSpec> SymmetricSpec(const GaitRequest& given, const Scene& scene, Cycle cycle) {
+  if (scene.symmetric || cycle != Cycle::kFull || given.body.own) return nullptr;
+  const Result<GaitSpec> symmetric = CheckRequest(ForBothSidesAlike(given));
+  if (!symmetric.ok() || !symmetric.value().scene.symmetric) return nullptr;
+  return std::make_shared<const GaitSpec>(symmetric.value());
 }
 
 }  // namespace
@@ -137,6 +154,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
   const Similarity similarity = SimilarityOf(known, gravity);
 
   const bool once = request.manoeuvre.has_value();
+  const bool is_full_by_body = !request.cycle && !once && known != nullptr && !known->symmetric;
+  if (!request.cycle) request.cycle = once ? Cycle::kOnce : is_full_by_body ? Cycle::kFull : Cycle::kHalf;
   CheckedManoeuvre manoeuvre;
   CheckedMotion motion{};
   if (once) {
@@ -173,6 +192,7 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
 
   Result<Model> model = Model::Create(std::move(joints));
   if (!model.ok()) return model.violations();
+  std::shared_ptr<const GaitSpec> symmetric = SymmetricSpec(given, *scene, *request.cycle);
   Scene limited = *scene;
   limited.model = std::move(model).value();
   return GaitSpec{.scene = std::move(limited),
@@ -187,7 +207,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .step_length_range = motion.step_length_range,
                   .step_duration_range = motion.step_duration_range,
                   .duty_factor = request.motion.duty_factor,
-                  .cycle = request.cycle,
+                  .cycle = *request.cycle,
+                  .is_full_by_body = is_full_by_body,
                   .manoeuvre = once ? std::optional(manoeuvre.manoeuvre) : std::nullopt,
                   .phases = std::move(manoeuvre.phases),
                   .costs = std::move(costs),
@@ -208,7 +229,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .max_iterations = max_iterations,
                   .max_wall_time = max_wall_time,
                   .starts = request.warm_start ? 1 : starts,
-                  .warm_start = std::nullopt};
+                  .warm_start = std::nullopt,
+                  .symmetric = std::move(symmetric)};
 }
 
 }  // namespace rollgait

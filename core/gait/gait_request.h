@@ -87,7 +87,8 @@ struct GaitRequest {
     bool free_speed = false;
     std::optional<Range> duty_factor;
   } motion;
-  Cycle cycle = Cycle::kHalf;  // kOnce with a manoeuvre
+  // Default: half; full where left and right of the body differ; once with a manoeuvre.
+  std::optional<Cycle> cycle;
   std::optional<ManoeuvreRequest> manoeuvre;
   std::optional<std::vector<Phase>> phases;
   std::optional<Preset> preset;

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_GAIT_GAIT_SPEC_H_
 #define ROLLGAIT_CORE_GAIT_GAIT_SPEC_H_
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct GaitSpec {
   GaitRequest::Range speed_range, step_length_range, step_duration_range;
   std::optional<GaitRequest::Range> duty_factor;
   Cycle cycle;
+  bool is_full_by_body = false;        // the request left the cycle open, and left and right of its body differ
   std::optional<Manoeuvre> manoeuvre;  // of a rolling body, in one phase; the motion prescribed above means nothing
   std::vector<Phase> phases;
   std::vector<CostTerm> costs;
@@ -56,6 +58,9 @@ struct GaitSpec {
   double max_wall_time;
   int starts;
   std::optional<WarmStart> warm_start;  // passes CheckWarmStart
+  // Of a body whose left and right differ, in full cycles: the same request for the body without what makes them
+  // differ, where there is one. Shared: it does not change, and specs are copied often.
+  std::shared_ptr<const GaitSpec> symmetric = nullptr;
 };
 
 // Makes it a spec whose solution only starts another program.

@@ -39,7 +39,21 @@ bool AreMirrorImages(const Joint& joint, const Joint& other) {
 struct IsSymmetric {
   const Model& model;
 
-  bool operator()(const GaitRequest::Tracking&) const { return false; }
+  // A position that is held, alike on both sides, means the same in either step.
+  bool operator()(const GaitRequest::Tracking& tracking) const {
+    return std::all_of(tracking.channels.begin(), tracking.channels.end(), [&](const auto& channel) {
+      const double held = channel.positions.front();
+      for (const double position : channel.positions) {
+        if (position != held) return false;
+      }
+      const Joint& joint = model.joint(model.Find(channel.joint));
+      const std::string& image = model.joint(joint.mirror_joint).name;
+      return std::any_of(tracking.channels.begin(), tracking.channels.end(), [&](const auto& other) {
+        return other.joint == image && other.weight == channel.weight &&
+               other.positions.front() == joint.mirror_sign * held;
+      });
+    });
+  }
   template <typename Term>
   bool operator()(const Term& term) const {
     if constexpr (requires { term.joint_weights; }) {

@@ -9,7 +9,7 @@ namespace rollgait {
 
 // The request for the first step of a full cycle whose second step may be the mirror image of the first: half the
 // unknowns, and no motions that limp. Empty where left and right differ in what the request says: in the body, a limit,
-// a weight, the phases; and where motions are tracked, which say what each side does.
+// a weight, the phases; and where motions are tracked, other than a position that is held on both sides.
 std::optional<GaitSpec> HalfCycleOf(const GaitSpec& spec);
 
 // The full cycle that a step and its mirror image make, for the spec to start from; its overlapping pairs are those of

@@ -11,6 +11,7 @@
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
+#include "core/gait/one_sided_start.h"
 #include "core/gait/own_units.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/rate_continuation.h"
@@ -149,9 +150,42 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   return solution;
 }
 
+// From a step of the body whose sides are alike, and its mirror image; with smooth powers first, where powers cost.
+// Empty where that does not answer, as above.
+std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudget* budget,
+                                                std::vector<MeshStatistics>* meshes) {
+  constexpr double kStartTolerance = 1e-2;
+  constexpr int kMostIterations = 200;  // of one program
+  const std::optional<GaitSpec> step_spec = SymmetricStepOf(spec);
+  if (!step_spec || spec.starts > 1) return std::nullopt;
+  const double cold = ColdSmoothing(spec);
+  const bool sharpens = LeastSmoothing(spec).value_or(cold) < cold;
+  const auto as_start = [&](const GaitSpec& of) {
+    GaitSpec start = sharpens ? SmoothedBy(cold, of) : of;
+    LeaveTheRest(&start);
+    start.kkt_tolerance = std::max(kStartTolerance, of.kkt_tolerance);
+    return start;
+  };
+  const GaitSolution step = SearchCold(as_start(*step_spec), budget);
+  meshes->insert(meshes->end(), step.meshes.begin(), step.meshes.end());
+  if (!Converged(step.termination) || !budget->Left()) return std::nullopt;
+  GaitSpec first = sharpens ? as_start(spec) : spec;
+  first.warm_start = OneSidedStart(spec, step);
+  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), kMostIterations, budget);
+  if (sharpens && Converged(solution.termination)) solution = Sharpen(spec, std::move(solution), budget);
+  if (!Answers(solution)) {
+    meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
+    return std::nullopt;
+  }
+  solution.warm_started = solution.used_multipliers = false;  // not from what the request named
+  solution.note += " It was started from the gait of the body with both sides alike.";
+  return solution;
+}
+
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   std::vector<MeshStatistics> meshes;
   std::optional<GaitSolution> solution = SearchByHalves(spec, budget, &meshes);
+  if (!solution) solution = SearchFromSymmetric(spec, budget, &meshes);
   if (!solution) {
     solution =
         LeavesRatesFree(spec) ? SearchWithoutRates(spec, budget) : SearchByMeshes(spec, Otherwise::kContinue, budget);
@@ -211,6 +245,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     }
   }
   solution.message += solution.note;
+  if (spec.is_full_by_body) solution.message += " Left and right of the body differ, so this is a full cycle.";
   if (solution.trajectory) solution.events = MeasureGaitEvents(spec.scene, *solution.trajectory, spec.gravity);
   if (solution.events) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, *solution.events);
   return solution;

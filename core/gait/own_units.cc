@@ -58,6 +58,8 @@ Scene InUnits(const Units& units, const Scene& scene) {
     joint.velocity_max *= units.time;
     joint.effort_min *= OfForce(units);
     joint.effort_max *= OfForce(units);
+    joint.stiffness *= OfForce(units);
+    joint.damping *= OfImpulse(units);
     joint.mass /= units.mass;
     joint.inertia /= units.mass;
   }
@@ -124,7 +126,10 @@ void Round(GaitRequest::Range* range) {
 }
 
 void Round(Joint* joint) {
-  for (double* value : {&joint->velocity_max, &joint->effort_min, &joint->effort_max, &joint->mass}) Round(value);
+  for (double* value : {&joint->velocity_max, &joint->effort_min, &joint->effort_max, &joint->mass, &joint->stiffness,
+                        &joint->damping}) {
+    Round(value);
+  }
   // Of bodies joined to one, means of centres with the masses as weights.
   for (double& coordinate : joint->center_of_mass) coordinate = Rounded(coordinate, 1);
   const double size = joint->inertia.trace();
@@ -190,6 +195,7 @@ GaitSpec InUnits(const Units& units, const GaitSpec& spec) {
     scaled.warm_start->trajectory = InUnits(units, spec.warm_start->trajectory);
     if (scaled.warm_start->multipliers) scaled.warm_start->multipliers->Scale(1 / units.objective);
   }
+  if (spec.symmetric) scaled.symmetric = std::make_shared<const GaitSpec>(InUnits(units, *spec.symmetric));
   return scaled;
 }
 
@@ -216,6 +222,7 @@ GaitSpec WithoutRounding(const GaitSpec& spec) {
     if (std::optional<double>* smoothing = SmoothingOf(&cost)) Round(smoothing);
   }
   for (const CriterionTraits& traits : Criteria()) Round(&rounded.bounds[traits.criterion]);
+  if (spec.symmetric) rounded.symmetric = std::make_shared<const GaitSpec>(WithoutRounding(*spec.symmetric));
   return rounded;
 }
 

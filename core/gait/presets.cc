@@ -64,6 +64,8 @@ void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* cost
   GaitRequest::MuscleEffort effort;
   effort.joint_weights = OfBody(
       {{JointRole::kHipFlexion, 0.5}, {JointRole::kKneeFlexion, 0.1}, {JointRole::kAnkleDorsiflexion, 0.2}}, scene);
+  std::erase_if(effort.joint_weights,  // of a joint without muscles nothing is known
+                [&](const auto& named) { return !scene.model.joint(scene.model.Find(named.first)).actuated; });
   costs->Add(std::move(effort), factors.ratio);
   costs->Add(GaitRequest::MuscleWork{}, 5e-4 * factors.energy);
   costs->Add(GaitRequest::PassiveLoad{}, 1.2 * factors.ratio);

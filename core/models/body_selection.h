@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/types.h"
@@ -33,13 +34,41 @@ struct RollingEllipsoidRequest {
   std::optional<Vector3> moments;    // default: those of a homogeneous solid body
 };
 
+// A body of its own fixed to a segment of the human, on one side of paired ones: what a hand carries. Axes are those of
+// the segment by the ISB, in the upright posture X forward, Y up, Z to the right, from the segment's proximal joint
+// centre (SegmentTable::Body).
+struct SegmentLoad {
+  std::string segment;              // "hand_l", "thigh_r", "torso": SegmentName with the side
+  double mass = 0;                  // kg, (0, 100]
+  std::optional<Vector3> position;  // m, of its centre of mass, within ±1; default: that of the segment
+  Vector3 moments = {0, 0, 0};  // kg m², principal, about its centre along the axes; 0: a point. At most mass · 1 m²
+};
+
+// What acts on a joint beside its muscles: −stiffness · (q − rest) − damping · v.
+struct JointSpring {
+  double stiffness = 0;  // N m/rad, [0, 1e5]
+  double rest = 0;       // rad, [-π, π]
+  double damping = 0;    // N m s/rad, [0, 1e4]
+};
+
+// What makes a human one of a kind. Left and right may differ; nothing of it: the human of the tables.
+struct SubjectChanges {
+  std::vector<SegmentLoad> loads;  // at most 16
+  // Of joints by name: the share of its strength that is left, [0, 1]. Of strength 0 a joint has no muscles and no
+  // passive torque: what is left is its spring.
+  std::map<std::string, double> strengths;
+  std::map<std::string, JointSpring> springs;  // of joints by name
+};
+
 // Which body, as validated: see rollgait.v1.ModelSelection.
 struct BodySelection {
   std::string model;
   Sex sex = Sex::kMale;
-  double stature = 1.774;                         // m
-  double mass = 75.0;                             // kg
-  std::map<std::string, double> segment_lengths;  // m, those given, by SegmentName
+  double stature = 1.774;  // m
+  double mass = 75.0;      // kg
+  // m, those given, by SegmentName, or with "_l" or "_r" of one side alone, which wins over both sides.
+  std::map<std::string, double> segment_lengths;
+  SubjectChanges changes;
   FootShape feet = FootShape::kOneEllipsoid;
   bool toes = false;
   JointRanges ranges = JointRanges::kAnatomical;
@@ -56,6 +85,7 @@ struct BodyRequest {
   std::optional<double> stature;                  // m, [1.0, 2.3]
   std::optional<double> mass;                     // kg, [20, 250]
   std::map<std::string, double> segment_lengths;  // m, [0.7, 1.4] times what the table has
+  SubjectChanges changes;
   std::optional<FootShape> feet;
   bool toes = false;
   std::optional<JointRanges> ranges;  // default: that of the model

@@ -67,6 +67,9 @@ Violations RefuseHumanFields(const BodyRequest& request, const std::string& what
   refuse(request.drop_arms, "drop_arms");
   refuse(request.rigid_trunk, "rigid_trunk");
   refuse(!request.locked_joints.empty(), "locked_joints_rad");
+  refuse(!request.changes.loads.empty(), "loads");
+  refuse(!request.changes.strengths.empty(), "joint_strengths");
+  refuse(!request.changes.springs.empty(), "joint_springs");
   refuse(request.ranges.has_value(), "ranges");
   return violations;
 }
@@ -131,6 +134,7 @@ Result<Scene> BuildScene(const BodyRequest& request) {
       .stature = request.stature.value_or(DefaultStature(request.sex)),
       .mass = request.mass.value_or(DefaultMass(request.sex)),
       .segment_lengths = request.segment_lengths,
+      .changes = request.changes,
       .feet = request.feet.value_or(request.toes ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid),
       .toes = request.toes,
       .ranges = request.ranges.value_or(chosen == nullptr ? JointRanges::kAnatomical : chosen->ranges),

@@ -44,7 +44,8 @@ const JointKind& KindOf(const std::string& name) {
 
 class HumanBuilder {
  public:
-  HumanBuilder(const SegmentTable& table, const HumanOptions& options) : table_(table), options_(options) {}
+  HumanBuilder(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options)
+      : table_(left), right_(right), options_(options) {}
 
   HumanBody Build() {
     AddBase();
@@ -73,6 +74,8 @@ class HumanBuilder {
   static const char* Suffix(BodySide side) {
     return side == BodySide::kLeft ? "_l" : side == BodySide::kRight ? "_r" : "";
   }
+
+  const SegmentTable& Of(BodySide side) const { return side == BodySide::kRight ? right_ : table_; }
 
   static std::string Sided(BodySide side, const std::string& name) {
     return (side == BodySide::kLeft ? "left_" : "right_") + name;
@@ -148,26 +151,26 @@ class HumanBuilder {
   }
 
   void AddLeg(BodySide side) {
+    const SegmentTable& table = Of(side);
     const std::string suffix = Suffix(side);
     const double sign = side == BodySide::kLeft ? -1 : 1;
-    const int thigh = AddBall("hip", side, pelvis_, Vector3(0, -sign * table_.HalfHipWidth(), 0));
-    const int shank =
-        AddActuated("knee", side, thigh, Vector3(0, 0, -table_.Length(Segment::kThigh)), Vector3::UnitY());
+    const int thigh = AddBall("hip", side, pelvis_, Vector3(0, -sign * table.HalfHipWidth(), 0));
+    const int shank = AddActuated("knee", side, thigh, Vector3(0, 0, -table.Length(Segment::kThigh)), Vector3::UnitY());
     const int ankle =
-        AddActuated("ankle", side, shank, Vector3(0, 0, -table_.Length(Segment::kShank)), -Vector3::UnitY());
+        AddActuated("ankle", side, shank, Vector3(0, 0, -table.Length(Segment::kShank)), -Vector3::UnitY());
     const int foot = AddActuated("ankle_inversion", side, ankle, Vector3::Zero(), sign * Vector3::UnitX());
-    SetLink(thigh, "thigh" + suffix, table_.Body(Segment::kThigh, side));
-    SetLink(shank, "shank" + suffix, table_.Body(Segment::kShank, side));
+    SetLink(thigh, "thigh" + suffix, table.Body(Segment::kThigh, side));
+    SetLink(shank, "shank" + suffix, table.Body(Segment::kShank, side));
     int toes = foot;
     if (options_.toes) {
-      const FootBodies bodies = SplitFoot(table_, side);
-      toes = AddActuated("toe", side, foot, table_.AnkleToToes(), -Vector3::UnitY());
+      const FootBodies bodies = SplitFoot(table, side);
+      toes = AddActuated("toe", side, foot, table.AnkleToToes(), -Vector3::UnitY());
       SetLink(foot, "foot" + suffix, bodies.foot);
       SetLink(toes, "toes" + suffix, bodies.toes);
     } else {
-      SetLink(foot, "foot" + suffix, table_.Body(Segment::kFoot, side));
+      SetLink(foot, "foot" + suffix, table.Body(Segment::kFoot, side));
     }
-    for (const FootSurface& surface : FootSurfaces(table_, options_.feet)) {
+    for (const FootSurface& surface : FootSurfaces(table, options_.feet)) {
       const bool on_toes = surface.on_toes && options_.toes;
       ContactSurface contact;
       contact.name = Sided(side, surface.name);
@@ -175,13 +178,13 @@ class HumanBuilder {
       contact.surface = surface.surface;
       contact.side = side;
       contact.part = surface.part;
-      contact.p_LE = on_toes ? surface.center - table_.AnkleToToes() : surface.center;
+      contact.p_LE = on_toes ? surface.center - table.AnkleToToes() : surface.center;
       contacts_.push_back(contact);
       AddLimb(LimbPart::kFoot, side, surface.name, contact.joint, {surface.surface, contact.p_LE});
     }
-    if (options_.feet == FootShape::kTwoEllipsoids) AddLimb(LimbPart::kFoot, side, "instep", foot, InstepBody(table_));
-    AddLimb(LimbPart::kShank, side, "shank", shank, ShankBody(table_));
-    AddLimb(LimbPart::kThigh, side, "thigh", thigh, ThighBody(table_));
+    if (options_.feet == FootShape::kTwoEllipsoids) AddLimb(LimbPart::kFoot, side, "instep", foot, InstepBody(table));
+    AddLimb(LimbPart::kShank, side, "shank", shank, ShankBody(table));
+    AddLimb(LimbPart::kThigh, side, "thigh", thigh, ThighBody(table));
   }
 
   void AddLimb(LimbPart part, BodySide side, const std::string& name, int joint, const LimbBody& limb) {
@@ -204,15 +207,16 @@ class HumanBuilder {
 
   // The hand is one body with the forearm.
   void AddArm(BodySide side) {
+    const SegmentTable& table = Of(side);
     const std::string suffix = Suffix(side);
-    const int arm = AddBall("shoulder", side, torso_, cervical_ + table_.CervicalToShoulder(side));
+    const int arm = AddBall("shoulder", side, torso_, cervical_ + table.CervicalToShoulder(side));
     const int forearm =
-        AddActuated("elbow", side, arm, Vector3(0, 0, -table_.Length(Segment::kUpperArm)), -Vector3::UnitY());
-    SetLink(arm, "upper_arm" + suffix, table_.Body(Segment::kUpperArm, side));
-    const Vector3 wrist(0, 0, -table_.Length(Segment::kForearm));
+        AddActuated("elbow", side, arm, Vector3(0, 0, -table.Length(Segment::kUpperArm)), -Vector3::UnitY());
+    SetLink(arm, "upper_arm" + suffix, table.Body(Segment::kUpperArm, side));
+    const Vector3 wrist(0, 0, -table.Length(Segment::kForearm));
     SetLink(forearm, "forearm" + suffix,
-            Lumped({table_.Body(Segment::kForearm, side), Shifted(table_.Body(Segment::kHand, side), wrist)}));
-    AddLimb(LimbPart::kForearm, side, "forearm", forearm, ForearmBody(table_));
+            Lumped({table.Body(Segment::kForearm, side), Shifted(table.Body(Segment::kHand, side), wrist)}));
+    AddLimb(LimbPart::kForearm, side, "forearm", forearm, ForearmBody(table));
   }
 
   void PairJoints() {
@@ -228,7 +232,7 @@ class HumanBuilder {
     }
   }
 
-  const SegmentTable& table_;
+  const SegmentTable &table_, &right_;  // of the left side and the middle; of the right side
   HumanOptions options_;
   int pelvis_ = -1, torso_ = -1;
   Vector3 cervical_ = Vector3::Zero();  // from the lumbar joint
@@ -239,9 +243,11 @@ class HumanBuilder {
 
 }  // namespace
 
-HumanBody Human(const SegmentTable& table, const HumanOptions& options) {
+HumanBody Human(const SegmentTable& table, const HumanOptions& options) { return Human(table, table, options); }
+
+HumanBody Human(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options) {
   ROLLGAIT_CHECK(!options.toes || options.feet == FootShape::kTwoEllipsoids);
-  return HumanBuilder(table, options).Build();
+  return HumanBuilder(left, right, options).Build();
 }
 
 std::vector<std::string> HumanSources() {

@@ -43,6 +43,9 @@ struct HumanBody {
 // left_thigh, left_forearm (with the hand), and the same of the right. Standing straight, none overlap. Contract: the
 // table's person.
 HumanBody Human(const SegmentTable& table, const HumanOptions& options);
+// The same with limbs of other lengths on the right. Joints and contacts name the mirror images that they would have if
+// sides were alike. Contract: tables of one person that differ in the scales of paired segments alone.
+HumanBody Human(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options);
 
 // Where the numbers of the body come from.
 std::vector<std::string> HumanSources();

@@ -1,5 +1,6 @@
 #include "core/models/human_scene.h"
 
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 #include <utility>
@@ -7,42 +8,13 @@
 #include "core/base/check.h"
 #include "core/models/human.h"
 #include "core/models/reduction.h"
+#include "core/models/subject_changes.h"
 
 namespace rollgait {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-// A segment may be this much shorter or longer than the table has it.
-constexpr double kShortest = 0.7, kLongest = 1.4;
-
 std::string Keyed(const char* field, const std::string& key) { return std::string(field) + "[\"" + key + "\"]"; }
-
-SegmentScales CheckSegments(const BodySelection& selection, Violations* violations) {
-  const SegmentTable table(selection.sex, selection.stature, selection.mass);
-  SegmentScales scales = kTableScales;
-  for (const auto& [name, length] : selection.segment_lengths) {
-    const std::string field = Keyed("segment_lengths_m", name);
-    int segment = 0;
-    while (segment < kSegments && name != SegmentName(static_cast<Segment>(segment))) ++segment;
-    std::ostringstream message;
-    if (segment == kSegments) {
-      message << "is not a segment; choose from";
-      for (int s = 0; s < kSegments; ++s) message << (s == 0 ? " " : ", ") << SegmentName(static_cast<Segment>(s));
-      violations->push_back({field, message.str()});
-      continue;
-    }
-    const Segment kind = static_cast<Segment>(segment);
-    const double usual = kind == Segment::kFoot ? table.FootLength() : table.Length(kind);  // a foot from heel to toe
-    if (!(length >= kShortest * usual && length <= kLongest * usual)) {                     // refuses NaN
-      message << "is " << length << " m; must be between " << kShortest * usual << " and " << kLongest * usual << " m ("
-              << kShortest << " and " << kLongest << " times the table's at this stature)";
-      violations->push_back({field, message.str()});
-      continue;
-    }
-    scales[segment] = length / usual;
-  }
-  return scales;
-}
 
 bool IsBase(const Joint& joint) { return joint.name.starts_with("base_"); }
 
@@ -110,13 +82,18 @@ Result<Scene> HumanScene(const BodySelection& selection) {
                           "needs feet of two ellipsoids: one that spans heel and toes cannot bend; leave `feet` "
                           "unset or set it to FEET_TWO_ELLIPSOIDS"});
   }
-  const SegmentScales scales = CheckSegments(selection, &violations);
-  const SegmentTable table(selection.sex, selection.stature, selection.mass, scales);
-  const HumanBody human = Human(table, {selection.feet, selection.ranges, selection.toes && violations.empty()});
+  const SidedTables tables = TablesOf(selection, &violations);
+  const HumanBody human =
+      Human(tables.left, tables.right, {selection.feet, selection.ranges, selection.toes && violations.empty()});
   const std::map<std::string, double> locked = CheckLocks(human.model, selection, &violations);
+  std::vector<Joint> joints = ChangedJoints(human.model, tables, selection, locked, &violations);
   if (!violations.empty()) return violations;
 
-  Result<ModelReduction> reduction = ReduceModel(human.model, locked);
+  const bool mirrored = !MayBeOneSided(selection) || AreMirrored(joints);
+  if (!mirrored) ForgetMirror(&joints);
+  const Result<Model> changed = Model::Create(std::move(joints));
+  if (!changed.ok()) return changed.violations();
+  Result<ModelReduction> reduction = ReduceModel(changed.value(), locked);
   if (!reduction.ok()) return reduction.violations();
   std::vector<ContactSurface> contacts;
   for (const ContactSurface& contact : human.contacts) {
@@ -133,9 +110,9 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .selection = selection,
       .model = reduction.value().model,
       .contacts = std::move(contacts),
-      .leg_length = table.LegLength(),
+      .leg_length = std::max(tables.left.LegLength(), tables.right.LegLength()),
       .sources = HumanSources(),
-      .symmetric = reduction.value().symmetric,
+      .symmetric = mirrored && reduction.value().symmetric,
       .bodies = std::move(bodies),
       .pairs = std::move(pairs),
   };

@@ -13,9 +13,10 @@ namespace rollgait {
 //                other: there are bodies, but no pairs
 //   drop_arms    shoulders and elbows: straight hanging arms, one body with the torso
 //   rigid_trunk  the three trunk joints: pelvis and torso are one body
-// Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes without feet
-// of two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all there are.
-// Contract: stature and mass within the ranges of ModelSelection.
+// Its changes are made before (subject_changes.h); the mirror image of a body whose left and right then differ is not
+// itself. Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes
+// without feet of two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all
+// there are. Contract: stature and mass within the ranges of ModelSelection.
 Result<Scene> HumanScene(const BodySelection& selection);
 
 }  // namespace rollgait

@@ -101,6 +101,10 @@ void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
     differs("effort_max", joint.effort_max, joint.mirror_sign > 0 ? image.effort_max : -image.effort_min,
             " (or its effort_min differs)");
   }
+  const bool same_rest = joint.stiffness == 0 || joint.rest_position == joint.mirror_sign * image.rest_position;
+  if (joint.stiffness != image.stiffness || joint.damping != image.damping || !same_rest) {
+    differs("stiffness", joint.stiffness, image.stiffness, " (or its damping or rest_position differs)");
+  }
   if (joint.velocity_max != image.velocity_max) differs("velocity_max", joint.velocity_max, image.velocity_max, "");
 }
 

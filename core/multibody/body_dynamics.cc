@@ -70,7 +70,8 @@ BodyDynamics::BodyDynamics(const Model& model)
     const Joint& joint = model.joint(i);
     joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type),
                        joint.axis, joint.R_PJ, joint.p_PJ,
-                       InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia)});
+                       InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia), joint.stiffness,
+                       joint.rest_position, joint.damping});
   }
 }
 
@@ -108,6 +109,10 @@ void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state
     const JointData& joint = joints_[i];
     const double* position = q.data() + joint.q_index;
     Link& link = (*state)[i];
+    if (joint.type != JointType::kFree) {
+      link.position = *position;
+      link.velocity = v[joint.v_index];
+    }
     switch (joint.type) {
       case JointType::kRevolute:
         link.R_PL.noalias() = joint.R_PJ * AxisRotation(joint.axis, *position);
@@ -206,6 +211,9 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
     const JointData& joint = joints_[i];
     const Force& f = workspace->force[i];
     for (int c = 0; c < joint.columns; ++c) (*tau)[joint.v_index + c] = Along(joint, c, f);
+    if (joint.stiffness > 0 || joint.damping > 0) {
+      (*tau)[joint.v_index] += joint.stiffness * (state[i].position - joint.rest) + joint.damping * state[i].velocity;
+    }
     if (joint.parent < 0) continue;
     const Force moved = ToParent(f, state[i]);
     workspace->force[joint.parent].moment += moved.moment;
@@ -263,6 +271,8 @@ double BodyDynamics::PotentialEnergy(const State& state, const Vector3& gravity)
   for (int i = 0; i < size(); ++i) {
     const Inertia& inertia = joints_[i].inertia;
     energy -= gravity.dot(inertia.mass * state[i].p_WL + state[i].R_WL * inertia.first_moment);
+    const double stretch = state[i].position - joints_[i].rest;
+    if (joints_[i].stiffness > 0) energy += 0.5 * joints_[i].stiffness * stretch * stretch;
   }
   return energy;
 }

@@ -12,9 +12,10 @@ namespace rollgait {
 // Newton–Euler algorithm (table 5.1) and the composite rigid body algorithm (table 6.2). It is the second algorithm of
 // the library: trajectories are judged with it, and it shares no code with TreeDynamics, which makes them.
 //
-// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ.  Units: SI; rad or m for q by joint type (free joints: see
-// JointType). Gravity is a vector in world axes, m/s²; the world axes are fixed to the ground, so a slope turns
-// gravity. Immutable after construction; any thread may share it, with a State and a Workspace of its own.
+// Equations of motion:  M(q) v̇ + b(q, v) = τ + Jᵀ λ, springs and dampers of joints included in b.  Units: SI; rad or m
+// for q by joint type (free joints: see JointType). Gravity is a vector in world axes, m/s²; the world axes are fixed
+// to the ground, so a slope turns gravity. Immutable after construction; any thread may share it, with a State and a
+// Workspace of its own.
 class BodyDynamics {
  public:
   // A motion vector (twist, acceleration) at the link's origin, in link axes.
@@ -43,6 +44,7 @@ class BodyDynamics {
     // Spatial acceleration of the link at v̇ = 0 without gravity, in link axes. It is not the classical one: the
     // classical acceleration of the origin is  bias.linear + twist.angular × twist.linear.
     Motion bias;
+    double position = 0, velocity = 0;  // of the joint: rad or m, rad/s or m/s; zero of a free joint
   };
   using State = std::vector<Link>;
   // Scratch memory; any content, one a thread.
@@ -75,7 +77,7 @@ class BodyDynamics {
   // τ = M a + b for a given acceleration a (nv).
   void InverseDynamics(const State& state, const VectorX& a, const Vector3& gravity, Workspace* workspace,
                        VectorX* tau) const;
-  // b: Coriolis, centrifugal and gravity terms.
+  // b: Coriolis, centrifugal and gravity terms, and what springs and dampers of joints take.
   void BiasForce(const State& state, const Vector3& gravity, Workspace* workspace, VectorX* bias) const;
   // Adds `sign` times the Jacobian of  [angular velocity; velocity of the material point at `point`]  of a link, all in
   // world axes, to the 6 × nv matrix `jacobian`.
@@ -83,7 +85,7 @@ class BodyDynamics {
 
   // J.
   double KineticEnergy(const State& state) const;
-  // J, zero with every centre of mass at the world origin.
+  // J, of gravity and springs; zero with every centre of mass at the world origin and every spring at rest.
   double PotentialEnergy(const State& state, const Vector3& gravity) const;
   // Sum over the links, N s, world axes.
   Vector3 LinearMomentum(const State& state) const;
@@ -99,6 +101,7 @@ class BodyDynamics {
     Matrix3 R_PJ;
     Vector3 p_PJ;
     Inertia inertia;
+    double stiffness, rest, damping;
   };
   // Column c of the motion subspace of a joint, and the component of a force along it.
   static Motion Column(const JointData& joint, int c);

@@ -81,6 +81,9 @@ class JointChecker {
       if (joint().mirror_joint != index_ || joint().mirror_sign != 1) {
         Refuse("mirror_joint", "must be the joint itself with sign 1: a free joint has no mirror image");
       }
+      if (joint().stiffness != 0 || joint().damping != 0) {
+        Refuse("stiffness", "must be 0 like damping: a free joint has no spring");
+      }
     }
     // Written so that NaN fails.
     if (!(joint().position_min <= joint().position_max)) {
@@ -90,6 +93,13 @@ class JointChecker {
     if (!(joint().effort_min <= joint().effort_max)) {
       RefuseValue("effort_min", joint().effort_min, "must not be larger than effort_max, and neither may be NaN");
     }
+    if (!(std::isfinite(joint().stiffness) && joint().stiffness >= 0)) {
+      RefuseValue("stiffness", joint().stiffness, "must be finite and at least 0");
+    }
+    if (!(std::isfinite(joint().damping) && joint().damping >= 0)) {
+      RefuseValue("damping", joint().damping, "must be finite and at least 0");
+    }
+    if (!std::isfinite(joint().rest_position)) RefuseValue("rest_position", joint().rest_position, "must be finite");
     if (!joint().actuated && (joint().effort_min != 0 || joint().effort_max != 0)) {
       Refuse("effort_max", "must be 0 like effort_min, because the joint is not actuated");
     }

@@ -28,6 +28,8 @@ SpatialInertia WorldInertia(const Joint& joint, const BodyDynamics::Link& link, 
   return inertia;
 }
 
+bool HasSpring(const Joint& joint) { return joint.stiffness > 0 || joint.damping > 0; }
+
 }  // namespace
 
 MotionDerivatives::MotionDerivatives(const Model& model) : model_(model) {
@@ -89,6 +91,7 @@ void MotionDerivatives::SetState(const BodyDynamics::State& state) {
       body.gyroscopic = CrossForce(body.twist, body.own * body.twist);
     }
     body.inertia = body.own;
+    body.spring = joint.stiffness * (link.position - joint.rest_position) + joint.damping * link.velocity;
   }
   for (int i = model_.size() - 1; i > 0; --i) {
     if (model_.parent(i) < 0) continue;
@@ -171,6 +174,9 @@ void MotionDerivatives::InverseDynamics(VectorX* tau) const {
     const auto joint = static_cast<size_t>(joint_of_[static_cast<size_t>(k)]);
     (*tau)[k] = columns_[static_cast<size_t>(k)].s.dot(bodies_[joint].force);
   }
+  for (int i = 0; i < model_.size(); ++i) {
+    if (HasSpring(model_.joint(i))) (*tau)[model_.v_index(i)] += bodies_[static_cast<size_t>(i)].spring;
+  }
 }
 
 void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Ref<RowMajorMatrix> dv) const {
@@ -203,6 +209,9 @@ void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Re
         dv(path[j], k) = s.dot(by_v);
       }
     }
+    if (!HasSpring(model_.joint(i))) continue;
+    dq(first, first) += model_.joint(i).stiffness;
+    dv(first, first) += model_.joint(i).damping;
   }
 }
 

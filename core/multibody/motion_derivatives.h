@@ -71,6 +71,7 @@ class MotionDerivatives {
     Vector3 reference, origin;             // origin: from the reference
     SpatialInertia own, inertia;           // of the body, of the subtree
     CompositeMotion motion;                // of the subtree
+    double spring = 0;                     // what spring and damper of the joint take, N m or N
     bool massive = false;
     int anchor = 0;  // link at whose origin the reference is
   };

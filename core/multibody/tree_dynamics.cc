@@ -38,6 +38,9 @@ TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()
     data.inertia = joint.inertia;
     data.mass = joint.mass;
     joints_.push_back(data);
+    if (joint.stiffness > 0 || joint.damping > 0) {
+      springs_.push_back({static_cast<int>(joints_.size()) - 1, joint.stiffness, joint.rest_position, joint.damping});
+    }
   }
   rotation_.assign(n_, Matrix3::Identity());
   origin_.assign(n_, Vector3::Zero());
@@ -115,6 +118,9 @@ void TreeDynamics::UpdateKinematics(const double* q, const double* v) {
       psi_[i] = CrossMotion(twist_[p], axis_[i]);
       twist_[i] = twist_[p] + axis_[i] * v[i];
     }
+  }
+  for (JointSpring& spring : springs_) {
+    spring.force = -spring.stiffness * (q[spring.joint] - spring.rest) - spring.damping * v[spring.joint];
   }
   has_forces_ = has_composites_ = false;
 }
@@ -201,6 +207,7 @@ void TreeDynamics::UpdateComposites() {
 void TreeDynamics::InverseDynamics(double* tau) {
   UpdateForces();
   for (int i = 0; i < n_; ++i) tau[i] = axis_[i].dot(force_[i]);
+  for (const JointSpring& spring : springs_) tau[spring.joint] -= spring.force;
 }
 
 void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> dv, Eigen::Ref<MatrixX> da) {
@@ -222,6 +229,10 @@ void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> 
       dv(m, k) = axis_[m].dot(column_v);
       da(m, k) = da(k, m);
     }
+  }
+  for (const JointSpring& spring : springs_) {
+    dq(spring.joint, spring.joint) += spring.stiffness;
+    dv(spring.joint, spring.joint) += spring.damping;
   }
 }
 

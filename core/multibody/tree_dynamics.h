@@ -10,10 +10,10 @@
 
 namespace rollgait {
 
-// Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree with its exact first derivatives and the Hessian of  λᵀ
-// ID, all from one pass of world-frame spatial quantities; its mass matrix, and forward dynamics by factorising that.
-// Derivation: docs/explanation/derivatives.md; in short, turning joint k moves everything beyond it rigidly, so every
-// derivative along joint m is one linear map of three six-vectors:
+// Inverse dynamics  ID(q, v, a) = M(q) a + b(q, v)  of a tree, springs and dampers of its joints included in b, with
+// its exact first derivatives and the Hessian of  λᵀ ID, all from one pass of world-frame spatial quantities; its mass
+// matrix, and forward dynamics by factorising that. Derivation: docs/explanation/derivatives.md; in short, turning
+// joint k moves everything beyond it rigidly, so every derivative along joint m is one linear map of three six-vectors:
 //   ψ̇_m = V_p(m) × S_m,  ψ̈_m = A_p(m) × S_m + V_p(m) × ψ̇_m,  ω_m = W_p(m) × S_m,   W = Σ S λ  ("virtual velocity").
 // Cost O(n d) for tree depth d (factorising: O(n d²)), no allocation after construction. What Update leaves out is made
 // when it is first asked for. Not thread-safe: one object a thread. Contract: no free joints.
@@ -70,6 +70,12 @@ class TreeDynamics {
     Matrix3 R_PJ, inertia;
     double mass;
   };
+  // A joint with a spring or a damper, and what it exerts at the point of evaluation, N m or N.
+  struct JointSpring {
+    int joint;
+    double stiffness, rest, damping;
+    double force = 0;
+  };
   // Subtree quantities of one joint.
   struct Composite {
     SpatialInertia inertia;
@@ -97,6 +103,7 @@ class TreeDynamics {
   const Model* model_;
   int n_;
   std::vector<JointData> joints_;
+  std::vector<JointSpring> springs_;
   bool has_forces_ = false, has_composites_ = false;
   std::vector<Matrix3> rotation_;
   std::vector<Vector3> origin_;

@@ -127,7 +127,59 @@ class Plates {
   BodyDynamics::State state_;
 };
 
+// Of the surfaces of a foot that come down at `percent`, the place of the rearmost along x, m.
+double StrikePlace(const Scene& scene, const GaitCycle& cycle, const std::vector<int>& contacts, double percent) {
+  const BodyDynamics dynamics(scene.model);
+  BodyDynamics::State state;
+  const MotionSample sample = cycle.At(percent);
+  dynamics.ComputeState(sample.position, sample.velocity, &state);
+  double place = std::numeric_limits<double>::infinity();
+  for (const GaitCycle::Span& span : cycle.spans()) {
+    if (span.begin != percent) continue;
+    for (const int c : contacts) {
+      if (Holds(span.contacts, c)) place = std::min(place, ComputeRollingContact(scene.contacts[c], state).p_WP.x());
+    }
+  }
+  return place;
+}
+
+void MeasureSteps(const Scene& scene, const GaitCycle& cycle, GaitEvents* result) {
+  FootOnGround &right = result->feet[0], &left = result->feet[1];
+  const auto strike_right = result->First(GaitEventKind::kHeelStrike, Foot::kRight);
+  const auto strike_left = result->First(GaitEventKind::kHeelStrike, Foot::kLeft);
+  if (!strike_right || !strike_left || *strike_left <= *strike_right) return;
+  const double x_right = StrikePlace(scene, cycle, right.contacts, *strike_right);
+  const double x_left = StrikePlace(scene, cycle, left.contacts, *strike_left);
+  left.step_length = x_left - x_right;
+  right.step_length = cycle.displacement() - left.step_length;
+  left.step_duration = (*strike_left - *strike_right) / 100 * cycle.duration();
+  right.step_duration = cycle.duration() - left.step_duration;
+}
+
+// What both feet share of the ground from the heel strike of one on.
+double LoadingAfter(const std::vector<GaitCycle::Span>& spans, std::optional<double> strike) {
+  double share = 0;
+  const size_t n = spans.size();
+  size_t i = 0;
+  while (strike && i < n && spans[i].begin != *strike) ++i;
+  if (!strike || i == n) return 0;
+  for (size_t step = 0; step < n; ++step, i = (i + 1) % n) {
+    if (!spans[i].right || !spans[i].left) break;
+    share += (spans[i].end - spans[i].begin) / 100;
+  }
+  return share;
+}
+
+double Asymmetry(double right, double left) {
+  const double mean = (right + left) / 2;
+  return mean == 0 ? 0 : (right - left) / mean;
+}
+
 }  // namespace
+
+double GaitEvents::StepLengthAsymmetry() const { return Asymmetry(feet[0].step_length, feet[1].step_length); }
+double GaitEvents::StepDurationAsymmetry() const { return Asymmetry(feet[0].step_duration, feet[1].step_duration); }
+double GaitEvents::StanceAsymmetry() const { return Asymmetry(feet[0].stance, feet[1].stance); }
 
 std::optional<double> GaitEvents::First(GaitEventKind kind, Foot foot) const {
   for (const GaitEvent& event : events) {
@@ -161,6 +213,11 @@ std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory
      : span.right || span.left ? result.single_support
                                : result.flight) += share;
   }
+  for (const Foot foot : {Foot::kRight, Foot::kLeft}) {
+    result.feet[static_cast<int>(foot)].loading =
+        LoadingAfter(result.spans, result.First(GaitEventKind::kHeelStrike, foot));
+  }
+  MeasureSteps(scene, *cycle, &result);
   Plates(scene, *cycle, gravity).Measure(&result.feet);
   return result;
 }

@@ -38,6 +38,11 @@ struct GaitEvent {
 struct FootOnGround {
   std::vector<int> contacts;  // indices into Scene::contacts, ascending
   double stance = 0;          // share of the cycle with a contact on the ground, 0 … 1; the rest is swing
+  // The step that ends with the heel strike of this foot, from that of the other: m along x between the places where
+  // the two come down (of several surfaces at once the rearmost), and s. Zero without a heel strike of both feet.
+  double step_length = 0, step_duration = 0;
+  // Share of the cycle on both feet that begins with the heel strike of this foot; zero without one.
+  double loading = 0;
   MatrixX force;  // 3 × instants, N, of the ground on the foot: sum over its contacts, world axes (fixed to the ground)
   MatrixX level_force;  // the same force in axes that gravity gives: forward horizontal, left, up
   // 2 × instants, m, centre of pressure on the ground plane, world axes x and y; the body goes on through the cycle.
@@ -58,6 +63,11 @@ struct GaitEvents {
   std::vector<GaitCycle::Span> spans;
   std::array<FootOnGround, kFootCount> feet;
   double double_support = 0, single_support = 0, flight = 0;  // shares of the cycle, their sum is 1
+
+  // Right less left over their mean, [-2, 2]; 0 where that mean is 0. Of step length, step duration and stance.
+  double StepLengthAsymmetry() const;
+  double StepDurationAsymmetry() const;
+  double StanceAsymmetry() const;
 
   const FootOnGround& foot(Foot which) const { return feet[static_cast<int>(which)]; }
   // % of the first such event; empty if there is none.

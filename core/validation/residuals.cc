@@ -125,6 +125,10 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
             done += weight * power;
             (power > 0 ? positive : negative) += weight * std::abs(power);
           }
+          for (int j = 0; j < model.size(); ++j) {
+            const double rate = sample.velocity[j], damping = model.joint(j).damping;
+            if (damping > 0) done -= weight * damping * rate * rate;
+          }
           pushed += weight * dynamics.total_mass() * gravity;
           for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c)
             pushed += weight * sample.forces.segment<3>(3 * c);

@@ -61,6 +61,9 @@ v1::GaitEvents EncodeGaitEvents(const GaitEvents& events, const Scene& scene) {
     added->set_foot(EncodeFoot(which));
     EncodeNames(foot.contacts, scene, added->mutable_contacts());
     added->set_stance_fraction(foot.stance);
+    added->set_step_length_m(foot.step_length);
+    added->set_step_duration_s(foot.step_duration);
+    added->set_loading_fraction(foot.loading);
     EncodeInstants(foot.force, added->mutable_force_n());
     EncodeInstants(foot.level_force, added->mutable_level_force_n());
     EncodeInstants(foot.center_of_pressure, added->mutable_center_of_pressure_m());
@@ -68,6 +71,9 @@ v1::GaitEvents EncodeGaitEvents(const GaitEvents& events, const Scene& scene) {
   encoded.set_double_support_fraction(events.double_support);
   encoded.set_single_support_fraction(events.single_support);
   encoded.set_flight_fraction(events.flight);
+  encoded.set_step_length_asymmetry(events.StepLengthAsymmetry());
+  encoded.set_step_duration_asymmetry(events.StepDurationAsymmetry());
+  encoded.set_stance_asymmetry(events.StanceAsymmetry());
   return encoded;
 }
 

@@ -20,7 +20,7 @@ class RequestDecoder {
     violations.push_back(
         {field, "enum value " + std::to_string(value) + " is not known to this server; use a named one"});
   }
-  Cycle DecodeCycle(v1::Cycle cycle, bool manoeuvre);
+  std::optional<Cycle> DecodeCycle(v1::Cycle cycle);
   GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization, bool manoeuvre);
   std::optional<Preset> DecodePreset(v1::Preset preset);
   Scheme DecodeScheme(v1::Discretization::Scheme scheme);
@@ -92,6 +92,20 @@ std::map<Criterion, double> DecodeBounds(const v1::Accuracy& accuracy) {
   return bounds;
 }
 
+SubjectChanges DecodeChanges(const v1::ModelSelection& selection) {
+  SubjectChanges changes;
+  for (const v1::ModelSelection::Load& load : selection.loads()) {
+    changes.loads.push_back({.segment = load.segment(), .mass = load.mass_kg(), .position = {}});
+    if (load.has_position_m()) changes.loads.back().position = DecodeComponents(load.position_m());
+    if (load.has_moments_kg_m2()) changes.loads.back().moments = DecodeComponents(load.moments_kg_m2());
+  }
+  changes.strengths = DecodeNumbers(selection.joint_strengths());
+  for (const auto& [name, spring] : selection.joint_springs()) {
+    changes.springs[name] = {spring.stiffness_n_m_rad(), spring.rest_rad(), spring.damping_n_m_s_rad()};
+  }
+  return changes;
+}
+
 BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1::ModelSelection& selection) {
   BodyRequest body;
   body.model = selection.name();
@@ -138,15 +152,16 @@ BodyRequest RequestDecoder::DecodeSelection(const std::string& prefix, const v1:
   body.drop_arms = selection.drop_arms();
   body.rigid_trunk = selection.rigid_trunk();
   body.locked_joints = DecodeNumbers(selection.locked_joints_rad());
+  body.changes = DecodeChanges(selection);
   if (selection.has_own()) body.own = DecodeOwnModel(prefix + "own.", selection.own(), &violations);
   if (selection.has_rolling_body()) body.rolling_body = DecodeRollingBody(selection.rolling_body());
   return body;
 }
 
-Cycle RequestDecoder::DecodeCycle(v1::Cycle cycle, bool manoeuvre) {
+std::optional<Cycle> RequestDecoder::DecodeCycle(v1::Cycle cycle) {
   switch (cycle) {
     case v1::CYCLE_UNSPECIFIED:
-      return manoeuvre ? Cycle::kOnce : Cycle::kHalf;
+      return std::nullopt;
     case v1::CYCLE_ONCE:
       return Cycle::kOnce;
     case v1::CYCLE_HALF:
@@ -241,7 +256,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.motion = {ROLLGAIT_OPTIONAL(spec.motion(), speed_m_s), ROLLGAIT_OPTIONAL(spec.motion(), step_length_m),
                     ROLLGAIT_OPTIONAL(spec.motion(), step_duration_s), spec.motion().free_speed(), std::nullopt};
   if (spec.motion().has_duty_factor()) request.motion.duty_factor = DecodeRange(spec.motion().duty_factor());
-  request.cycle = DecodeCycle(spec.cycle(), spec.has_manoeuvre());
+  request.cycle = DecodeCycle(spec.cycle());
   if (spec.has_manoeuvre()) {
     request.manoeuvre.emplace();
     request.manoeuvre->start = DecodeState(spec.manoeuvre().start());

@@ -72,6 +72,9 @@ void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_role(static_cast<v1::Joint::Role>(joint.role));
   encoded->set_side(EncodeSide(joint.side));
   encoded->set_passive(static_cast<v1::Joint::Passive>(joint.passive));
+  encoded->set_stiffness(joint.stiffness);
+  encoded->set_rest_position(joint.rest_position);
+  encoded->set_damping(joint.damping);
 }
 
 void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
@@ -103,6 +106,23 @@ void EncodeBody(const BodySurface& body, const Scene& scene, v1::BodySurface* en
   encoded->set_mirror_body(scene.bodies[body.mirror_body].name);
 }
 
+void EncodeChanges(const SubjectChanges& changes, v1::ModelSelection* encoded) {
+  for (const SegmentLoad& load : changes.loads) {
+    v1::ModelSelection::Load& added = *encoded->add_loads();
+    added.set_segment(load.segment);
+    added.set_mass_kg(load.mass);
+    if (load.position) EncodeVector(*load.position, added.mutable_position_m());
+    if (!load.moments.isZero(0)) EncodeVector(load.moments, added.mutable_moments_kg_m2());
+  }
+  encoded->mutable_joint_strengths()->insert(changes.strengths.begin(), changes.strengths.end());
+  for (const auto& [name, spring] : changes.springs) {
+    v1::ModelSelection::JointSpring& added = (*encoded->mutable_joint_springs())[name];
+    added.set_stiffness_n_m_rad(spring.stiffness);
+    added.set_rest_rad(spring.rest);
+    added.set_damping_n_m_s_rad(spring.damping);
+  }
+}
+
 void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {
   encoded->set_name(selection.model);
   if (selection.rolling_body) {
@@ -116,6 +136,7 @@ void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded
   encoded->set_stature_m(selection.stature);
   encoded->set_body_mass_kg(selection.mass);
   encoded->mutable_segment_lengths_m()->insert(selection.segment_lengths.begin(), selection.segment_lengths.end());
+  EncodeChanges(selection.changes, encoded);
   encoded->set_feet(selection.feet == FootShape::kTwoEllipsoids ? v1::ModelSelection::FEET_TWO_ELLIPSOIDS
                                                                 : v1::ModelSelection::FEET_ONE_ELLIPSOID);
   encoded->set_toes(selection.toes);

@@ -142,6 +142,9 @@ class Decoder {
     joint.side = DecodeSide(path + "side", encoded.side());
     joint.passive =
         DecodeEnum<PassiveKind>(path + "passive", encoded.passive(), v1::Joint::Passive_IsValid(encoded.passive()));
+    joint.stiffness = encoded.stiffness();
+    joint.rest_position = encoded.rest_position();
+    joint.damping = encoded.damping();
     return joint;
   }
 

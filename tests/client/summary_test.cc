@@ -29,6 +29,11 @@ TEST(SummaryTest, TellsEventsOfFeetNotOfSurfaces) {
   v1::SolveResult& result = *solve.mutable_result();
   result.mutable_trajectory()->mutable_phases(1)->add_contacts("left_forefoot");
   result.mutable_gait_events()->set_double_support_fraction(0.21);
+  v1::FootOnGround& stepping = *result.mutable_gait_events()->mutable_feet(0);
+  stepping.set_step_length_m(0.725);
+  stepping.set_step_duration_s(0.5125);
+  stepping.set_loading_fraction(0.0625);
+  result.mutable_gait_events()->set_step_length_asymmetry(-0.075);
   v1::GaitEvent& flat = *result.mutable_gait_events()->add_events();
   flat.set_kind(v1::GaitEvent::KIND_FOOT_FLAT);
   flat.set_foot(v1::FOOT_LEFT);
@@ -36,6 +41,8 @@ TEST(SummaryTest, TellsEventsOfFeetNotOfSurfaces) {
   const std::string text = Summarize(solve, false);
   EXPECT_THAT(text, HasSubstr("left_foot + left_forefoot"));
   EXPECT_THAT(text, testing::ContainsRegex("double support +21 %"));
+  EXPECT_THAT(text, testing::ContainsRegex("step, right foot +0.725 m +0.5125 s, then 6.25 % on both feet"));
+  EXPECT_THAT(text, testing::ContainsRegex("asymmetry, right less left +-7.5 % +of step length, 0 % of step duration"));
   EXPECT_THAT(text, testing::ContainsRegex("stance, right foot +60 % +heel strike 0, toe off 60\n"));
   EXPECT_THAT(text, HasSubstr("foot flat 57.5"));
 }

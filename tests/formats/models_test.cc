@@ -46,6 +46,17 @@ std::vector<Kind> Kinds() {
                                      {"trunk_bending", 0.15}}) {
     (*locked.mutable_locked_joints_rad())[joint] = angle;
   }
+  v1::ModelSelection& sprung = add("sprung", "human29");
+  for (const char* const joint : {"ankle_l", "hip_adduction_r"}) {
+    v1::ModelSelection::JointSpring& spring = (*sprung.mutable_joint_springs())[joint];
+    spring.set_stiffness_n_m_rad(340);
+    spring.set_rest_rad(0.1);
+    spring.set_damping_n_m_s_rad(20);
+  }
+  (*sprung.mutable_joint_strengths())["ankle_l"] = 0;
+  v1::ModelSelection::Load& load = *sprung.add_loads();
+  load.set_segment("hand_l");
+  load.set_mass_kg(10);
   add("ball", "ball");
   return kinds;
 }

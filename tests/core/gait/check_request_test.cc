@@ -235,10 +235,12 @@ TEST(CheckRequest, FeetOfTwoSurfacesRollFromHeelToToe) {
 }
 
 // A stiff knee on one side walks, but not as half a cycle and its mirror image.
-TEST(CheckRequest, BodiesWithoutSymmetryNeedTheFullCycle) {
+TEST(CheckRequest, BodiesWithoutSymmetryTakeTheFullCycle) {
   GaitRequest request;
   request.body.model = "human29";
   request.body.locked_joints = {{"knee_l", 0.1}};
+  EXPECT_EQ(CheckRequest(request).value().cycle, Cycle::kFull);
+  request.cycle = Cycle::kHalf;
   const Result<GaitSpec> half = CheckRequest(request);
   ASSERT_FALSE(half.ok());
   EXPECT_EQ(half.violations().front().field, "cycle");

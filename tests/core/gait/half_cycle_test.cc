@@ -67,6 +67,22 @@ TEST(HalfCycleOf, IsEmptyWhereLeftAndRightDiffer) {
   EXPECT_FALSE(HasHalf(request));
   request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::Tracking{{{"hip_l", {0, 0.1, 0.2, 0.1}, {}}}}, 1}};
   EXPECT_FALSE(HasHalf(request));
+  // A posture that is held is that of both steps.
+  using Channel = GaitRequest::Tracking::Channel;
+  request.costs = {{GaitRequest::SquaredTorque{}, 1},
+                   {GaitRequest::Tracking{{Channel{"base_pitch", {0.1, 0.1}, 1}}}, 1}};
+  EXPECT_TRUE(HasHalf(request));
+  request.costs.back().term = GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}}};
+  EXPECT_FALSE(HasHalf(request));
+  request.costs.back().term =
+      GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 1}}};
+  EXPECT_TRUE(HasHalf(request));
+  request.costs.back().term =
+      GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 2}}};
+  EXPECT_FALSE(HasHalf(request));
+  request = Planar();
+  request.preset = Preset::kHuman;
+  EXPECT_TRUE(HasHalf(request));
   request = Planar();
   request.phases = {{{{"left_foot", "right_foot"}, 4, {}, {}},
                      {{"left_foot"}, 8, {}, {}},

@@ -24,7 +24,7 @@ Scene Body(const std::string& model, FootShape feet, bool toes) {
   return BuildScene(request).value();
 }
 
-// When a surface of the right foot is on the ground, % of the cycle; the left foot is half a cycle later.
+// When a surface of the right foot is on the ground, % of the cycle; the left foot is half a cycle later, or as asked.
 struct Timing {
   std::string surface;  // without "right_"
   double on, off;
@@ -33,7 +33,8 @@ struct Timing {
 // A walk with straight legs and these timings; each standing surface carries kWeight · (1 + its index in `timings`).
 class TimedWalk {
  public:
-  TimedWalk(const Scene& scene, std::vector<Timing> timings) : scene_(scene), timings_(std::move(timings)) {}
+  TimedWalk(const Scene& scene, std::vector<Timing> timings, double left_later = 50)
+      : scene_(scene), timings_(std::move(timings)), left_later_(left_later) {}
 
   Trajectory Make(Cycle cycle, double start) const {
     Trajectory t;
@@ -47,8 +48,10 @@ class TimedWalk {
       double end = start + span;
       for (const Timing& timing : timings_) {
         for (const double border : {timing.on, timing.off}) {
-          for (double shifted = border - 100; shifted < end; shifted += 50) {
-            if (shifted > at + 1e-9) end = std::min(end, shifted);
+          for (const double later : {0.0, left_later_}) {
+            for (double shifted = border + later - 200; shifted < end; shifted += 100) {
+              if (shifted > at + 1e-9) end = std::min(end, shifted);
+            }
           }
         }
       }
@@ -64,7 +67,7 @@ class TimedWalk {
     std::vector<double> loads;
     const double middle = (begin + end) / 2;
     for (const char* side : {"left_", "right_"}) {
-      const double own = std::fmod(middle + (side[0] == 'l' ? 50 : 0), 100);
+      const double own = std::fmod(middle + (side[0] == 'l' ? 100 - left_later_ : 0), 100);
       for (size_t i = 0; i < timings_.size(); ++i) {
         if (own < timings_[i].on || own > timings_[i].off) continue;
         phase.contacts.push_back(scene_.FindContact(side + timings_[i].surface));
@@ -93,6 +96,7 @@ class TimedWalk {
 
   const Scene& scene_;
   std::vector<Timing> timings_;
+  double left_later_;  // % of the cycle
 };
 
 struct Expected {
@@ -184,6 +188,26 @@ INSTANTIATE_TEST_SUITE_P(Cuts, TwoSurfacesTest,
                                            Case{"planar", Cycle::kHalf, 0}, Case{"planar", Cycle::kHalf, 23},
                                            Case{"planar", Cycle::kHalf, 55}, Case{"human29", Cycle::kHalf, 23},
                                            Case{"human29", Cycle::kFull, 71}));
+
+// Legs are straight and feet below the hips: a foot comes down where the body is.
+TEST(GaitEventsTest, StepsOfBothFeet) {
+  const Scene scene = Body("planar", FootShape::kTwoEllipsoids, false);
+  for (const double start : {0.0, 20.0, 44.0}) {
+    const TimedWalk walk(scene, {{"heel", 0, 38}, {"forefoot", 7, 61}}, 44);
+    const auto events = MeasureGaitEvents(scene, walk.Make(Cycle::kFull, start), {0, 0, -9.81});
+    ASSERT_TRUE(events);
+    const FootOnGround &right = events->foot(Foot::kRight), &left = events->foot(Foot::kLeft);
+    EXPECT_NEAR(left.step_duration, 0.44, 1e-12);
+    EXPECT_NEAR(right.step_duration, 0.56, 1e-12);
+    EXPECT_NEAR(left.step_length, 1.4 * 0.44, 1e-12);
+    EXPECT_NEAR(right.step_length, 1.4 * 0.56, 1e-12);
+    EXPECT_NEAR(right.loading, 0.05, 1e-12);  // the left foot leaves at 105 %
+    EXPECT_NEAR(left.loading, 0.17, 1e-12);
+    EXPECT_NEAR(events->StepLengthAsymmetry(), 0.12 / 0.5, 1e-11);
+    EXPECT_NEAR(events->StepDurationAsymmetry(), 0.12 / 0.5, 1e-11);
+    EXPECT_NEAR(events->StanceAsymmetry(), 0, 1e-11);
+  }
+}
 
 // The foremost surface rides on the toes: three links of a leg, one foot.
 TEST(GaitEventsTest, ToesBelongToTheFoot) {

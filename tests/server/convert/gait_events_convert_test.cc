@@ -33,6 +33,12 @@ GaitEvents Events(const Scene& scene) {
   events.double_support = 0.11;
   events.single_support = 0.49;
   events.flight = 0.4;
+  events.feet[0].step_length = 0.75;
+  events.feet[1].step_length = 0.65;
+  events.feet[0].step_duration = 0.5;
+  events.feet[1].step_duration = 0.6;
+  events.feet[0].loading = 0.05;
+  events.feet[1].loading = 0.06;
   return events;
 }
 
@@ -55,6 +61,9 @@ TEST(EncodeGaitEvents, EverythingArrives) {
   EXPECT_EQ(encoded.double_support_fraction(), 0.11);
   EXPECT_EQ(encoded.single_support_fraction(), 0.49);
   EXPECT_EQ(encoded.flight_fraction(), 0.4);
+  EXPECT_NEAR(encoded.step_length_asymmetry(), 0.1 / 0.7, 1e-12);
+  EXPECT_NEAR(encoded.step_duration_asymmetry(), -0.1 / 0.55, 1e-12);
+  EXPECT_EQ(encoded.stance_asymmetry(), events.StanceAsymmetry());
   const v1::GaitEvent::Kind kinds[] = {v1::GaitEvent::KIND_HEEL_STRIKE, v1::GaitEvent::KIND_FOOT_FLAT,
                                        v1::GaitEvent::KIND_TOE_OFF, v1::GaitEvent::KIND_HEEL_OFF};
   ASSERT_EQ(encoded.events_size(), 4);
@@ -79,6 +88,9 @@ TEST(EncodeGaitEvents, EverythingArrives) {
     ASSERT_EQ(foot.contacts_size(), 1);
     EXPECT_EQ(foot.contacts(0), i == 0 ? "right_foot" : "left_foot");
     EXPECT_EQ(foot.stance_fraction(), events.feet[i].stance);
+    EXPECT_EQ(foot.step_length_m(), i == 0 ? 0.75 : 0.65);
+    EXPECT_EQ(foot.step_duration_s(), i == 0 ? 0.5 : 0.6);
+    EXPECT_EQ(foot.loading_fraction(), i == 0 ? 0.05 : 0.06);
     ExpectInstants(foot.force_n(), events.feet[i].force);
     ExpectInstants(foot.level_force_n(), events.feet[i].level_force);
     ExpectInstants(foot.center_of_pressure_m(), events.feet[i].center_of_pressure);

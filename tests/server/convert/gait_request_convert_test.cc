@@ -38,7 +38,7 @@ TEST(DecodeRequest, UnsetFieldsStayUnset) {
   EXPECT_FALSE(request.motion.free_speed);
   EXPECT_FALSE(request.phases);
   EXPECT_TRUE(request.costs.empty());
-  EXPECT_EQ(request.cycle, Cycle::kHalf);
+  EXPECT_FALSE(request.cycle);  // up to the body
   EXPECT_EQ(request.normalization, GaitRequest::Normalization::kPerDistance);
   EXPECT_FALSE(request.ground_contact.friction_coefficient);
   EXPECT_FALSE(request.ground_contact.touch_down_point);
@@ -234,7 +234,7 @@ TEST(DecodeRequest, ManoeuvreArrivesWithItsOwnDefaults) {
   EXPECT_FALSE(request.manoeuvre->end.orientation);
   EXPECT_EQ(request.manoeuvre->end.angular_velocity, Vector3(0.8, 0.9, 1.1));
   EXPECT_EQ(request.manoeuvre->duration, 1.2);
-  EXPECT_EQ(request.cycle, Cycle::kOnce);
+  EXPECT_FALSE(request.cycle);
   EXPECT_EQ(request.normalization, GaitRequest::Normalization::kNone);
 }
 
@@ -297,13 +297,26 @@ TEST(DecodeBody, EveryReductionArrives) {
   const v1::SolveSpec spec = Parse(
       "model { name: 'human29' segment_lengths_m { key: 'thigh' value: 0.45 } feet: FEET_TWO_ELLIPSOIDS toes: true "
       "ranges: RANGES_WALKING "
-      "sagittal: true drop_arms: true rigid_trunk: true locked_joints_rad { key: 'knee_l' value: 0.2 } }");
+      "sagittal: true drop_arms: true rigid_trunk: true locked_joints_rad { key: 'knee_l' value: 0.2 } "
+      "loads { segment: 'hand_l' mass_kg: 10 position_m { x: 1 y: 2 z: 3 } moments_kg_m2 { x: 4 y: 5 z: 6 } } "
+      "loads { segment: 'torso' mass_kg: 2 } joint_strengths { key: 'hip_l' value: 0.3 } "
+      "joint_springs { key: 'ankle_r' value { stiffness_n_m_rad: 300 rest_rad: 0.1 damping_n_m_s_rad: 2 } } }");
   const BodyRequest body = DecodeBody(spec.model()).value();
   EXPECT_EQ(body.segment_lengths.at("thigh"), 0.45);
   EXPECT_EQ(body.feet, FootShape::kTwoEllipsoids);
   EXPECT_EQ(body.ranges, JointRanges::kWalking);
   EXPECT_TRUE(body.toes && body.sagittal && body.drop_arms && body.rigid_trunk);
   EXPECT_EQ(body.locked_joints.at("knee_l"), 0.2);
+  ASSERT_EQ(body.changes.loads.size(), 2u);
+  EXPECT_EQ(body.changes.loads[0].segment, "hand_l");
+  EXPECT_EQ(body.changes.loads[0].mass, 10);
+  EXPECT_EQ(body.changes.loads[0].position, Vector3(1, 2, 3));
+  EXPECT_EQ(body.changes.loads[0].moments, Vector3(4, 5, 6));
+  EXPECT_FALSE(body.changes.loads[1].position);
+  EXPECT_TRUE(body.changes.loads[1].moments.isZero(0));
+  EXPECT_EQ(body.changes.strengths.at("hip_l"), 0.3);
+  const JointSpring& spring = body.changes.springs.at("ankle_r");
+  EXPECT_EQ(Vector3(spring.stiffness, spring.rest, spring.damping), Vector3(300, 0.1, 2));
   const BodyRequest unset = DecodeBody(v1::ModelSelection()).value();
   EXPECT_FALSE(unset.feet || unset.ranges || unset.toes || unset.sagittal || unset.drop_arms || unset.rigid_trunk);
   EXPECT_TRUE(unset.segment_lengths.empty() && unset.locked_joints.empty());

@@ -171,6 +171,10 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
   body.rigid_trunk = true;
   body.segment_lengths = {{"thigh", 0.45}};
   body.locked_joints = {{"elbow_l", 0.3}, {"elbow_r", 0.3}};
+  body.changes.loads = {{.segment = "thigh_l", .mass = 2, .position = Vector3(0.1, 0.2, 0.3), .moments = {1, 1, 1}},
+                        {.segment = "pelvis", .mass = 3, .position = {}}};
+  body.changes.strengths = {{"knee_l", 0.5}};
+  body.changes.springs = {{"ankle_r", {300, 0.1, 2}}};
   const v1::ModelSelection selection = EncodeModel(BuildScene(body).value(), 9.81).selection();
   EXPECT_EQ(selection.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);
   EXPECT_TRUE(selection.toes() && selection.rigid_trunk());
@@ -178,6 +182,16 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
   EXPECT_EQ(selection.segment_lengths_m().at("thigh"), 0.45);
   EXPECT_EQ(selection.locked_joints_rad().at("elbow_r"), 0.3);
   EXPECT_EQ(selection.locked_joints_rad().size(), 2u);
+  ASSERT_EQ(selection.loads_size(), 2);
+  EXPECT_EQ(selection.loads(0).segment(), "thigh_l");
+  EXPECT_EQ(selection.loads(0).mass_kg(), 2);
+  EXPECT_EQ(selection.loads(0).position_m().y(), 0.2);
+  EXPECT_EQ(selection.loads(0).moments_kg_m2().z(), 1);
+  EXPECT_FALSE(selection.loads(1).has_position_m() || selection.loads(1).has_moments_kg_m2());
+  EXPECT_EQ(selection.joint_strengths().at("knee_l"), 0.5);
+  EXPECT_EQ(selection.joint_springs().at("ankle_r").stiffness_n_m_rad(), 300);
+  EXPECT_EQ(selection.joint_springs().at("ankle_r").rest_rad(), 0.1);
+  EXPECT_EQ(selection.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);
 }
 
 }  // namespace

@@ -1,0 +1,108 @@
+// Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.
+//   one_sided [--model human29] [--preset human] [--fine] [--slope 0] [CASE...]
+
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "bench/measured_solve.h"
+#include "core/gait/optimizing_gait_solver.h"
+
+namespace rollgait {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Subject {
+  const char* name;
+  void (*change)(GaitRequest* request);
+};
+
+// A prosthetic foot of one ankle: a spring of 6 N m a degree with some damping in place of muscles, no inversion, and a
+// foot that is a tenth shorter.
+void PutProsthesis(GaitRequest* request) {
+  request->body.changes.strengths["ankle_l"] = 0;
+  request->body.changes.springs["ankle_l"] = {.stiffness = 6 / kDegree, .rest = 0, .damping = 2};
+  if (request->body.model == "human29") request->body.locked_joints["ankle_inversion_l"] = 0;
+  request->body.segment_lengths["foot_l"] = 0.245;
+}
+
+constexpr Subject kSubjects[] = {
+    {"half", [](GaitRequest* request) { request->cycle = Cycle::kHalf; }},
+    {"full", [](GaitRequest* request) { request->cycle = Cycle::kFull; }},
+    {"locked-ankle", [](GaitRequest* request) { request->body.locked_joints["ankle_l"] = 0; }},
+    {"short-thigh", [](GaitRequest* request) { request->body.segment_lengths["thigh_l"] = 0.402; }},
+    {"load",
+     [](GaitRequest* request) {
+       request->body.changes.loads.push_back({.segment = "hand_l", .mass = 10, .position = {}});
+     }},
+    {"weak-knee", [](GaitRequest* request) { request->body.changes.strengths["knee_l"] = 0.3; }},
+    {"prosthesis", PutProsthesis},
+};
+
+void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& measured) {
+  const GaitSolution& solution = measured.solution;
+  const char* verdict = solution.verdict.kind == Verdict::Kind::kWithin     ? "within"
+                        : solution.verdict.kind == Verdict::Kind::kExceeded ? "exceeded"
+                                                                            : "not judged";
+  std::printf("%-13s %-5s %-10s %7.2f %5d %10.6f", subject.name, spec.cycle == Cycle::kFull ? "full" : "half", verdict,
+              measured.cpu, measured.iterations, solution.objective);
+  if (solution.events) {
+    const GaitEvents& events = *solution.events;
+    std::printf(" %6.3f %6.3f %6.1f %6.1f %6.1f %6.1f", events.foot(Foot::kRight).step_length,
+                events.foot(Foot::kLeft).step_length, 100 * events.foot(Foot::kRight).stance,
+                100 * events.foot(Foot::kLeft).stance, 100 * events.foot(Foot::kRight).loading,
+                100 * events.foot(Foot::kLeft).loading);
+  }
+  std::printf("\n    %s\n   ", solution.message.c_str());
+  for (const MeshStatistics& mesh : solution.meshes) std::printf(" %d", mesh.iterations);
+  std::printf(" iterations\n");
+  std::fflush(stdout);
+}
+
+int Main(int argc, char** argv) {
+  GaitRequest request;
+  request.body.model = "human29";
+  request.preset = Preset::kHuman;
+  request.motion.speed = 1.3;
+  std::vector<std::string> chosen;
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    if (flag == "--fine") {
+      request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
+    } else if (flag == "--model" && i + 1 < argc) {
+      request.body.model = argv[++i];
+    } else if (flag == "--slope" && i + 1 < argc) {
+      request.slope = std::stod(argv[++i]) * kDegree;
+    } else if (flag == "--preset" && i + 1 < argc) {
+      const std::string name = argv[++i];
+      request.preset = name == "torque" ? Preset::kTorque : name == "transport" ? Preset::kTransport : Preset::kHuman;
+    } else {
+      chosen.push_back(flag);
+    }
+  }
+  std::printf("%-13s %-5s %-10s %7s %5s %10s %6s %6s %6s %6s %6s %6s\n", "subject", "cycle", "verdict", "cpu s", "iter",
+              "objective", "step R", "L m", "stnc R", "L %", "dbl R", "L %");
+  for (const Subject& subject : kSubjects) {
+    bool wanted = chosen.empty();
+    for (const std::string& name : chosen) wanted = wanted || name == subject.name;
+    if (!wanted) continue;
+    GaitRequest of_subject = request;
+    subject.change(&of_subject);
+    const Result<GaitSpec> spec = CheckRequest(of_subject);
+    if (!spec.ok()) {
+      std::printf("%-13s refused: %s %s\n", subject.name, spec.violations()[0].field.c_str(),
+                  spec.violations()[0].message.c_str());
+      continue;
+    }
+    Print(subject, spec.value(), Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), SolveControl()); }));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace rollgait
+
+int main(int argc, char** argv) { return rollgait::Main(argc, argv); }

@@ -1,0 +1,293 @@
+#include "core/models/subject_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/models/rigid_body.h"
+
+namespace rollgait {
+namespace {
+
+// A segment may be this much shorter or longer than the table has it.
+constexpr double kShortest = 0.7, kLongest = 1.4;
+constexpr size_t kMostLoads = 16;
+constexpr double kHeaviest = 100;                   // kg
+constexpr double kFurthest = 1;                     // m
+constexpr double kStiffest = 1e5, kThickest = 1e4;  // N m/rad, N m s/rad
+
+template <typename... Parts>
+std::string Text(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+std::string KeyOf(const char* field, const std::string& key) { return Text(field, "[\"", key, "\"]"); }
+
+bool IsPaired(Segment segment) {
+  return segment != Segment::kHeadNeck && segment != Segment::kTorso && segment != Segment::kPelvis;
+}
+
+struct SidedSegment {
+  Segment segment;
+  BodySide side;  // kMidline: both of a paired one
+};
+
+// "thigh", "thigh_l", "torso"; empty if there is none of that name.
+std::optional<SidedSegment> FindSegment(const std::string& name) {
+  for (int s = 0; s < kSegments; ++s) {
+    const Segment segment = static_cast<Segment>(s);
+    if (name == SegmentName(segment)) return SidedSegment{segment, BodySide::kMidline};
+    if (!IsPaired(segment)) continue;
+    if (name == SegmentName(segment) + std::string("_l")) return SidedSegment{segment, BodySide::kLeft};
+    if (name == SegmentName(segment) + std::string("_r")) return SidedSegment{segment, BodySide::kRight};
+  }
+  return std::nullopt;
+}
+
+// The names of segments, the paired ones without and with their sides as asked.
+std::string SegmentNames(bool sided) {
+  std::string names;
+  for (int s = 0; s < kSegments; ++s) {
+    const std::string name = SegmentName(static_cast<Segment>(s));
+    const bool both = sided && IsPaired(static_cast<Segment>(s));
+    names += (s == 0 ? " " : ", ") + (both ? name + "_l, " + name + "_r" : name);
+  }
+  return names;
+}
+
+// Where a segment is on the human: the joint whose link carries it, and its proximal joint centre on that link.
+struct Place {
+  std::string joint;
+  Vector3 origin = Vector3::Zero();
+};
+
+Place PlaceOf(const SidedSegment& at, const SidedTables& tables) {
+  const SegmentTable& table = tables.Of(at.side);
+  const std::string suffix = at.side == BodySide::kLeft ? "_l" : "_r";
+  switch (at.segment) {
+    case Segment::kHeadNeck:
+    case Segment::kTorso:
+      return {"trunk_rotation", Vector3(0, 0, table.Length(Segment::kTorso))};
+    case Segment::kPelvis:
+      return {"base_pitch", -table.LumbarToHips()};
+    case Segment::kUpperArm:
+      return {"shoulder_rotation" + suffix};
+    case Segment::kForearm:
+      return {"elbow" + suffix};
+    case Segment::kHand:
+      return {"elbow" + suffix, Vector3(0, 0, -table.Length(Segment::kForearm))};
+    case Segment::kThigh:
+      return {"hip_rotation" + suffix};
+    case Segment::kShank:
+      return {"knee" + suffix};
+    case Segment::kFoot:
+      return {"ankle_inversion" + suffix};
+  }
+  ROLLGAIT_CHECK(false);
+}
+
+// From X forward, Y up, Z right to x forward, y left, z up.
+Vector3 FromIsb(const Vector3& isb) { return Vector3(isb.x(), -isb.z(), isb.y()); }
+
+bool IsWithin(double value, double min, double max) { return value >= min && value <= max; }  // false for NaN
+
+// What is wrong with a load, if anything.
+bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* violations) {
+  const size_t before = violations->size();
+  const auto at = FindSegment(load.segment);
+  if (!at || (IsPaired(at->segment) && at->side == BodySide::kMidline)) {
+    violations->push_back({path + ".segment", Text("\"", load.segment.substr(0, 40),
+                                                   "\" is no segment of one side; choose from", SegmentNames(true))});
+  }
+  if (!(load.mass > 0 && load.mass <= kHeaviest)) {
+    violations->push_back(
+        {path + ".mass_kg", Text("is ", load.mass, " kg; must be more than 0 and at most ", kHeaviest, " kg")});
+  }
+  if (load.position && !(load.position->cwiseAbs().maxCoeff() <= kFurthest && load.position->allFinite())) {
+    violations->push_back({path + ".position_m", Text("is (", load.position->transpose(), ") m; each must be between -",
+                                                      kFurthest, " and ", kFurthest, " m")});
+  }
+  const Vector3& m = load.moments;
+  const bool is_body = m.allFinite() && m.minCoeff() >= 0 && 2 * m.maxCoeff() <= m.sum() * (1 + 1e-9);
+  if (!is_body || m.maxCoeff() > load.mass * kFurthest * kFurthest) {
+    violations->push_back({path + ".moments_kg_m2",
+                           Text("are (", m.transpose(), ") kg m²; each must be at least 0 and at most mass_kg times ",
+                                kFurthest, " m², and the sum of any two at least the third")});
+  }
+  return violations->size() == before;
+}
+
+void AddLoad(const SegmentLoad& load, const Model& human, const SidedTables& tables, std::vector<Joint>* joints) {
+  const SidedSegment at = *FindSegment(load.segment);
+  const Place place = PlaceOf(at, tables);
+  Joint& joint = (*joints)[static_cast<size_t>(human.Find(place.joint))];
+  const RigidBody carried{
+      load.mass, load.position ? FromIsb(*load.position) : tables.Of(at.side).Body(at.segment, at.side).center_of_mass,
+      FromIsb(load.moments).cwiseAbs().asDiagonal()};
+  const RigidBody sum = Lumped({{joint.mass, joint.center_of_mass, joint.inertia}, Shifted(carried, place.origin)});
+  joint.mass = sum.mass;
+  joint.center_of_mass = sum.center_of_mass;
+  joint.inertia = 0.5 * (sum.inertia + sum.inertia.transpose());
+}
+
+// A joint that moves and has muscles; null and a violation otherwise.
+Joint* FindMuscled(const std::string& name, const std::string& field, const Model& human,
+                   const std::map<std::string, double>& fixed, std::vector<Joint>* joints, Violations* violations) {
+  const int joint = human.Find(name);
+  if (joint < 0) {
+    violations->push_back({field, "the human has no joint of that name; see GetModel of \"human29\" for its joints"});
+  } else if (!human.joint(joint).actuated) {
+    violations->push_back(
+        {field, "belongs to the floating base, which has no muscles; name a joint of trunk or limbs"});
+  } else if (fixed.count(name) > 0) {
+    violations->push_back({field,
+                           "is of a joint that is fixed (locked_joints_rad, sagittal, drop_arms, rigid_trunk or "
+                           "the model \"planar\"); leave one of the two out"});
+  } else {
+    return &(*joints)[static_cast<size_t>(joint)];
+  }
+  return nullptr;
+}
+
+bool CheckSpring(const JointSpring& spring, const std::string& path, Violations* violations) {
+  const size_t before = violations->size();
+  const auto check = [&](const char* field, const char* unit, double value, double min, double max) {
+    if (IsWithin(value, min, max)) return;
+    violations->push_back({path + field, Text("is ", value, unit, "; must be between ", min, " and ", max, unit)});
+  };
+  check(".stiffness_n_m_rad", " N m/rad", spring.stiffness, 0, kStiffest);
+  check(".rest_rad", " rad", spring.rest, -std::numbers::pi, std::numbers::pi);
+  check(".damping_n_m_s_rad", " N m s/rad", spring.damping, 0, kThickest);
+  return violations->size() == before;
+}
+
+bool AreClose(double a, double b) { return std::abs(a - b) <= 1e-9 * (1 + std::abs(a)); }
+
+Vector3 Flipped(const Vector3& vector) { return Vector3(vector.x(), -vector.y(), vector.z()); }
+
+}  // namespace
+
+SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
+  const SegmentTable table(selection.sex, selection.stature, selection.mass);
+  SegmentScales left = kTableScales, right = kTableScales;
+  // In the order of names: of a segment both sides before one of them.
+  for (const auto& [name, length] : selection.segment_lengths) {
+    const std::string field = KeyOf("segment_lengths_m", name);
+    const auto found = FindSegment(name);
+    if (!found) {
+      violations->push_back(
+          {field, "is not a segment; choose from" + SegmentNames(false) + "; with _l or _r a limb's of one side"});
+      continue;
+    }
+    const Segment kind = found->segment;
+    const double usual = kind == Segment::kFoot ? table.FootLength() : table.Length(kind);  // a foot from heel to toe
+    if (!IsWithin(length, kShortest * usual, kLongest * usual)) {
+      violations->push_back(
+          {field, Text("is ", length, " m; must be between ", kShortest * usual, " and ", kLongest * usual, " m (",
+                       kShortest, " and ", kLongest, " times the table's at this stature)")});
+      continue;
+    }
+    if (found->side != BodySide::kRight) left[static_cast<size_t>(kind)] = length / usual;
+    if (found->side != BodySide::kLeft) right[static_cast<size_t>(kind)] = length / usual;
+  }
+  return {SegmentTable(selection.sex, selection.stature, selection.mass, left),
+          SegmentTable(selection.sex, selection.stature, selection.mass, right)};
+}
+
+std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,
+                                 const std::map<std::string, double>& fixed, Violations* violations) {
+  const SubjectChanges& changes = selection.changes;
+  std::vector<Joint> joints = human.joints();
+  if (changes.loads.size() > kMostLoads) {
+    violations->push_back({"loads", Text("are ", changes.loads.size(), "; at most ", kMostLoads, " are accepted")});
+  } else {
+    for (size_t i = 0; i < changes.loads.size(); ++i) {
+      if (!CheckLoad(changes.loads[i], Text("loads[", i, "]"), violations)) continue;
+      AddLoad(changes.loads[i], human, tables, &joints);
+    }
+  }
+  for (const auto& [name, spring] : changes.springs) {
+    const std::string field = KeyOf("joint_springs", name);
+    Joint* const joint = FindMuscled(name, field, human, fixed, &joints, violations);
+    if (joint == nullptr || !CheckSpring(spring, field, violations)) continue;
+    joint->stiffness = spring.stiffness;
+    joint->rest_position = spring.rest;
+    joint->damping = spring.damping;
+  }
+  for (const auto& [name, share] : changes.strengths) {
+    const std::string field = KeyOf("joint_strengths", name);
+    Joint* const joint = FindMuscled(name, field, human, fixed, &joints, violations);
+    if (joint == nullptr) continue;
+    if (!IsWithin(share, 0, 1)) {
+      violations->push_back({field, Text("is ", share, "; must be between 0 and 1, a share of the joint's effort")});
+      continue;
+    }
+    joint->effort_min *= share;
+    joint->effort_max *= share;
+    if (share > 0) continue;
+    joint->effort_min = joint->effort_max = 0;  // not −0
+    joint->actuated = false;
+    joint->passive = PassiveKind::kNone;
+  }
+  const auto is_driven = [&](const Joint& joint) { return joint.actuated && fixed.count(joint.name) == 0; };
+  if (!changes.strengths.empty() && std::none_of(joints.begin(), joints.end(), is_driven)) {
+    violations->push_back({"joint_strengths", "leave no joint that a muscle could move; leave at least one above 0"});
+  }
+  return joints;
+}
+
+bool MayBeOneSided(const BodySelection& selection) {
+  for (const auto& [name, length] : selection.segment_lengths) {
+    if (name.ends_with("_l") || name.ends_with("_r")) return true;
+  }
+  const SubjectChanges& changes = selection.changes;
+  return !changes.loads.empty() || !changes.strengths.empty() || !changes.springs.empty();
+}
+
+BodyRequest WithSidesAlike(BodyRequest request) {
+  request.changes = {};
+  std::erase_if(request.segment_lengths,
+                [](const auto& named) { return named.first.ends_with("_l") || named.first.ends_with("_r"); });
+  const std::map<std::string, double> locked = request.locked_joints;
+  std::erase_if(request.locked_joints, [&](const auto& named) {
+    std::string image = named.first;
+    if (!image.ends_with("_l") && !image.ends_with("_r")) return image.starts_with("trunk_") && named.second != 0;
+    image.back() = image.back() == 'l' ? 'r' : 'l';
+    const auto other = locked.find(image);
+    return other == locked.end() || other->second != named.second;
+  });
+  return request;
+}
+
+bool AreMirrored(const std::vector<Joint>& joints) {
+  for (const Joint& joint : joints) {
+    const Joint& image = joints[static_cast<size_t>(joint.mirror_joint)];
+    const double sign = joint.mirror_sign;
+    const Matrix3 flip = Vector3(1, -1, 1).asDiagonal();
+    const double size = joint.inertia.norm();
+    const bool same_link = (joint.p_PJ - Flipped(image.p_PJ)).norm() <= 1e-9 && AreClose(joint.mass, image.mass) &&
+                           (joint.center_of_mass - Flipped(image.center_of_mass)).norm() <= 1e-9 &&
+                           (joint.inertia - flip * image.inertia * flip).norm() <= 1e-9 * size;
+    const bool same_effort = sign > 0 ? joint.effort_min == image.effort_min && joint.effort_max == image.effort_max
+                                      : joint.effort_min == -image.effort_max && joint.effort_max == -image.effort_min;
+    const bool same_spring = joint.stiffness == image.stiffness && joint.damping == image.damping &&
+                             (joint.stiffness == 0 || joint.rest_position == sign * image.rest_position);
+    if (!same_link || !same_effort || !same_spring || joint.actuated != image.actuated) return false;
+  }
+  return true;
+}
+
+void ForgetMirror(std::vector<Joint>* joints) {
+  for (size_t i = 0; i < joints->size(); ++i) {
+    (*joints)[i].mirror_joint = static_cast<int>(i);
+    (*joints)[i].mirror_sign = 1;
+  }
+}
+
+}  // namespace rollgait

@@ -1,0 +1,47 @@
+#ifndef ROLLGAIT_CORE_MODELS_SUBJECT_CHANGES_H_
+#define ROLLGAIT_CORE_MODELS_SUBJECT_CHANGES_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/models/body_selection.h"
+#include "core/models/segment_table.h"
+#include "core/multibody/model.h"
+
+namespace rollgait {
+
+// The tables of the left side (and the middle) and of the right side.
+struct SidedTables {
+  SegmentTable left, right;
+  const SegmentTable& Of(BodySide side) const { return side == BodySide::kRight ? right : left; }
+};
+
+// The tables with the lengths of the selection. Violations name segment_lengths_m["NAME"]: no such segment, a length
+// out of range.
+SidedTables TablesOf(const BodySelection& selection, Violations* violations);
+
+// The joints of the whole human with the changes of the selection: loads are lumped with the links, efforts weakened,
+// springs added. Violations name loads[i].field, joint_strengths["NAME"] and joint_springs["NAME"].field. Contract:
+// `human` is that of the tables; `fixed` are the joints that do not move, by name.
+std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,
+                                 const std::map<std::string, double>& fixed, Violations* violations);
+
+// Whether the selection asks for anything that could make left and right differ, locked joints apart.
+bool MayBeOneSided(const BodySelection& selection);
+
+// The request without what may make left and right differ: loads, strengths, springs, lengths of one side, and locked
+// joints whose mirror image is not locked alike.
+BodyRequest WithSidesAlike(BodyRequest request);
+
+// Whether the mirror image of the joints is themselves: links, limits and springs, to 1e-9 of masses, lengths in m and
+// inertias. Contract: joint frames have the axes of their parents, as those of the human have.
+bool AreMirrored(const std::vector<Joint>& joints);
+
+// The joints as those of a body whose left and right differ: every one is its own mirror image, with sign 1.
+void ForgetMirror(std::vector<Joint>* joints);
+
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_MODELS_SUBJECT_CHANGES_H_
