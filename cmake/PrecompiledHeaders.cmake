@@ -23,6 +23,9 @@ if(ROLLGAIT_PRECOMPILE)
   foreach(part ${parts})
     add_library(rollgait_precompiled_${part} OBJECT "${source}")
     target_link_libraries(rollgait_precompiled_${part} PRIVATE rollgait_options Eigen3::Eigen GTest::gtest GTest::gmock)
+    if(ROLLGAIT_PRECOMPILE STREQUAL "TESTS")
+      target_compile_options(rollgait_precompiled_${part} PRIVATE ${ROLLGAIT_TEST_OPTIMISATION})  # as the tests that take it
+    endif()
     target_precompile_headers(rollgait_precompiled_${part} PRIVATE
       <Eigen/Dense> <functional> <memory> <optional> <random> <string> <variant> <vector> <gmock/gmock.h> <gtest/gtest.h>)
   endforeach()

@@ -54,6 +54,8 @@ logs_are_json() {
 
 # The value of the first field of this name in the result of a finished solve's .json file.
 result_field() { sed -n '/^ *"result": /,$p' "$work/out/$1.json" | sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\).*/\1/p;T;q"; }
+# The image that is compiled has both solvers; scripts/test builds the other alone.
+names_v3() { sed -n 's/^ *"solverBuild": //p' "$work/out/$1.json" | grep -q x86-64-v3 || { grep solverBuild "$work/out/$1.json"; return 1; }; }
 # Events on standard output of `rollgait --json`: numbers 1, 2, 3 ..., and last the finished solve.
 dense() {
   awk -F'"' '/^{"sequence":/ { if (/"heartbeat":/) next; if ($4 + 0 != last + 1) { print "after " last " comes " $4; bad = 1 } last = $4 + 0; final = 0 }
@@ -94,6 +96,9 @@ check_service() {
     check "a gait at $slope degrees is optimal" client -q solve --model planar --slope "$slope" --speed 1.3 --output "/out/slope_$slope.json"
     check "  and its result says so" equal "$(result_field "slope_$slope" termination)" TERMINATION_OPTIMAL
   done
+  if [ "$programs" = compile ] && grep -qw avx2 /proc/cpuinfo && grep -qw bmi2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; then
+    check "it comes from the solver for x86-64-v3" names_v3 slope_0
+  fi
   check "a request that cannot be met is refused by field" refused_by_field
   check "the events of a finished solve are dense, to the terminal one" watch_again
   check "metrics count three solves" metric_at_least rollgaitd 'rollgait_solves_created_total{source="queue"}' 3
