@@ -11,8 +11,8 @@ namespace rollgait {
 // What became of an interior point solve.
 struct InteriorPointResult {
   NlpResult result;
-  // True if no step is acceptable and the restoration phase is of no use (nothing is violated) or failed: another method
-  // must go on from result.x.
+  // True if no step is acceptable and the restoration phase is of no use (nothing is violated) or failed: another
+  // method must go on from result.x.
   bool needs_restoration = false;
 };
 

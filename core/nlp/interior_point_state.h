@@ -10,8 +10,9 @@
 
 namespace rollgait {
 
-// All that the interior point method carries from one iteration to the next, but within restoration. A solve that goes on from it takes the
-// same steps as one that was not interrupted, to the last bit where program and processor are the same.
+// All that the interior point method carries from one iteration to the next, but within restoration. A solve that goes
+// on from it takes the same steps as one that was not interrupted, to the last bit where program and processor are the
+// same.
 struct InteriorPointState {
   int iteration = 0;     // the one at whose point this was taken; it has been reported
   double elapsed_s = 0;  // s, from the start of the solve to there

@@ -41,7 +41,7 @@ Restoration::End Restoration::Run(const Point& from, const Multipliers& multipli
   const NewtonSystem::Memory memory = newton_.memory();
   const End end = [&] {
     if (!Begin(from, multipliers, first_mu)) return End::kFailed;
-    bool has_been_reset = true;
+    bool has_been_reset = true, is_first = true;
     for (;;) {
       error_ = ErrorAt(0);
       if (IsWithin(error_, options_.tolerance)) {
@@ -51,7 +51,8 @@ Restoration::End Restoration::Run(const Point& from, const Multipliers& multipli
       if (parameter_.Reduce(false, [this](double barrier) { return ErrorAt(barrier).scaled; })) {
         acceptance_.ForgetFilter();
       }
-      if (!ComputeStep()) return End::kFailed;
+      if (!ComputeStep() && !(is_first && ComputeStepWithoutCurvature())) return End::kFailed;
+      is_first = false;
       if (!LineSearch()) {
         if (has_been_reset) return End::kFailed;
         has_been_reset = true;
@@ -197,6 +198,13 @@ bool Restoration::ComputeStep() {
     elastic_step_.z_n(r) = mu() / n - z_n - z_n / n * elastic_step_.n(r);
   }
   return true;
+}
+
+// With multipliers of rows of up to ρ, as those of the elastic variables are, the curvature of the rows may outweigh
+// all else; Ipopt begins with 0.
+bool Restoration::ComputeStepWithoutCurvature() {
+  multipliers_.y.setZero();
+  return Linearise() && ComputeStep();
 }
 
 // Δc by the Jacobian.

@@ -55,6 +55,7 @@ class Restoration {
   bool Linearise();
   OptimalityError ErrorAt(double mu) const;
   bool ComputeStep();
+  bool ComputeStepWithoutCurvature();
   void LinearChange();
   bool LineSearch();
   double MaxStep(const VectorX& value, const VectorX& step, double tau) const;
