@@ -1,5 +1,5 @@
 // Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.
-//   one_sided [--model human29] [--preset human] [--fine] [--slope 0] [CASE...]
+//   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [CASE...]
 
 #include <cstdio>
 #include <cstring>
@@ -72,6 +72,8 @@ int Main(int argc, char** argv) {
     const std::string flag = argv[i];
     if (flag == "--fine") {
       request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
+    } else if (flag == "--draft") {
+      request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
     } else if (flag == "--model" && i + 1 < argc) {
       request.body.model = argv[++i];
     } else if (flag == "--slope" && i + 1 < argc) {
