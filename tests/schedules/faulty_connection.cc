@@ -1,6 +1,7 @@
 #include "tests/schedules/faulty_connection.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -80,7 +81,17 @@ FaultyConnection::FaultyConnection(Site& site, std::unique_ptr<SqlConnection> in
 FaultyConnection::~FaultyConnection() {
   ReleaseLock();
   statements_.Clear();
+  if (lost_ && !inner_->lost()) Clean();
   returned_(std::move(inner_));
+}
+
+// The inner connection is used again, unlike one that is lost: ends what was asked and not answered.
+void FaultyConnection::Clean() noexcept {
+  inner_->Rollback();
+  try {
+    inner_->Execute("SELECT 1");
+  } catch (const SqlFailure&) {  // of what was asked
+  }
 }
 
 SqlStatement& FaultyConnection::Prepared(const char* sql) {
@@ -89,11 +100,19 @@ SqlStatement& FaultyConnection::Prepared(const char* sql) {
   return statement;
 }
 
+// Nobody uses the connections of a dead process again.
+void FaultyConnection::ThrowIfDead(const Process& process) {
+  if (!process.dead) return;
+  lost_ = true;
+  throw Crashed{};
+}
+
 void FaultyConnection::Die(Process& process, const char* where) {
   site_.scheduler->Note(where);
   process.dead = true;
   site_.scheduler->WakeAll();
-  throw Crashed{};
+  ThrowIfDead(process);
+  std::abort();
 }
 
 void FaultyConnection::Pause(const char* sql) {
@@ -113,7 +132,7 @@ void FaultyConnection::Pause(const char* sql) {
   } else if (random.Chance(rates.yield)) {
     scheduler.Yield();
   }
-  if (process->dead) throw Crashed{};
+  ThrowIfDead(*process);
   site_.keep_time();
   if (random.Chance(rates.lose) || scheduler.now() < process->cut_off_until) {
     scheduler.Note("its connection is lost");
@@ -131,7 +150,7 @@ void FaultyConnection::TakeLock() {
     if (scheduler.now() >= end) throw SqlFailure(Kind::kUnavailable, "database is locked");
     site_.lock->waiting.push_back(scheduler.current());
     scheduler.SleepUntil(end);
-    if (process->dead) throw Crashed{};
+    ThrowIfDead(*process);
   }
   site_.lock->holder = this;
 }
@@ -147,7 +166,7 @@ void FaultyConnection::Begin(Access access) {
   const std::shared_ptr<Process> process = site_.process;
   Pause(access == Access::kWrite ? "BEGIN, to write" : "BEGIN, to read");
   if (std::exchange(met_lock_, false)) site_.scheduler->Sleep(site_.scheduler->random().Between(0, kLongestPause));
-  if (process->dead) throw Crashed{};
+  ThrowIfDead(*process);
   access_ = access;
   if (access == Access::kWrite) TakeLock();
   inner_->Begin(access);
@@ -176,7 +195,7 @@ void FaultyConnection::Commit() {
     throw SqlFailure(Kind::kUnknown, "no answer");
   }
   if (random.Chance(rates.yield)) scheduler.Yield();
-  if (process->dead) throw Crashed{};
+  ThrowIfDead(*process);
 }
 
 void FaultyConnection::Rollback() noexcept {

@@ -83,6 +83,8 @@ class FaultyConnection : public SqlConnection {
 
  private:
   [[noreturn]] void Die(Process& process, const char* where);
+  void ThrowIfDead(const Process& process);
+  void Clean() noexcept;
   void TakeLock();
   void ReleaseLock() noexcept;
   void WriteHeldBack();

@@ -1,6 +1,7 @@
 #include "tests/schedules/history_model.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace rollgait::server {
 namespace {
@@ -205,6 +206,11 @@ void HistoryModel::CheckLog(Solve& solve, const SeenSolve& seen, const EventsOf&
     if (event.sequence != next) return Violated(seen.id, "has no event " + Number(next));
     if (!solve.log.empty() && solve.log.back().what == "finished") {
       return Violated(seen.id, "has an event after the last one");
+    }
+    int mesh = 0, index = 0;
+    if (std::sscanf(event.what.c_str(), "iteration %d %d", &mesh, &index) == 2) {
+      if (index > solve.newest_iteration + 1) Violated(seen.id, "has lost the iteration before " + Number(index));
+      solve.newest_iteration = std::max(solve.newest_iteration, index);
     }
     solve.log.push_back(event);
   }

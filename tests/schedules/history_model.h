@@ -94,6 +94,7 @@ class HistoryModel {
   struct Solve {
     SeenSolve last;
     std::vector<SeenEvent> log;  // all that were ever held
+    int newest_iteration = -1;   // of any attempt
     bool gone = false;
     int64_t lease_least_end_us = 0;
   };

@@ -149,6 +149,15 @@ TEST_F(HistoryModelTest, EventsHaveNoGaps) {
   Expect("has no event 3");
 }
 
+TEST_F(HistoryModelTest, IterationsAreNotLeftOut) {
+  Claim();
+  const StoreCall call = Leased(Kind::kAppend);
+  Log("a", "iteration 0 0 17");
+  Log("a", "iteration 0 2 19");
+  Commit(call);
+  Expect("has lost the iteration before 2");
+}
+
 TEST_F(HistoryModelTest, EventsAreThereWithTheirCommit) {
   a().last_sequence = 2;
   Commit(Leased(Kind::kAppend));

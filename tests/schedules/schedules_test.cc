@@ -16,7 +16,7 @@ Laboratory& Lab() {
 TEST(SchedulesTest, PromisesAreKeptByPostgresToo) {
   Lab();  // no lines of the log
   Laboratory laboratory(MakePostgresBed());
-  for (uint64_t seed = 1; seed <= 60; ++seed) {
+  for (uint64_t seed = 1; seed <= 25; ++seed) {
     const SeedOutcome outcome = RunSeed(laboratory, seed, PlantedBug::kNone, nullptr);
     ASSERT_FALSE(outcome.violation) << "seed " << seed << ": " << *outcome.violation;
   }
