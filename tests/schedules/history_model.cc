@@ -6,7 +6,7 @@
 namespace rollgait::server {
 namespace {
 
-using Kind = StoreCall::Kind;
+using CallKind = StoreCall::Kind;
 
 // v1::SolveState.
 constexpr int kQueued = 1, kRunning = 2, kSucceeded = 3, kFailed = 4, kCancelled = 5;
@@ -78,7 +78,7 @@ void HistoryModel::Committed(const StoreCall& call, int64_t now_us, const std::v
     if (!solve.gone && there.count(id) == 0) Vanish(call, solve);
   }
   CheckTogether(call);
-  if (call.kind != Kind::kRenew) return;
+  if (call.kind != CallKind::kRenew) return;
   for (const SeenLease& lease : call.leases) {
     int64_t& end = solves_[lease.id].lease_least_end_us;
     if (Holds(lease)) end = std::max(end, call.began_us + call.lease_us);
@@ -87,7 +87,7 @@ void HistoryModel::Committed(const StoreCall& call, int64_t now_us, const std::v
 
 void HistoryModel::Appear(const StoreCall& call, const SeenSolve& seen, const EventsOf& events) {
   const bool wanted = std::find(call.tags.begin(), call.tags.end(), seen.tag) != call.tags.end();
-  if (call.kind != Kind::kCreate || !wanted) Violated(seen.id, "is there and was not asked for");
+  if (call.kind != CallKind::kCreate || !wanted) Violated(seen.id, "is there and was not asked for");
   for (const auto& [id, other] : solves_) {
     if (!other.gone && other.last.tag == seen.tag) {
       Violated(seen.id, "was made for " + seen.tag + ", which has " + id + " already");
@@ -115,17 +115,18 @@ void HistoryModel::Change(const StoreCall& call, int64_t now_us, Solve& solve, c
   const bool same_log = last.last_sequence == seen.last_sequence;
   if (IsOver(last.state) && !(same_state && same_end && same_log)) Violated(seen.id, "changes after its end");
   if (seen.epoch < last.epoch) Violated(seen.id, "goes back to epoch " + Number(seen.epoch));
-  if (seen.trimmed != last.trimmed && (call.kind != Kind::kRetain || !IsOver(last.state))) {
+  if (seen.trimmed != last.trimmed && (call.kind != CallKind::kRetain || !IsOver(last.state))) {
     Violated(seen.id, "loses events, and it is not retention that removes them");
   }
-  if (seen.cancel_requested && !last.cancel_requested && (call.kind != Kind::kCancel || call.id != seen.id)) {
+  if (seen.cancel_requested && !last.cancel_requested && (call.kind != CallKind::kCancel || call.id != seen.id)) {
     Violated(seen.id, "is to be cancelled, and the call does not ask for it");
   }
   if (last.cancel_requested && !seen.cancel_requested) Violated(seen.id, "is not to be cancelled any more");
   if (!same_state) CheckTransition(call, now_us, solve, seen);
   if (same_state && !same_log) {
     const SeenLease* lease = LeaseIn(call, seen.id);
-    if (call.kind != Kind::kAppend && call.kind != Kind::kGiveBack) Violated(seen.id, "gets events from this call");
+    if (call.kind != CallKind::kAppend && call.kind != CallKind::kGiveBack)
+      Violated(seen.id, "gets events from this call");
     if (lease == nullptr || !Holds(*lease)) Violated(seen.id, "gets events under a lease that is lost");
   }
   if (!same_state && seen.state == kRunning) solve.lease_least_end_us = call.began_us + call.lease_us;
@@ -139,7 +140,7 @@ void HistoryModel::CheckTransition(const StoreCall& call, int64_t now_us, const 
   if (seen.state == kRunning) {
     ++counts_[seen.epoch == 1 ? "first claims" : "further claims"];
     claims_.insert({seen.id, seen.epoch});
-    const bool good = call.kind == Kind::kClaim && last.state == kQueued && seen.epoch == last.epoch + 1 &&
+    const bool good = call.kind == CallKind::kClaim && last.state == kQueued && seen.epoch == last.epoch + 1 &&
                       seen.owner == call.owner && !last.cancel_requested;
     if (!good) Violated(seen.id, step + " without a claim");
     for (const auto& [id, other] : solves_) {
@@ -150,21 +151,21 @@ void HistoryModel::CheckTransition(const StoreCall& call, int64_t now_us, const 
   }
   if (last.state == kRunning) {
     const SeenLease* lease = LeaseIn(call, seen.id);
-    const bool leased = call.kind == Kind::kFinish || call.kind == Kind::kGiveBack;
+    const bool leased = call.kind == CallKind::kFinish || call.kind == CallKind::kGiveBack;
     if (leased && (lease == nullptr || !Holds(*lease))) Violated(seen.id, step + " under a lease that is lost");
-    if (call.kind == Kind::kReclaimOwner && (call.owner != last.owner || dead_owners_.count(last.owner) == 0)) {
+    if (call.kind == CallKind::kReclaimOwner && (call.owner != last.owner || dead_owners_.count(last.owner) == 0)) {
       Violated(seen.id, "is taken from " + last.owner + ", which lives");
     }
-    if (call.kind == Kind::kReclaimExpired && now_us < solve.lease_least_end_us) {
+    if (call.kind == CallKind::kReclaimExpired && now_us < solve.lease_least_end_us) {
       Violated(seen.id, "is taken from " + last.owner + ", whose lease has not expired");
     }
-    if (call.kind == Kind::kReclaimOwner) ++counts_["taken from a dead agent"];
-    if (call.kind == Kind::kReclaimExpired) ++counts_["taken after a lease expired"];
-    if (call.kind == Kind::kGiveBack) ++counts_["given back"];
-    const bool reclaim = call.kind == Kind::kReclaimOwner || call.kind == Kind::kReclaimExpired;
+    if (call.kind == CallKind::kReclaimOwner) ++counts_["taken from a dead agent"];
+    if (call.kind == CallKind::kReclaimExpired) ++counts_["taken after a lease expired"];
+    if (call.kind == CallKind::kGiveBack) ++counts_["given back"];
+    const bool reclaim = call.kind == CallKind::kReclaimOwner || call.kind == CallKind::kReclaimExpired;
     if (!leased && !reclaim) Violated(seen.id, step + " by a call that may not do that");
     if (seen.state == kQueued && last.cancel_requested) Violated(seen.id, "is queued again and was to be cancelled");
-    if (seen.state == kQueued && call.kind == Kind::kFinish) Violated(seen.id, step + " by its end");
+    if (seen.state == kQueued && call.kind == CallKind::kFinish) Violated(seen.id, step + " by its end");
   }
   if (IsOver(seen.state)) CheckEnd(call, last, seen);
 }
@@ -175,19 +176,19 @@ void HistoryModel::CheckEnd(const StoreCall& call, const SeenSolve& earlier, con
   if (seen.state == kFailed) ++counts_["failures"];
   if (seen.state == kCancelled) ++counts_[waited ? "cancelled in the queue" : "cancelled while they ran"];
   if (earlier.state == kQueued && seen.state == kSucceeded) {
-    const bool may = call.kind == Kind::kClaim || call.kind == Kind::kFinish;
+    const bool may = call.kind == CallKind::kClaim || call.kind == CallKind::kFinish;
     if (!may) Violated(seen.id, "has a result from this call");
-    if (call.kind == Kind::kFinish) results_[seen.key].insert(call.result);
+    if (call.kind == CallKind::kFinish) results_[seen.key].insert(call.result);
     if (results_[seen.key].count(seen.result) == 0) Violated(seen.id, "has a result that no equal solve had");
   } else if (seen.state == kSucceeded) {
-    if (call.kind != Kind::kFinish || seen.result != call.result)
+    if (call.kind != CallKind::kFinish || seen.result != call.result)
       Violated(seen.id, "has another result than was given");
     results_[seen.key].insert(seen.result);
   } else if (!seen.result.empty() || seen.error.empty()) {
     Violated(seen.id, "has not succeeded and has a result, or no error");
   }
   if (seen.state == kCancelled && cancel_asked_.count(seen.id) == 0) Violated(seen.id, "is cancelled, unasked");
-  if (seen.state == kCancelled && earlier.state == kQueued && call.kind != Kind::kCancel) {
+  if (seen.state == kCancelled && earlier.state == kQueued && call.kind != CallKind::kCancel) {
     Violated(seen.id, "is cancelled in the queue by a call that may not do that");
   }
   if (seen.state == kFailed && earlier.state == kQueued) Violated(seen.id, "fails without having run");
@@ -220,8 +221,8 @@ void HistoryModel::CheckLog(Solve& solve, const SeenSolve& seen, const EventsOf&
 
 void HistoryModel::Vanish(const StoreCall& call, Solve& solve) {
   const std::string& id = solve.last.id;
-  const bool asked = call.kind == Kind::kDelete && call.id == id && delete_asked_.count(id) != 0;
-  if (!asked && call.kind != Kind::kRetain) Violated(id, "is gone and nobody removed it");
+  const bool asked = call.kind == CallKind::kDelete && call.id == id && delete_asked_.count(id) != 0;
+  if (!asked && call.kind != CallKind::kRetain) Violated(id, "is gone and nobody removed it");
   if (!IsOver(solve.last.state)) Violated(id, "is removed before it has ended");
   ++counts_[asked ? "deleted" : "removed by retention"];
   solve.gone = true;
@@ -255,7 +256,7 @@ void HistoryModel::LeasedAnswered(const StoreCall& call, size_t lease, bool lost
       return Violated(seen.id, "does not hold the acknowledged event " + Number(event.sequence) + ", " + event.what);
     }
   }
-  if (call.kind == Kind::kFinish && !IsOver(solve.last.state))
+  if (call.kind == CallKind::kFinish && !IsOver(solve.last.state))
     Violated(seen.id, "has not ended, and its agent is told so");
 }
 
