@@ -10,7 +10,7 @@
 namespace rollgait::server {
 namespace {
 
-using Kind = SqlFailure::Kind;
+using FailureKind = SqlFailure::Kind;
 
 constexpr VirtualTime kLongestWait = 5 * kSecond;         // for the writer's lock, as SqliteConnection waits
 constexpr VirtualTime kSlowest = 4 * kSecond;             // of a statement
@@ -26,7 +26,7 @@ auto FaultyConnection::Guard(Call call) -> decltype(call()) {
     // Nobody else runs while the engine waits, so it waits in vain; another attempt may find the lock free.
     if (std::strstr(failure.what(), "lock timeout") == nullptr) throw;
     met_lock_ = true;
-    throw SqlFailure(Kind::kConflict, failure.what());
+    throw SqlFailure(FailureKind::kConflict, failure.what());
   }
 }
 
@@ -119,7 +119,7 @@ void FaultyConnection::Pause(const char* sql) {
   if (site_.process == nullptr) return;  // the tables are made
   // Of this life; the site may be another's when it goes on.
   const std::shared_ptr<Process> process = site_.process;
-  if (process->dead) throw SqlFailure(Kind::kUnavailable, "the process has died");
+  if (process->dead) throw SqlFailure(FailureKind::kUnavailable, "the process has died");
   Scheduler& scheduler = *site_.scheduler;
   SeededNumbers& random = scheduler.random();
   const FaultRates& rates = *site_.rates;
@@ -137,7 +137,7 @@ void FaultyConnection::Pause(const char* sql) {
   if (random.Chance(rates.lose) || scheduler.now() < process->cut_off_until) {
     scheduler.Note("its connection is lost");
     lost_ = true;
-    throw SqlFailure(Kind::kLost, "the connection is gone");
+    throw SqlFailure(FailureKind::kLost, "the connection is gone");
   }
 }
 
@@ -147,7 +147,7 @@ void FaultyConnection::TakeLock() {
   Scheduler& scheduler = *site_.scheduler;
   const VirtualTime end = scheduler.now() + kLongestWait;
   while (site_.lock->holder != nullptr) {
-    if (scheduler.now() >= end) throw SqlFailure(Kind::kUnavailable, "database is locked");
+    if (scheduler.now() >= end) throw SqlFailure(FailureKind::kUnavailable, "database is locked");
     site_.lock->waiting.push_back(scheduler.current());
     scheduler.SleepUntil(end);
     ThrowIfDead(*process);
@@ -182,7 +182,7 @@ void FaultyConnection::Commit() {
   if (random.Chance(rates.undone)) {
     scheduler.Note("the commit does not happen, and nobody says so");
     lost_ = true;
-    throw SqlFailure(Kind::kUnknown, "no answer");
+    throw SqlFailure(FailureKind::kUnknown, "no answer");
   }
   Guard([&] { inner_->Commit(); });
   ReleaseLock();
@@ -192,7 +192,7 @@ void FaultyConnection::Commit() {
   if (random.Chance(rates.unanswered)) {
     scheduler.Note("the answer to the commit is lost");
     lost_ = true;
-    throw SqlFailure(Kind::kUnknown, "no answer");
+    throw SqlFailure(FailureKind::kUnknown, "no answer");
   }
   if (random.Chance(rates.yield)) scheduler.Yield();
   ThrowIfDead(*process);

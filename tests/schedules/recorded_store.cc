@@ -7,7 +7,7 @@
 namespace rollgait::server {
 namespace {
 
-using Kind = StoreCall::Kind;
+using CallKind = StoreCall::Kind;
 
 std::string TagOf(const NewSolve& solve) {
   const auto place = solve.labels.find("tag");
@@ -64,51 +64,51 @@ Lease RecordedStore::AsUsed(const Lease& lease) const {
 }
 
 Outcome<CreatedSolve> RecordedStore::Create(const NewSolve& solve) {
-  StoreCall record{Kind::kCreate, {TagOf(solve)}};
+  StoreCall record{CallKind::kCreate, {TagOf(solve)}};
   return Record(record, [&] { return store_.Create(solve); });
 }
 
 Outcome<std::vector<CreatedSolve>> RecordedStore::CreateAll(const std::vector<NewSolve>& solves) {
-  StoreCall record{Kind::kCreate};
+  StoreCall record{CallKind::kCreate};
   for (const NewSolve& solve : solves) record.tags.push_back(TagOf(solve));
   return Record(record, [&] { return store_.CreateAll(solves); });
 }
 
 Outcome<Done> RecordedStore::Delete(const std::string& id, const Actor& actor) {
-  StoreCall record{.kind = Kind::kDelete, .id = id};
+  StoreCall record{.kind = CallKind::kDelete, .id = id};
   return Record(record, [&] { return store_.Delete(id, actor); });
 }
 
 Outcome<SolveRecord> RecordedStore::RequestCancel(const std::string& id, const Actor& actor) {
-  StoreCall record{.kind = Kind::kCancel, .id = id};
+  StoreCall record{.kind = CallKind::kCancel, .id = id};
   return Record(record, [&] { return store_.RequestCancel(id, actor); });
 }
 
 Outcome<Removed> RecordedStore::Retain(const RetentionLimits& limits) {
-  StoreCall record{Kind::kRetain};
+  StoreCall record{CallKind::kRetain};
   return Record(record, [&] { return store_.Retain(limits); });
 }
 
 Outcome<std::optional<ClaimedSolve>> RecordedStore::ClaimNext(const std::string& owner,
                                                               std::chrono::milliseconds duration) {
-  StoreCall record{.kind = Kind::kClaim, .owner = owner, .lease_us = Micros(duration)};
+  StoreCall record{.kind = CallKind::kClaim, .owner = owner, .lease_us = Micros(duration)};
   auto outcome = Record(record, [&] { return store_.ClaimNext(owner, duration); });
   if (outcome.ok() && outcome.value()) recorder_.model.ClaimAnswered(Seen(outcome.value()->lease));
   return outcome;
 }
 
 Outcome<LeaseState> RecordedStore::RenewLease(const Lease& lease, std::chrono::milliseconds duration) {
-  return RecordLeased({.kind = Kind::kRenew, .lease_us = Micros(duration)}, lease,
+  return RecordLeased({.kind = CallKind::kRenew, .lease_us = Micros(duration)}, lease,
                       [&](const Lease& used) { return store_.RenewLease(used, duration); });
 }
 
 Outcome<LeaseState> RecordedStore::AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) {
-  return RecordLeased({.kind = Kind::kAppend, .events = {Seen(events)}}, lease,
+  return RecordLeased({.kind = CallKind::kAppend, .events = {Seen(events)}}, lease,
                       [&](const Lease& used) { return store_.AppendEvents(used, events); });
 }
 
 Outcome<std::vector<Outcome<LeaseState>>> RecordedStore::AppendAll(const std::vector<EventBatch>& batches) {
-  StoreCall record{Kind::kAppend};
+  StoreCall record{CallKind::kAppend};
   std::vector<EventBatch> used;
   for (const EventBatch& batch : batches) {
     record.leases.push_back(Seen(batch.lease));
@@ -126,22 +126,22 @@ Outcome<std::vector<Outcome<LeaseState>>> RecordedStore::AppendAll(const std::ve
 }
 
 Outcome<Done> RecordedStore::Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) {
-  return RecordLeased({.kind = Kind::kFinish, .events = {Seen(events)}, .result = end.result}, lease,
+  return RecordLeased({.kind = CallKind::kFinish, .events = {Seen(events)}, .result = end.result}, lease,
                       [&](const Lease& used) { return store_.Finish(used, events, end); });
 }
 
 Outcome<SolveState> RecordedStore::GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) {
-  return RecordLeased({.kind = Kind::kGiveBack}, lease,
+  return RecordLeased({.kind = CallKind::kGiveBack}, lease,
                       [&](const Lease& used) { return store_.GiveBack(used, reason, detail); });
 }
 
 Outcome<std::vector<std::string>> RecordedStore::ReclaimExpired() {
-  StoreCall record{Kind::kReclaimExpired};
+  StoreCall record{CallKind::kReclaimExpired};
   return Record(record, [&] { return store_.ReclaimExpired(); });
 }
 
 Outcome<std::vector<std::string>> RecordedStore::ReclaimOwner(const std::string& owner) {
-  StoreCall record{.kind = Kind::kReclaimOwner, .owner = owner};
+  StoreCall record{.kind = CallKind::kReclaimOwner, .owner = owner};
   return Record(record, [&] { return store_.ReclaimOwner(owner); });
 }
 
