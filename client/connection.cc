@@ -1,5 +1,6 @@
 #include "client/connection.h"
 
+#include <arpa/inet.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/client_interceptor.h>
@@ -30,10 +31,12 @@ void RequireAddress(const std::string& server) {
                 "--server " + server + ": must be HOST:PORT with a port in [1, 65535], for example 127.0.0.1:50051");
 }
 
-// Loopback and unix sockets: nobody else can listen there.
+// Loopback and unix sockets: nobody else can listen there. Of names localhost alone, for 127.example.org is anybody's.
 bool IsLocal(const std::string& server) {
   const std::string host = server.substr(0, server.rfind(':'));
-  return server.rfind("unix:", 0) == 0 || host == "localhost" || host == "[::1]" || host.rfind("127.", 0) == 0;
+  in_addr v4{};
+  const bool loopback_v4 = inet_pton(AF_INET, host.c_str(), &v4) == 1 && (ntohl(v4.s_addr) >> 24) == 127;
+  return server.rfind("unix:", 0) == 0 || host == "localhost" || host == "[::1]" || loopback_v4;
 }
 
 std::string ReadFile(const char* flag, const std::string& path) {

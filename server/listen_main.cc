@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "server/rpc/rpc_server.h"
+#include "server/base/listen_address.h"
 
 namespace rollgait::server {
 

@@ -20,7 +20,10 @@
 #include "server/base/clock.h"
 #include "server/base/data_dir.h"
 #include "server/base/digest.h"
+#include "server/base/end_signals.h"
 #include "server/base/file_lock.h"
+#include "server/base/listen_address.h"
+#include "server/base/log_flags.h"
 #include "server/base/logging.h"
 #include "server/base/memory_limit.h"
 #include "server/base/memory_return.h"
@@ -65,7 +68,7 @@ struct Flags {
   double heartbeat_interval_s = 10;
   bool no_result_reuse = false;
   bool unconfined_solver = false;
-  std::string log_format = "auto", log_level = "info";
+  LogFlags log;
   std::string metrics_listen, agent_metrics_listen;
 };
 
@@ -118,29 +121,13 @@ void AddFlags(CLI::App& app, Flags& flags) {
                  "HOST:PORT for GET /metrics (Prometheus), without encryption or authentication; default: off");
   app.add_option("--agent-metrics-listen", flags.agent_metrics_listen,
                  "The same for the agent that this server starts");
-  app.add_option("--log-format", flags.log_format, "auto (text on a terminal, else JSON), json or text")
-      ->check(CLI::IsMember(LogFormatWishes()))
-      ->capture_default_str();
-  app.add_option("--log-level", flags.log_level, "debug, info, warning or error")
-      ->check(CLI::IsMember(LogLevels()))
-      ->capture_default_str();
+  AddLogFlags(app, flags.log);
   app.set_version_flag("--version", SolverBuild());
 }
 
 int Fail(const std::string& reason) {
   spdlog::critical("{}", reason);
   return 1;
-}
-
-// Signals that end the server are waited for, not handled: blocked here, before there are threads.
-sigset_t BlockEndSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  signal(SIGPIPE, SIG_IGN);
-  return signals;
 }
 
 // As many connections as the system allows.
@@ -188,9 +175,9 @@ Supervisor::Options AgentCommand(const Flags& flags, const std::string& solver, 
                        "--solver",
                        solver,
                        "--log-format",
-                       flags.log_format,
+                       flags.log.format,
                        "--log-level",
-                       flags.log_level};
+                       flags.log.level};
   if (!flags.agent_metrics_listen.empty()) {
     options.arguments.insert(options.arguments.end(), {"--metrics-listen", flags.agent_metrics_listen});
   }
@@ -326,7 +313,7 @@ int Main(int argc, char** argv) {
   AddStorageFlags(app, flags.storage);
   CLI11_PARSE(app, argc, argv);
   const sigset_t end_signals = BlockEndSignals();
-  StartLogging({"rollgaitd", ChooseLogFormat(flags.log_format), flags.log_level});
+  StartLogging(flags.log.Of("rollgaitd"));
   LogWhatGrpcSays();
   if (flags.agent.empty()) flags.agent = Sibling("rollgait-agent");
   if (flags.simulator.empty()) flags.simulator = Sibling("rollgait-simulate");

@@ -15,6 +15,7 @@
 
 #include "server/agent/agent.h"
 #include "server/base/digest.h"
+#include "server/base/log_flags.h"
 #include "server/base/logging.h"
 #include "server/base/metrics.h"
 #include "server/base/sandbox.h"
@@ -127,18 +128,14 @@ int Main(int argc, char** argv) {
   app.add_option("--cpu-limit-s", options.solver.cpu_limit_s, "CPU time of a solver in s")
       ->check(CLI::Range(int64_t{1}, int64_t{1} << 30));
   app.add_flag("--unconfined-solver", options.solver.unconfined, kUnconfinedHelp);
-  std::string metrics_listen, log_format = "auto", log_level = "info";
+  std::string metrics_listen;
   app.add_option("--metrics-listen", metrics_listen,
                  "HOST:PORT for GET /metrics (Prometheus), without encryption or authentication; default: off");
-  app.add_option("--log-format", log_format, "auto (text on a terminal, else JSON), json or text")
-      ->check(CLI::IsMember(LogFormatWishes()))
-      ->capture_default_str();
-  app.add_option("--log-level", log_level, "debug, info, warning or error")
-      ->check(CLI::IsMember(LogLevels()))
-      ->capture_default_str();
+  LogFlags log;
+  AddLogFlags(app, log);
   CLI11_PARSE(app, argc, argv);
 
-  StartLogging({"rollgait-agent", ChooseLogFormat(log_format), log_level});
+  StartLogging(log.Of("rollgait-agent"));
   if (options.solver.program.empty()) {
     Outcome<SolverChoice> choice = ChooseSolver(Folder(), instruction_set);
     if (!choice.ok()) return Fail(choice.error().message);

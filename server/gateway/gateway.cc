@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "generated/openapi.h"
+#include "server/base/listen_address.h"
 #include "server/base/trace_context.h"
 #include "server/gateway/request_message.h"
 
@@ -18,17 +19,6 @@ constexpr size_t kLongBody = 1 << 16;
 constexpr size_t kMostMessage = size_t{16} << 20;  // that rollgaitd reads
 
 Problem BadRequest(const std::string& message) { return MakeProblem(400, grpc::StatusCode::INVALID_ARGUMENT, message); }
-
-// "127.0.0.1", "127.0.0.1:8080", "localhost", "[::1]:8080": what a browser says that was sent here on purpose.
-bool NamesLoopback(const std::string& host) {
-  for (const std::string name : {"127.0.0.1", "localhost", "[::1]"}) {
-    if (host == name || (host.rfind(name + ":", 0) == 0 &&
-                         host.find_first_not_of("0123456789", name.size() + 1) == std::string::npos)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 // A page of this server's own address asks: http://HOST or https://HOST.
 bool IsOwnOrigin(const HttpRequest& request, const std::string& origin) {
@@ -78,7 +68,7 @@ bool Gateway::IsAllowedOrigin(const std::string& origin) const {
 void Gateway::Answer(const HttpRequest& request, const std::shared_ptr<HttpAnswer>& answer) {
   const std::string origin = request.Header("origin");
   HttpHeaders headers;
-  if (options_.names_loopback && !NamesLoopback(request.Header("host"))) {
+  if (options_.names_loopback && !IsLoopbackHost(HostOf(request.Header("host")))) {
     return SendProblem(MakeProblem(403, grpc::StatusCode::PERMISSION_DENIED,
                                    "this server answers requests to 127.0.0.1 and localhost only"),
                        headers, *answer);

@@ -1,5 +1,4 @@
 // rollgait-gateway: HTTP/JSON with server-sent events in front of rollgaitd, for browsers and scripts.
-#include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +6,9 @@
 #include <cstdio>
 #include <string>
 
-#include "server/base/logging.h"
+#include "server/base/end_signals.h"
+#include "server/base/listen_address.h"
+#include "server/base/log_flags.h"
 #include "server/base/memory_return.h"
 #include "server/base/solver_build.h"
 #include "server/gateway/gateway.h"
@@ -22,7 +23,7 @@ struct Flags {
   std::string listen = "127.0.0.1:8080";
   GatewayOptions gateway;
   double call_time_s = 60, stream_time_s = 3600, read_time_s = 30;
-  std::string log_format = "auto", log_level = "info";
+  LogFlags log;
   bool openapi = false;
 };
 
@@ -53,32 +54,20 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   app.add_flag("--openapi", flags.openapi, "Print the OpenAPI document, which /v1/openapi.json is too, and stop");
-  app.add_option("--log-format", flags.log_format, "auto (text on a terminal, else JSON), json or text")
-      ->check(CLI::IsMember(LogFormatWishes()))
-      ->capture_default_str();
-  app.add_option("--log-level", flags.log_level, "debug, info, warning or error")
-      ->check(CLI::IsMember(LogLevels()))
-      ->capture_default_str();
+  AddLogFlags(app, flags.log);
   app.set_version_flag("--version", RollgaitVersion());
 }
 
 bool IsUnix(const std::string& address) { return address.rfind("unix:", 0) == 0; }
 
-// By name alone: what stands for one on one machine need not do so on another.
-bool IsHere(const std::string& address) {
-  const std::string host = address.substr(0, address.rfind(':'));
-  return IsUnix(address) || host == "localhost" || host == "[::1]" ||
-         (host.rfind("127.", 0) == 0 && host.find_first_not_of("0123456789.") == std::string::npos);
-}
-
 // Why the gateway must not run so; empty: it may.
 std::string Obstacle(const Flags& flags) {
-  if (!IsHere(flags.listen)) {
+  if (!IsLoopback(flags.listen)) {
     return "--listen " + flags.listen +
            " is not a loopback address, and the gateway speaks plain text: let the door "
            "listen there (docs/explanation/door.md) and give --listen unix:/run/rollgait/gateway.sock --behind-door";
   }
-  if (!IsHere(flags.gateway.server)) {
+  if (!IsLoopback(flags.gateway.server)) {
     return "--server " + flags.gateway.server +
            " is not on this machine: the gateway would send tokens there in plain text";
   }
@@ -134,13 +123,8 @@ int Main(int argc, char** argv) {
     std::fputs(OpenApiDocument().c_str(), stdout);
     return 0;
   }
-  sigset_t end_signals;
-  sigemptyset(&end_signals);
-  sigaddset(&end_signals, SIGTERM);
-  sigaddset(&end_signals, SIGINT);
-  pthread_sigmask(SIG_BLOCK, &end_signals, nullptr);
-  signal(SIGPIPE, SIG_IGN);
-  StartLogging({"rollgait-gateway", ChooseLogFormat(flags.log_format), flags.log_level});
+  const sigset_t end_signals = BlockEndSignals();
+  StartLogging(flags.log.Of("rollgait-gateway"));
   if (const std::string obstacle = Obstacle(flags); !obstacle.empty()) {
     spdlog::critical("{}", obstacle);
     return 1;

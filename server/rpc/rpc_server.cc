@@ -23,14 +23,6 @@ namespace {
 // For answers on their way to clients.
 constexpr std::chrono::milliseconds kFlushTime{300};
 
-// HOST of "HOST:PORT", without the brackets of an IPv6 address.
-std::string HostOf(const std::string& listen) {
-  const size_t colon = listen.rfind(':');
-  std::string host = colon == std::string::npos ? listen : listen.substr(0, colon);
-  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  return host;
-}
-
 // What messages that have not come to their end may occupy: nobody has been asked for a token by then. Above it gRPC
 // ends connections that are idle and calls that wait. 64 requests of the largest size.
 constexpr size_t kMostReadAhead = size_t{256} << 20;
@@ -158,14 +150,6 @@ void RpcServer::Stop(std::chrono::milliseconds grace) {
   executor_.Stop();
   server_.reset();
   admin_.reset();
-}
-
-bool IsLoopback(const std::string& listen) {
-  if (listen.rfind("unix:", 0) == 0) return true;
-  const std::string host = HostOf(listen);
-  in_addr v4{};
-  if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24) == 127;
-  return host == "::1" || host == "localhost";
 }
 
 }  // namespace rollgait::server

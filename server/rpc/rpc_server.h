@@ -67,10 +67,6 @@ class RpcServer {
   std::string address_;
 };
 
-// True if every address that HOST of "HOST:PORT" stands for is a loopback address: 127.0.0.0/8, ::1, localhost, unix
-// sockets.
-bool IsLoopback(const std::string& listen);
-
 }  // namespace rollgait::server
 
 #endif  // ROLLGAIT_SERVER_RPC_RPC_SERVER_H_

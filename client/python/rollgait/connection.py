@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import ipaddress
 import os
 import pathlib
 import re
@@ -57,8 +58,14 @@ class Connection:
 
     @property
     def is_local(self) -> bool:
+        """Loopback or a unix socket. Of names localhost alone, for 127.example.org is anybody's."""
+        if self.address.startswith("unix:"):
+            return True
         host = self.address.rpartition(":")[0]
-        return self.address.startswith("unix:") or host in ("localhost", "[::1]") or host.startswith("127.")
+        try:
+            return host in ("localhost", "[::1]") or ipaddress.IPv4Address(host).is_loopback
+        except ValueError:
+            return False
 
     def token(self) -> str:
         text = _read("token_file", self.token_file).decode() if self.token_file else os.environ.get("ROLLGAIT_TOKEN", "")

@@ -270,8 +270,11 @@ class Refusals(unittest.TestCase):
             rollgait.Client(rollgait.Connection(token_file="/nowhere/token"))
         path = work() / "token"
         path.write_text("rgt_abc234\n")
-        with self.assertRaisesRegex(ValueError, "plain text"):
-            rollgait.Client(rollgait.Connection(server="example.org:1", token_file=str(path), insecure=True))
+        for far in ("example.org:1", "127.example.org:1", "127.0.0.1.example.org:1"):
+            with self.assertRaisesRegex(ValueError, "plain text"):
+                rollgait.Client(rollgait.Connection(server=far, token_file=str(path), insecure=True))
+        for local in ("127.0.0.1:1", "127.8.9.1:1", "localhost:1", "[::1]:1", "unix:/tmp/socket"):
+            self.assertTrue(rollgait.Connection(server=local).is_local, local)
         path.write_text("Not a token!\n")
         with self.assertRaisesRegex(ValueError, "is none|none"):
             rollgait.Connection(token_file=str(path)).token()
