@@ -18,6 +18,7 @@
 
 #include "core/gait/optimizing_gait_solver.h"
 #include "core/gait/presets.h"
+#include "core/nlp/termination.h"
 #include "core/trajectory/sampling.h"
 #include "core/validation/overlap.h"
 
@@ -29,26 +30,6 @@ std::vector<std::string> Split(const std::string& text) {
   std::stringstream stream(text);
   for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
   return parts;
-}
-
-const char* Name(Termination termination) {
-  switch (termination) {
-    case Termination::kOptimal:
-      return "optimal";
-    case Termination::kAcceptable:
-      return "acceptable";
-    case Termination::kInfeasible:
-      return "infeasible";
-    case Termination::kIterationLimit:
-      return "iterations";
-    case Termination::kTimeLimit:
-      return "time";
-    case Termination::kNumericalDifficulty:
-      return "numerics";
-    case Termination::kCancelled:
-      return "cancelled";
-  }
-  return "?";
 }
 
 Scheme SchemeOf(const std::string& name) {
@@ -245,7 +226,7 @@ int Main(int argc, char** argv) {
         const MeshStatistics& m = s.meshes.back();
         std::printf(
             "%-16s %5s %4s | %-10s %4d %7.3f %7.3f | %9.6g %9.2e %6.3f | %9.2e %9.2e %8.1e %8.1e %8.1e | %5.0f %5.2f\n",
-            scheme.c_str(), slope.c_str(), n.c_str(), Name(s.termination), m.iterations,
+            scheme.c_str(), slope.c_str(), n.c_str(), WordOf(s.termination), m.iterations,
             static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, m.evaluation_time, s.objective, s.kkt_error,
             s.step_length, a.max_gap, a.max_slip, a.max_position_defect, a.max_velocity_defect,
             a.energy_balance_error_relative, a.min_normal_force, a.max_friction_ratio);

@@ -10,26 +10,12 @@
 
 #include "core/nlp/ipopt_solver.h"
 #include "core/nlp/solve_nlp.h"
+#include "core/nlp/termination.h"
 #include "tests/core/nlp/suite/measure.h"
 #include "tests/core/nlp/suite/suite_row.h"
 
 namespace rollgait::suite {
 namespace {
-
-const char* NameOf(Termination termination) {
-  switch (termination) {
-    case Termination::kOptimal:
-      return "optimal";
-    case Termination::kAcceptable:
-      return "acceptable";
-    case Termination::kInfeasible:
-      return "infeasible";
-    case Termination::kIterationLimit:
-      return "limit";
-    default:
-      return "difficulty";
-  }
-}
 
 void PrintIteration(const IterationInfo& info) {
   std::printf("%4d%s %14.7e %8.1e %8.1e %8.1e %8.1e %8.1e %8.1e %8.1e %d\n", info.index, info.restoration ? "r" : " ",
@@ -49,11 +35,11 @@ void Print(const SuiteRow& row, bool iterations) {
   const NlpResult ipopt = SolveWithIpopt(*program, StartOf(row), SuiteOptions(), {});
   const double value = ValueOf(*program, ours);
   std::printf("| %-27s | %3d | %3d | %-10s%s %4d | %-10s %4d | %17.10g | %8.1e |", row.name.c_str(),
-              program->variables(), program->constraints(), NameOf(ours.termination),
+              program->variables(), program->constraints(), WordOf(ours.termination),
               ours.restored_from >= 0 ? " I"
               : restores              ? " r"
                                       : "  ",
-              ours.iterations, NameOf(ipopt.termination), ipopt.iterations, value,
+              ours.iterations, WordOf(ipopt.termination), ipopt.iterations, value,
               DistanceBetween(value, ValueOf(*program, ipopt)));
   if (!row.answer.values.empty()) std::printf(" %8.1e", DistanceTo(row.answer.values, value));
   std::printf("%s\n", row.answer.values.empty() ? "          |" : " |");

@@ -4,6 +4,26 @@
 
 namespace rollgait {
 
+const char* WordOf(Termination termination) {
+  switch (termination) {
+    case Termination::kOptimal:
+      return "optimal";
+    case Termination::kAcceptable:
+      return "acceptable";
+    case Termination::kInfeasible:
+      return "infeasible";
+    case Termination::kIterationLimit:
+      return "iterations";
+    case Termination::kTimeLimit:
+      return "time";
+    case Termination::kNumericalDifficulty:
+      return "numerics";
+    case Termination::kCancelled:
+      return "cancelled";
+  }
+  ROLLGAIT_CHECK(false);
+}
+
 std::string Explain(Termination termination) {
   switch (termination) {
     case Termination::kOptimal:

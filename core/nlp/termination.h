@@ -12,6 +12,8 @@ namespace rollgait {
 // more than 1e-3 where less was asked for. Beyond that it is no solution to start from either.
 inline double AcceptableError(double tolerance) { return std::max(tolerance, std::min(100 * tolerance, 1e-3)); }
 
+// One word for tables: "optimal", "acceptable", "infeasible", "iterations", "time", "numerics", "cancelled".
+const char* WordOf(Termination termination);
 // One sentence for people.
 std::string Explain(Termination termination);
 

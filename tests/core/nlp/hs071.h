@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "core/nlp/problem.h"
+#include "tests/core/nlp/stored_program.h"
 
 namespace rollgait {
 
 // Problem 71 of Hock and Schittkowski:  min x₀x₃(x₀+x₁+x₂) + x₂,  x₀x₁x₂x₃ ≥ 25,  Σ x² = 40,  1 ≤ x ≤ 5.
-class Hs071 : public NlpProblem {
+class Hs071 : public StoredProgram {
  public:
   explicit Hs071(double sum_of_squares = 40) {
     lower_ = VectorX::Ones(4);
@@ -23,14 +23,6 @@ class Hs071 : public NlpProblem {
     }
   }
   static VectorX Start() { return Eigen::Vector4d(1, 5, 5, 1); }
-  int variables() const override { return 4; }
-  int constraints() const override { return 2; }
-  const VectorX& lower_bounds() const override { return lower_; }
-  const VectorX& upper_bounds() const override { return upper_; }
-  const VectorX& constraint_lower() const override { return row_lower_; }
-  const VectorX& constraint_upper() const override { return row_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_; }
   bool Objective(const double* x, double* value) override {
     *value = x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2];
     return std::isfinite(*value);
@@ -65,10 +57,6 @@ class Hs071 : public NlpProblem {
     }
     return true;
   }
-
- private:
-  VectorX lower_, upper_, row_lower_, row_upper_;
-  SparsityPattern jacobian_, hessian_;
 };
 
 }  // namespace rollgait

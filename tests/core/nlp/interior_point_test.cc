@@ -113,17 +113,13 @@ TEST(InteriorPoint, RowsThatDependOnEachOtherButForRounding) {
 
 // ½ x² whose last digits are lost, so near its minimum no step lowers it, and whose derivative is off by `error` times
 // the sign of x.
-class Coarse : public NlpProblem {
+class Coarse : public StoredProgram {
  public:
-  explicit Coarse(double error) : error_(error) { hessian_pattern_.Add(0, 0); }
-  int variables() const override { return 1; }
-  int constraints() const override { return 0; }
-  const VectorX& lower_bounds() const override { return lower_; }
-  const VectorX& upper_bounds() const override { return upper_; }
-  const VectorX& constraint_lower() const override { return none_; }
-  const VectorX& constraint_upper() const override { return none_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
+  explicit Coarse(double error) : error_(error) {
+    lower_ = VectorX::Constant(1, -1e20);
+    upper_ = -lower_;
+    hessian_.Add(0, 0);
+  }
   bool Objective(const double* x, double* value) override {
     const volatile double large = 1 << 26;  // an ulp of 1.5e-8
     const volatile double sum = large + 0.5 * x[0] * x[0];
@@ -143,8 +139,6 @@ class Coarse : public NlpProblem {
 
  private:
   double error_;
-  VectorX lower_ = VectorX::Constant(1, -1e20), upper_ = VectorX::Constant(1, 1e20), none_;
-  SparsityPattern jacobian_pattern_, hessian_pattern_;
 };
 
 TEST(InteriorPoint, StepsPastTheFilterWhereItComparesRoundings) {

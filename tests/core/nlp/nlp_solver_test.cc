@@ -152,15 +152,10 @@ TEST_P(NlpSolverTest, AnObjectiveThatIsNotFiniteEndsInAWordedOutcome) {
 class Fixed : public Hs071 {
  public:
   Fixed() {
-    bounds_ = Eigen::Vector4d(1, 4.7429994, 3.8211503, 1.3794082);
-    low_ = bounds_;
-    low_(3) = 1;
+    upper_ = Eigen::Vector4d(1, 4.7429994, 3.8211503, 1.3794082);
+    lower_ = upper_;
+    lower_(3) = 1;
   }
-  const VectorX& lower_bounds() const override { return low_; }
-  const VectorX& upper_bounds() const override { return bounds_; }
-
- private:
-  VectorX bounds_, low_;
 };
 
 TEST_P(NlpSolverTest, KeepsFixedVariablesWhereTheyAre) {
@@ -174,16 +169,12 @@ TEST_P(NlpSolverTest, KeepsFixedVariablesWhereTheyAre) {
 // With a third row, 100 x₀x₁, that may have any value.
 class WithFreeRow : public Hs071 {
  public:
-  WithFreeRow() : jacobian_(Hs071::jacobian_pattern()) {
+  WithFreeRow() {
     row_lower_ = Eigen::Vector3d(25, 40, -kInfinity);
     row_upper_ = Eigen::Vector3d(kInfinity, 40, kInfinity);
     jacobian_.Add(2, 0);
     jacobian_.Add(2, 1);
   }
-  int constraints() const override { return 3; }
-  const VectorX& constraint_lower() const override { return row_lower_; }
-  const VectorX& constraint_upper() const override { return row_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
   bool Constraints(const double* x, double* g) override {
     g[2] = 100 * x[0] * x[1];
     return Hs071::Constraints(x, g);
@@ -198,10 +189,6 @@ class WithFreeRow : public Hs071 {
     values[1] += 100 * lambda[2];  // of x₁ and x₀
     return true;
   }
-
- private:
-  VectorX row_lower_, row_upper_;
-  SparsityPattern jacobian_;
 };
 
 TEST_P(NlpSolverTest, ARowWithoutBoundsChangesNothing) {

@@ -1,7 +1,7 @@
 #ifndef ROLLGAIT_TESTS_CORE_NLP_SUITE_CHAIN_PROGRAM_H_
 #define ROLLGAIT_TESTS_CORE_NLP_SUITE_CHAIN_PROGRAM_H_
 
-#include "core/nlp/problem.h"
+#include "tests/core/nlp/stored_program.h"
 
 namespace rollgait::suite {
 
@@ -10,7 +10,7 @@ namespace rollgait::suite {
 //   subject to  x_{k+1} = A x_k + B u_k + s sin(x_k),  x₀ given (fixed variables),  |u| ≤ 1,  u_kᵀ u_k ≤ 1.5,
 //               x_N = final, if it is asked for.
 // Unknowns by stages: (x₀, u₀), (x₁, u₁), …, x_N; its elimination groups are the stages.
-class ChainProgram : public NlpProblem {
+class ChainProgram : public StoredProgram {
  public:
   struct Kind {
     unsigned seed = 1;
@@ -22,14 +22,6 @@ class ChainProgram : public NlpProblem {
   };
   explicit ChainProgram(const Kind& kind);
 
-  int variables() const override { return static_cast<int>(lower_.size()); }
-  int constraints() const override { return static_cast<int>(row_lower_.size()); }
-  const VectorX& lower_bounds() const override { return lower_; }
-  const VectorX& upper_bounds() const override { return upper_; }
-  const VectorX& constraint_lower() const override { return row_lower_; }
-  const VectorX& constraint_upper() const override { return row_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_; }
   EliminationGroups elimination_groups() const override { return groups_; }
   bool Objective(const double* x, double* value) override;
   bool Gradient(const double* x, double* gradient) override;
@@ -45,8 +37,6 @@ class ChainProgram : public NlpProblem {
   double control_weight_ = 0.1;
   Eigen::Matrix<double, kStates, kStates> a_;
   Eigen::Matrix<double, kStates, kControls> b_;
-  VectorX lower_, upper_, row_lower_, row_upper_;
-  SparsityPattern jacobian_, hessian_;
   EliminationGroups groups_;
 };
 

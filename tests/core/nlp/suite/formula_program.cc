@@ -7,14 +7,12 @@ namespace rollgait::suite {
 FormulaProgram::FormulaProgram(const Formula& formula, const std::vector<Interval>& variables,
                                const std::vector<Interval>& rows)
     : formula_(formula),
-      lower_(variables.size()),
-      upper_(lower_),
-      row_lower_(rows.size()),
-      row_upper_(row_lower_),
       y_(VectorX::Zero(1 + static_cast<int>(rows.size()))),
       dual_x_(variables.size()),
       dual_y_(1 + rows.size()) {
   const int n = static_cast<int>(variables.size()), m = static_cast<int>(rows.size());
+  lower_ = upper_ = VectorX::Zero(n);
+  row_lower_ = row_upper_ = VectorX::Zero(m);
   for (int i = 0; i < n; ++i) {
     lower_(i) = variables[i].lower;
     upper_(i) = variables[i].upper;

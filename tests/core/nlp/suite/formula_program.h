@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/nlp/problem.h"
+#include "tests/core/nlp/stored_program.h"
 #include "tests/core/nlp/suite/hyper_dual.h"
 
 namespace rollgait::suite {
@@ -28,18 +28,10 @@ Formula Written(F) {
 
 // minimise y₀(x) subject to bounds on x and on y₁ …; its derivatives are those of hyper-dual numbers, its patterns are
 // dense.
-class FormulaProgram : public NlpProblem {
+class FormulaProgram : public StoredProgram {
  public:
   FormulaProgram(const Formula& formula, const std::vector<Interval>& variables, const std::vector<Interval>& rows);
 
-  int variables() const override { return static_cast<int>(lower_.size()); }
-  int constraints() const override { return static_cast<int>(row_lower_.size()); }
-  const VectorX& lower_bounds() const override { return lower_; }
-  const VectorX& upper_bounds() const override { return upper_; }
-  const VectorX& constraint_lower() const override { return row_lower_; }
-  const VectorX& constraint_upper() const override { return row_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_; }
   bool Objective(const double* x, double* value) override;
   bool Gradient(const double* x, double* gradient) override;
   bool Constraints(const double* x, double* g) override;
@@ -52,8 +44,6 @@ class FormulaProgram : public NlpProblem {
   void EvaluateDual(const double* x, int i, int j);
 
   Formula formula_;
-  VectorX lower_, upper_, row_lower_, row_upper_;
-  SparsityPattern jacobian_, hessian_;
   VectorX y_;
   std::vector<HyperDual> dual_x_, dual_y_;
 };
