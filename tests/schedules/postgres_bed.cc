@@ -14,12 +14,6 @@
 namespace rollgait::server {
 namespace {
 
-constexpr char kSolves[] =
-    "SELECT number, id, solve_key, COALESCE(owner, ''), "
-    "COALESCE((SELECT value FROM labels WHERE solve = number AND name = 'tag'), ''), state, epoch, last_sequence, "
-    "trimmed_sequence, (SELECT COUNT(*) FROM events WHERE solve = number), cancel_requested, "
-    "(SELECT payload FROM results WHERE results.id = result_id), error FROM solves ORDER BY number";
-
 // Found before the function of the same name in pg_catalog: leases expire by the scheduler's time.
 constexpr char kClock[] =
     "CREATE SEQUENCE virtual_us;"
@@ -53,7 +47,7 @@ class PostgresBed : public StoreBed, public StoreView {
   }
 
   std::vector<SeenSolve> Solves() override {
-    const Answer answer = Run(kSolves);
+    const Answer answer = Run(kSelectSolves);
     std::vector<SeenSolve> solves;
     for (int row = 0; row < PQntuples(answer.get()); ++row) {
       SeenSolve seen;

@@ -11,12 +11,6 @@
 namespace rollgait::server {
 namespace {
 
-constexpr char kSolves[] =
-    "SELECT number, id, solve_key, COALESCE(owner, ''), "
-    "COALESCE((SELECT value FROM labels WHERE solve = number AND name = 'tag'), ''), state, epoch, last_sequence, "
-    "trimmed_sequence, (SELECT COUNT(*) FROM events WHERE solve = number), cancel_requested, "
-    "COALESCE((SELECT payload FROM results WHERE results.id = result_id), ''), COALESCE(error, '') "
-    "FROM solves ORDER BY number";
 constexpr char kEvents[] = "SELECT sequence, payload FROM events WHERE solve = ? AND sequence > ? ORDER BY sequence";
 
 class SqliteBed : public StoreBed, public StoreView {
@@ -86,7 +80,7 @@ class SqliteBed : public StoreBed, public StoreView {
   void Open() {
     if (handle_ != nullptr) return;
     ROLLGAIT_CHECK(sqlite3_open(path().c_str(), &handle_) == SQLITE_OK);
-    ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kSolves, -1, &solves_, nullptr) == SQLITE_OK);
+    ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kSelectSolves, -1, &solves_, nullptr) == SQLITE_OK);
     ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kEvents, -1, &events_, nullptr) == SQLITE_OK);
     Execute("PRAGMA foreign_keys=ON;");
   }

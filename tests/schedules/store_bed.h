@@ -10,6 +10,14 @@
 
 namespace rollgait::server {
 
+// What the model reads of the solves after a commit; SQL of both databases. Absent results and errors are empty.
+inline constexpr char kSelectSolves[] =
+    "SELECT number, id, solve_key, COALESCE(owner, ''), "
+    "COALESCE((SELECT value FROM labels WHERE solve = number AND name = 'tag'), ''), state, epoch, last_sequence, "
+    "trimmed_sequence, (SELECT COUNT(*) FROM events WHERE solve = number), cancel_requested, "
+    "COALESCE((SELECT payload FROM results WHERE results.id = result_id), ''), COALESCE(error, '') "
+    "FROM solves ORDER BY number";
+
 // A database for one seed after the other.
 class StoreBed {
  public:
