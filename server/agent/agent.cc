@@ -133,7 +133,7 @@ bool Agent::Turn(SteadyTime now) {
   if (poked_ || now >= look_at_ || runs_.size() < before) {
     poked_ = false;
     look_at_ = now + options_.look;
-    LookForCancels(now);
+    LookForCancels();
     if (!draining_) ClaimWork(now);
   }
   if (!draining_) KeepIdleProcesses(now);
@@ -146,7 +146,7 @@ void Agent::Stop(SteadyTime now) {
   stopping_ = true;
   idle_.clear();
   stop_end_ = now + options_.kill_after + milliseconds(1000);
-  for (const auto& run : runs_) run->Stop(now);
+  for (const auto& run : runs_) run->Stop();
 }
 
 bool Agent::GoOnStopping(SteadyTime now) {
@@ -229,7 +229,7 @@ void Agent::StoreEvents(SteadyTime now) {
   }
 }
 
-void Agent::LookForCancels(SteadyTime now) {
+void Agent::LookForCancels() {
   if (runs_.empty()) return;
   const Outcome<std::vector<std::string>> ids = store_.CancelRequests(owner_);
   if (!ids.ok()) {
@@ -237,7 +237,7 @@ void Agent::LookForCancels(SteadyTime now) {
     return;
   }
   for (const auto& run : runs_) {
-    if (std::find(ids.value().begin(), ids.value().end(), run->id()) != ids.value().end()) run->Cancel(now);
+    if (std::find(ids.value().begin(), ids.value().end(), run->id()) != ids.value().end()) run->Cancel();
   }
 }
 

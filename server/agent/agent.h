@@ -91,7 +91,7 @@ class Agent {
   void LookAfterOthers(SteadyTime now);
   void ReclaimDeadOwners();
   void ReplayDead(const std::string& known_dead);
-  void LookForCancels(SteadyTime now);
+  void LookForCancels();
   void KeepIdleProcesses(SteadyTime now);
   void HearIdleProcesses(SteadyTime now);
   void ClaimWork(SteadyTime now);

@@ -53,7 +53,7 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, std::unique_ptr
   journal_.TakeUp(context_.store, claimed.record);
   process_->Send(journal_.records().SerializeAsString());
   LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_->pid()}});
-  if (claimed.record.cancel_requested) Cancel(now);
+  if (claimed.record.cancel_requested) Cancel();
 }
 
 void SolveRun::Service(SteadyTime now) {
@@ -75,22 +75,25 @@ SteadyTime SolveRun::NextDue(SteadyTime now) const {
   due = std::min(due, wall_end_);
   if (flush_at_) due = std::min(due, *flush_at_);
   if (kill_at_) due = std::min(due, *kill_at_);
+  if (grace_begins_) due = std::min(due, now);
   if (stream_end_) due = std::min(due, now + kReapTick);
   return due;
 }
 
-void SolveRun::Cancel(SteadyTime now) {
-  if (cancelled_ || state_ != State::kSolving) return;
-  cancelled_ = true;
-  process_->Kill(kCancelSignal);
-  KillBy(now + context_.kill_after);
+void SolveRun::Cancel() {
+  if (!cancelled_) AskToStop();
+  cancelled_ = cancelled_ || state_ == State::kSolving;
 }
 
-void SolveRun::Stop(SteadyTime now) {
+void SolveRun::Stop() {
   stopping_ = true;
+  AskToStop();
+}
+
+void SolveRun::AskToStop() {
   if (state_ != State::kSolving) return;
   process_->Kill(kCancelSignal);
-  KillBy(now + context_.kill_after);
+  grace_begins_ = true;
 }
 
 void SolveRun::GiveUp() {
@@ -194,7 +197,7 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
   next_sequence_ = appended.value().last_sequence + 1;
   journal_.Save();
   context_.poke(id());
-  if (appended.value().cancel_requested) Cancel(now);
+  if (appended.value().cancel_requested) Cancel();
 }
 
 void SolveRun::RenewLease(SteadyTime now) {
@@ -206,7 +209,7 @@ void SolveRun::RenewLease(SteadyTime now) {
     return;
   }
   renew_at_ = now + context_.lease / 3;
-  if (renewed.value().cancel_requested) Cancel(now);
+  if (renewed.value().cancel_requested) Cancel();
 }
 
 void SolveRun::LoseLease(const std::string& reason) {
@@ -218,6 +221,9 @@ void SolveRun::LoseLease(const std::string& reason) {
 }
 
 void SolveRun::EnforceDeadlines(SteadyTime now) {
+  // The signal may have been sent long after the time of its turn: the store may have answered slowly before.
+  if (grace_begins_) KillBy(now + context_.kill_after);
+  grace_begins_ = false;
   if (now >= wall_end_ && !kill_at_) {
     out_of_time_ = true;
     kill_at_ = now;

@@ -65,9 +65,9 @@ class SolveRun {
   // The store knows the end, or the solve is no longer ours.
   bool over() const { return state_ == State::kOver; }
   // Asks the solver to stop because a client wants that.
-  void Cancel(SteadyTime now);
+  void Cancel();
   // Asks the solver to stop because the agent does. It keeps what it has come to, and the solve goes back to the queue.
-  void Stop(SteadyTime now);
+  void Stop();
   // Kills the solver and gives the solve back to the queue; an end that waits for its commit stays in the spool.
   void GiveUp();
 
@@ -82,6 +82,7 @@ class SolveRun {
   void EnforceDeadlines(SteadyTime now);
   void ConcludeIfGone(SteadyTime now);
   void Commit(SteadyTime now);
+  void AskToStop();
   void KillBy(SteadyTime deadline);
   void LoseLease(const std::string& reason);
 
@@ -108,6 +109,7 @@ class SolveRun {
   bool iterate_failed_ = false;  // the log has a line about it
   bool cancelled_ = false, stopping_ = false;
   bool out_of_time_ = false;
+  bool grace_begins_ = false;  // it has been asked to stop; its time to do so counts from the next Service
   std::optional<SteadyTime> flush_at_, kill_at_;
   SteadyTime renew_at_, wall_end_, commit_at_;
   std::variant<SolveEnd, Crash> outcome_;  // while committing

@@ -19,11 +19,18 @@ struct SolverChoice {
 // The values of --instruction-set.
 std::vector<std::string> InstructionSetWishes();
 
+// The solver for x86-64-v3: whether this build makes it, and whether this processor runs it.
+struct SecondSolver {
+  bool is_built = false, runs = false;
+};
+SecondSolver SecondSolverHere();
+
 // Of the solvers that this build made, the one in `folder` that suits the processor ("auto") or the wish.
 //   auto  x86-64-v3 where the processor has it, else the baseline; also where the file rollgait-solve-v3 is missing,
 //   with a remark
 // kUnavailable: what was asked for by name was not built, is not there or does not run on this processor.
-Outcome<SolverChoice> ChooseSolver(const std::string& folder, const std::string& wish);
+Outcome<SolverChoice> ChooseSolver(const std::string& folder, const std::string& wish,
+                                   SecondSolver second = SecondSolverHere());
 
 }  // namespace rollgait::server
 

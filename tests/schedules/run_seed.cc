@@ -1,5 +1,7 @@
 #include "tests/schedules/run_seed.h"
 
+#include <cstdio>
+
 namespace rollgait::server {
 namespace {
 
@@ -17,7 +19,10 @@ SeedOutcome RunSeed(Laboratory& laboratory, uint64_t seed, PlantedBug bug, std::
   world.model.Ended(view.Solves(), [&view](int64_t number, int64_t after) { return view.Events(number, after); });
   SeedOutcome outcome{world.model.violation(), world.scheduler.steps(), world.model.counts()};
   if (!outcome.violation && !world.complaint.empty()) outcome.violation = world.complaint;
-  if (!ended) outcome.violation = "the schedule does not end within " + std::to_string(kMostSteps) + " steps";
+  // Stacks of actors that still run cannot be left, so the process ends with it, but not before the seed is told.
+  if (!ended)
+    std::fprintf(stderr, "seed %llu does not end within %lld steps\n", static_cast<unsigned long long>(seed),
+                 static_cast<long long>(kMostSteps));
   ROLLGAIT_CHECK(ended);
   return outcome;
 }

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rollgait/v1/solve.pb.h"
@@ -51,9 +52,11 @@ class AgentFixture : public ::testing::Test {
   }
 
   std::unique_ptr<Agent> MakeAgent() { return MakeAgent(Options()); }
-  std::unique_ptr<Agent> MakeAgent(const Agent::Options& options) {
+  std::unique_ptr<Agent> MakeAgent(const Agent::Options& options,
+                                   std::function<Outcome<std::unique_ptr<RunningSolver>>()> start_solver = {}) {
     channels_.push_back(SocketHints::Create(directory_, kAgentSocket, kServerSocket).value());
-    Outcome<std::unique_ptr<Agent>> agent = Agent::Create(options, {*store_, *channels_.back(), clock_});
+    Outcome<std::unique_ptr<Agent>> agent =
+        Agent::Create(options, {*store_, *channels_.back(), clock_, std::move(start_solver)});
     EXPECT_TRUE(agent.ok());
     return std::move(agent).value();
   }

@@ -29,42 +29,65 @@ bool ProcessorHasV3() {
   return false;
 }
 
-const bool kFast = ROLLGAIT_HAS_X86_64_V3 != 0 && ProcessorHasV3();
+constexpr SecondSolver kFast{true, true}, kOldProcessor{true, false}, kNotBuilt{false, true};
 
-TEST(SolverChoiceTest, TheFastestThatTheProcessorRuns) {
-  const TemporaryDirectory folder;
-  MakeProgram(folder.path() + "/rollgait-solve");
-  MakeProgram(folder.path() + "/rollgait-solve-v3");
-  const auto choice = ChooseSolver(folder.path(), "auto");
+// A folder with the solver, and the second one if it is asked for.
+class SolverChoiceTest : public testing::Test {
+ protected:
+  void Make(bool second) {
+    MakeProgram(Path("rollgait-solve"));
+    if (second) MakeProgram(Path("rollgait-solve-v3"));
+  }
+  std::string Path(const std::string& program) const { return folder_.path() + "/" + program; }
+  Outcome<SolverChoice> Choose(const std::string& wish, SecondSolver second) const {
+    return ChooseSolver(folder_.path(), wish, second);
+  }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+TEST_F(SolverChoiceTest, TheFastestThatTheProcessorRuns) {
+  Make(true);
+  const auto fast = Choose("auto", kFast);
+  ASSERT_TRUE(fast.ok());
+  EXPECT_EQ(fast.value().program, Path("rollgait-solve-v3"));
+  EXPECT_EQ(fast.value().set, InstructionSet::kX8664V3);
+  EXPECT_EQ(fast.value().remark, "");
+  for (const SecondSolver& second : {kOldProcessor, kNotBuilt}) {
+    const auto baseline = Choose("auto", second);
+    ASSERT_TRUE(baseline.ok());
+    EXPECT_EQ(baseline.value().program, Path("rollgait-solve"));
+    EXPECT_EQ(baseline.value().set, InstructionSet::kBaseline);
+    EXPECT_EQ(baseline.value().remark, "");
+  }
+}
+
+TEST_F(SolverChoiceTest, AMissingFastOneIsSaid) {
+  Make(false);
+  const auto choice = Choose("auto", kFast);
   ASSERT_TRUE(choice.ok());
-  EXPECT_EQ(choice.value().program, folder.path() + (kFast ? "/rollgait-solve-v3" : "/rollgait-solve"));
-  EXPECT_EQ(choice.value().set == InstructionSet::kX8664V3, kFast);
-  EXPECT_EQ(choice.value().remark, "");
+  EXPECT_EQ(choice.value().program, Path("rollgait-solve"));
+  EXPECT_NE(choice.value().remark.find("rollgait-solve-v3 is missing"), std::string::npos);
+  EXPECT_EQ(Choose("auto", kNotBuilt).value().remark, "");
 }
 
-TEST(SolverChoiceTest, AMissingFastOneIsSaid) {
-  const TemporaryDirectory folder;
-  MakeProgram(folder.path() + "/rollgait-solve");
-  const auto choice = ChooseSolver(folder.path(), "auto");
-  ASSERT_TRUE(choice.ok());
-  EXPECT_EQ(choice.value().program, folder.path() + "/rollgait-solve");
-  EXPECT_EQ(choice.value().remark.find("rollgait-solve-v3 is missing") != std::string::npos, kFast);
-  const auto wanted = ChooseSolver(folder.path(), "x86-64-v3");
-  ASSERT_FALSE(wanted.ok());
-  EXPECT_NE(wanted.error().message.find("--instruction-set x86-64-v3: "), std::string::npos);
+TEST_F(SolverChoiceTest, TheWishWinsOrIsRefusedWithItsReason) {
+  Make(true);
+  EXPECT_EQ(Choose("baseline", kFast).value().program, Path("rollgait-solve"));
+  EXPECT_EQ(Choose("x86-64-v3", kFast).value().program, Path("rollgait-solve-v3"));
+  EXPECT_EQ(Choose("x86-64-v3", kOldProcessor).error().message,
+            "--instruction-set x86-64-v3: this processor does not have it");
+  EXPECT_EQ(Choose("x86-64-v3", kNotBuilt).error().message,
+            "--instruction-set x86-64-v3: this build made no solver for it");
+  std::filesystem::remove(Path("rollgait-solve-v3"));
+  EXPECT_EQ(Choose("x86-64-v3", kFast).error().message,
+            "--instruction-set x86-64-v3: " + Path("rollgait-solve-v3") + " is missing");
 }
 
-TEST(SolverChoiceTest, TheWishWins) {
-  const TemporaryDirectory folder;
-  MakeProgram(folder.path() + "/rollgait-solve");
-  MakeProgram(folder.path() + "/rollgait-solve-v3");
-  const auto baseline = ChooseSolver(folder.path(), "baseline");
-  ASSERT_TRUE(baseline.ok());
-  EXPECT_EQ(baseline.value().program, folder.path() + "/rollgait-solve");
-  EXPECT_EQ(ChooseSolver(folder.path(), "x86-64-v3").ok(), kFast);
-}
+TEST_F(SolverChoiceTest, TheProcessorIsAsTheKernelSays) { EXPECT_EQ(SecondSolverHere().runs, ProcessorHasV3()); }
 
-TEST(SolverChoiceTest, TheBuildNamesItsInstructionSet) {
+TEST_F(SolverChoiceTest, TheBuildNamesItsInstructionSet) {
   EXPECT_EQ(SolverBuild(InstructionSet::kBaseline).find("x86-64-v3"), std::string::npos);
   EXPECT_NE(SolverBuild(InstructionSet::kX8664V3).find(", x86-64-v3)"), std::string::npos);
   EXPECT_EQ(SolverBuild(), SolverBuild(OwnInstructionSet()));
