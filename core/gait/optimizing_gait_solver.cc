@@ -157,7 +157,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   constexpr double kStartTolerance = 1e-2;
   constexpr int kMostIterations = 200;  // of one program
   const std::optional<GaitSpec> step_spec = SymmetricStepOf(spec);
-  if (!step_spec || spec.starts > 1) return std::nullopt;
+  if (!step_spec) return std::nullopt;
   const double cold = ColdSmoothing(spec);
   const bool sharpens = LeastSmoothing(spec).value_or(cold) < cold;
   const auto as_start = [&](const GaitSpec& of) {
