@@ -6,7 +6,7 @@
 #include "core/gait/gait_spec.h"
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
-#include "core/models/subject_changes.h"
+#include "core/models/sides_alike.h"
 
 namespace rollgait {
 namespace {
@@ -116,8 +116,9 @@ CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double g
   }
   if (scene != nullptr && !scene->symmetric && request.cycle == Cycle::kHalf) {
     check.Add("cycle",
-              "a half cycle ends in the mirror image of its start, but left and right of this body differ (see "
-              "model.locked_joints_rad); give CYCLE_FULL, leave it out, or make both sides alike");
+              "a half cycle ends in the mirror image of its start, but left and right of this body differ (by its "
+              "locked joints, segment lengths, loads, strengths or springs); give CYCLE_FULL, leave it out, or make "
+              "both sides alike");
   }
   *phases = CheckPhases(request, scene, similarity, check);
   return CheckMotion(request, scene, gravity, similarity, *phases, check);
@@ -131,17 +132,20 @@ GaitRequest ForBothSidesAlike(GaitRequest request) {
   return request;
 }
 
-// Null where left and right of the body do not differ, and where nothing else is known of it.
-std::shared_ptr<const GaitSpec> SymmetricSpec(const GaitRequest& given, const Scene& scene, Cycle cycle) {
-  if (scene.symmetric || cycle != Cycle::kFull || given.body.own) return nullptr;
-  const Result<GaitSpec> symmetric = CheckRequest(ForBothSidesAlike(given));
-  if (!symmetric.ok() || !symmetric.value().scene.symmetric) return nullptr;
+// Whether CheckRequest fills in GaitSpec::symmetric.
+enum class Symmetric { kWhereUsed, kLeftOut };
+Result<GaitSpec> Check(const GaitRequest& given, Symmetric with);
+
+// Null where it is not used: left and right of the body do not differ, nothing else is known of it, or there are
+// several starts.
+std::shared_ptr<const GaitSpec> SymmetricSpec(const GaitRequest& given, const Scene& scene, Cycle cycle, int starts) {
+  if (scene.symmetric || cycle != Cycle::kFull || given.body.own || starts > 1) return nullptr;
+  const Result<GaitSpec> symmetric = Check(ForBothSidesAlike(given), Symmetric::kLeftOut);
+  if (!symmetric.ok()) return nullptr;
   return std::make_shared<const GaitSpec>(symmetric.value());
 }
 
-}  // namespace
-
-Result<GaitSpec> CheckRequest(const GaitRequest& given) {
+Result<GaitSpec> Check(const GaitRequest& given, Symmetric with) {
   GaitRequest request = given;
   FillFromPreset(&request);
   RequestCheck check;
@@ -192,7 +196,8 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
 
   Result<Model> model = Model::Create(std::move(joints));
   if (!model.ok()) return model.violations();
-  std::shared_ptr<const GaitSpec> symmetric = SymmetricSpec(given, *scene, *request.cycle);
+  std::shared_ptr<const GaitSpec> symmetric;
+  if (with == Symmetric::kWhereUsed) symmetric = SymmetricSpec(given, *scene, *request.cycle, starts);
   Scene limited = *scene;
   limited.model = std::move(model).value();
   return GaitSpec{.scene = std::move(limited),
@@ -232,5 +237,9 @@ Result<GaitSpec> CheckRequest(const GaitRequest& given) {
                   .warm_start = std::nullopt,
                   .symmetric = std::move(symmetric)};
 }
+
+}  // namespace
+
+Result<GaitSpec> CheckRequest(const GaitRequest& given) { return Check(given, Symmetric::kWhereUsed); }
 
 }  // namespace rollgait

@@ -9,6 +9,7 @@
 
 #include "core/gait/added_constraints.h"
 #include "core/gait/mesh_sequence.h"
+#include "core/models/mirror_image.h"
 
 namespace rollgait {
 namespace {
@@ -27,11 +28,9 @@ bool AreMirrorImages(const GaitSpec::Phase& phase, const GaitSpec::Phase& other,
 
 // Limits of joints that a request may set for one side alone.
 bool AreMirrorImages(const Joint& joint, const Joint& other) {
-  const auto range = [&](double min, double max) {
-    return joint.mirror_sign > 0 ? std::pair(min, max) : std::pair(-max, -min);
-  };
-  return range(joint.position_min, joint.position_max) == std::pair(other.position_min, other.position_max) &&
-         range(joint.effort_min, joint.effort_max) == std::pair(other.effort_min, other.effort_max) &&
+  const double sign = joint.mirror_sign;
+  return IsMirroredRange(joint.position_min, joint.position_max, other.position_min, other.position_max, sign) &&
+         IsMirroredRange(joint.effort_min, joint.effort_max, other.effort_min, other.effort_max, sign) &&
          joint.velocity_max == other.velocity_max;
 }
 
@@ -39,9 +38,12 @@ bool AreMirrorImages(const Joint& joint, const Joint& other) {
 struct IsSymmetric {
   const Model& model;
 
-  // A position that is held, alike on both sides, means the same in either step.
+  // A position that is held, alike on both sides, means the same in either step; but not that of the base along x and
+  // y: the second step is further on, and a step lies beside its mirror image, a full cycle where it starts.
   bool operator()(const GaitRequest::Tracking& tracking) const {
     return std::all_of(tracking.channels.begin(), tracking.channels.end(), [&](const auto& channel) {
+      const JointRole role = model.joint(model.Find(channel.joint)).role;
+      if (role == JointRole::kBaseForward || role == JointRole::kBaseLateral) return false;
       const double held = channel.positions.front();
       for (const double position : channel.positions) {
         if (position != held) return false;

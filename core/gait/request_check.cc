@@ -28,22 +28,6 @@ std::string FormatNumber(double value) {
   return text;
 }
 
-std::string Printable(const std::string& name) {
-  constexpr size_t kMaxLength = 40;
-  std::string text = name.substr(0, kMaxLength);
-  for (char& c : text) {
-    if (c < ' ' || c > '~' || c == '"' || c == '\\') c = '?';
-  }
-  if (name.size() > kMaxLength) text += "...";
-  return text;
-}
-
-std::string Quoted(const std::string& name) { return std::string("\"").append(Printable(name)).append("\""); }
-
-std::string Indexed(const std::string& path, size_t index) { return path + "[" + std::to_string(index) + "]"; }
-
-std::string Keyed(const std::string& path, const std::string& key) { return path + "[" + Quoted(key) + "]"; }
-
 std::string ListNames(const std::vector<std::string>& names) {
   constexpr size_t kMaxNames = 12;
   std::string text;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/field_path.h"
 #include "core/base/result.h"
 #include "core/gait/gait_spec.h"
 
@@ -53,14 +54,8 @@ class RequestCheck {
   size_t left_out_ = 0;
 };
 
-// A number as it is written in messages; a client's name made fit for one (printable ASCII, cut after 40 characters),
-// and the same in quotes.
+// A number as it is written in messages.
 std::string FormatNumber(double value);
-std::string Printable(const std::string& name);
-std::string Quoted(const std::string& name);
-// "path[3]" and "path["key"]".
-std::string Indexed(const std::string& path, size_t index);
-std::string Keyed(const std::string& path, const std::string& key);
 // The names, separated by commas, cut after the first twelve.
 std::string ListNames(const std::vector<std::string>& names);
 

@@ -42,6 +42,8 @@ const JointKind& KindOf(const std::string& name) {
   return kOtherJoint;
 }
 
+const char* Suffix(BodySide side) { return side == BodySide::kLeft ? "_l" : side == BodySide::kRight ? "_r" : ""; }
+
 class HumanBuilder {
  public:
   HumanBuilder(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options)
@@ -71,8 +73,10 @@ class HumanBuilder {
   }
 
  private:
-  static const char* Suffix(BodySide side) {
-    return side == BodySide::kLeft ? "_l" : side == BodySide::kRight ? "_r" : "";
+  // A segment on the link that carries it.
+  RigidBody OnLink(Segment segment, BodySide side) const {
+    const SegmentTable& table = Of(side);
+    return Shifted(table.Body(segment, side), PlaceOf(segment, side, table).origin);
   }
 
   const SegmentTable& Of(BodySide side) const { return side == BodySide::kRight ? right_ : table_; }
@@ -147,7 +151,7 @@ class HumanBuilder {
     pelvis_ = Add("base_pitch", BodySide::kMidline, JointType::kRevolute, roll, zero, Vector3::UnitY());
     for (int joint : {y, yaw, roll}) joints_[joint].mirror_sign = -1;
     for (int joint : {yaw, roll, pelvis_}) SetRange(joints_[joint].name, &joints_[joint]);
-    SetLink(pelvis_, "pelvis", Shifted(table_.Body(Segment::kPelvis, BodySide::kMidline), -table_.LumbarToHips()));
+    SetLink(pelvis_, "pelvis", OnLink(Segment::kPelvis, BodySide::kMidline));
   }
 
   void AddLeg(BodySide side) {
@@ -199,10 +203,9 @@ class HumanBuilder {
     const int bending = AddActuated("trunk_bending", BodySide::kMidline, flexion, Vector3::Zero(), Vector3::UnitX());
     torso_ = AddActuated("trunk_rotation", BodySide::kMidline, bending, Vector3::Zero(), Vector3::UnitZ());
     for (int joint : {bending, torso_}) joints_[joint].mirror_sign = -1;
-    cervical_ = Vector3(0, 0, table_.Length(Segment::kTorso));
+    cervical_ = PlaceOf(Segment::kTorso, BodySide::kMidline, table_).origin;
     SetLink(torso_, "torso",
-            Lumped({Shifted(table_.Body(Segment::kTorso, BodySide::kMidline), cervical_),
-                    Shifted(table_.Body(Segment::kHeadNeck, BodySide::kMidline), cervical_)}));
+            Lumped({OnLink(Segment::kTorso, BodySide::kMidline), OnLink(Segment::kHeadNeck, BodySide::kMidline)}));
   }
 
   // The hand is one body with the forearm.
@@ -213,9 +216,7 @@ class HumanBuilder {
     const int forearm =
         AddActuated("elbow", side, arm, Vector3(0, 0, -table.Length(Segment::kUpperArm)), -Vector3::UnitY());
     SetLink(arm, "upper_arm" + suffix, table.Body(Segment::kUpperArm, side));
-    const Vector3 wrist(0, 0, -table.Length(Segment::kForearm));
-    SetLink(forearm, "forearm" + suffix,
-            Lumped({table.Body(Segment::kForearm, side), Shifted(table.Body(Segment::kHand, side), wrist)}));
+    SetLink(forearm, "forearm" + suffix, Lumped({OnLink(Segment::kForearm, side), OnLink(Segment::kHand, side)}));
     AddLimb(LimbPart::kForearm, side, "forearm", forearm, ForearmBody(table));
   }
 
@@ -248,6 +249,30 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options) { return
 HumanBody Human(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options) {
   ROLLGAIT_CHECK(!options.toes || options.feet == FootShape::kTwoEllipsoids);
   return HumanBuilder(left, right, options).Build();
+}
+
+SegmentPlace PlaceOf(Segment segment, BodySide side, const SegmentTable& table) {
+  const std::string suffix = Suffix(side);
+  switch (segment) {
+    case Segment::kHeadNeck:
+    case Segment::kTorso:
+      return {"trunk_rotation", Vector3(0, 0, table.Length(Segment::kTorso))};
+    case Segment::kPelvis:
+      return {"base_pitch", -table.LumbarToHips()};
+    case Segment::kUpperArm:
+      return {"shoulder_rotation" + suffix};
+    case Segment::kForearm:
+      return {"elbow" + suffix};
+    case Segment::kHand:
+      return {"elbow" + suffix, Vector3(0, 0, -table.Length(Segment::kForearm))};
+    case Segment::kThigh:
+      return {"hip_rotation" + suffix};
+    case Segment::kShank:
+      return {"knee" + suffix};
+    case Segment::kFoot:
+      return {"ankle_inversion" + suffix};
+  }
+  ROLLGAIT_CHECK(false);
 }
 
 std::vector<std::string> HumanSources() {

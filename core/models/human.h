@@ -47,6 +47,14 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options);
 // sides were alike. Contract: tables of one person that differ in the scales of paired segments alone.
 HumanBody Human(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options);
 
+// Where a segment is on the human: the joint whose link carries it, and its proximal joint centre on that link, m.
+struct SegmentPlace {
+  std::string joint;
+  Vector3 origin = Vector3::Zero();
+};
+// Contract: the side that the segment has (SegmentTable::Body), and the table of that side.
+SegmentPlace PlaceOf(Segment segment, BodySide side, const SegmentTable& table);
+
 // Where the numbers of the body come from.
 std::vector<std::string> HumanSources();
 

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/field_path.h"
 #include "core/models/human.h"
+#include "core/models/mirror_image.h"
 #include "core/models/reduction.h"
 #include "core/models/subject_changes.h"
 
@@ -14,7 +16,6 @@ namespace rollgait {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-std::string Keyed(const char* field, const std::string& key) { return std::string(field) + "[\"" + key + "\"]"; }
 
 bool IsBase(const Joint& joint) { return joint.name.starts_with("base_"); }
 
@@ -73,6 +74,19 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
   return locked;
 }
 
+// A model takes no pair of joints of which one alone has muscles: both become their own images. True if there was none.
+bool UnpairUnlike(std::vector<Joint>* joints) {
+  bool alike = true;
+  for (size_t i = 0; i < joints->size(); ++i) {
+    const auto image = static_cast<size_t>((*joints)[i].mirror_joint);
+    if ((*joints)[i].actuated == (*joints)[image].actuated) continue;
+    alike = false;
+    (*joints)[image].mirror_joint = static_cast<int>(image);
+    (*joints)[i].mirror_joint = static_cast<int>(i);
+  }
+  return alike;
+}
+
 }  // namespace
 
 Result<Scene> HumanScene(const BodySelection& selection) {
@@ -89,8 +103,7 @@ Result<Scene> HumanScene(const BodySelection& selection) {
   std::vector<Joint> joints = ChangedJoints(human.model, tables, selection, locked, &violations);
   if (!violations.empty()) return violations;
 
-  const bool mirrored = !MayBeOneSided(selection) || AreMirrored(joints);
-  if (!mirrored) ForgetMirror(&joints);
+  const bool alike = UnpairUnlike(&joints);
   const Result<Model> changed = Model::Create(std::move(joints));
   if (!changed.ok()) return changed.violations();
   Result<ModelReduction> reduction = ReduceModel(changed.value(), locked);
@@ -100,6 +113,9 @@ Result<Scene> HumanScene(const BodySelection& selection) {
     contacts.push_back(ReduceContact(contact, reduction.value()));
     if (selection.sagittal) contacts.back().directions = {0, 2};
   }
+  const MotionSpace space = selection.sagittal ? MotionSpace::kSagittalPlane : MotionSpace::kSpace;
+  const Model& reduced = reduction.value().model;
+  const bool symmetric = alike && reduction.value().symmetric && IsOwnMirrorImage(reduced, contacts, space);
   std::vector<BodySurface> bodies;
   for (const BodySurface& body : human.bodies) bodies.push_back(ReduceBody(body, reduction.value()));
   std::vector<BodyPair> pairs;
@@ -108,11 +124,11 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .name = selection.model,
       .description = "",
       .selection = selection,
-      .model = reduction.value().model,
+      .model = symmetric ? reduced : WithoutMirror(reduced),
       .contacts = std::move(contacts),
       .leg_length = std::max(tables.left.LegLength(), tables.right.LegLength()),
       .sources = HumanSources(),
-      .symmetric = mirrored && reduction.value().symmetric,
+      .symmetric = symmetric,
       .bodies = std::move(bodies),
       .pairs = std::move(pairs),
   };

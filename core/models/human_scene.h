@@ -13,10 +13,11 @@ namespace rollgait {
 //                other: there are bodies, but no pairs
 //   drop_arms    shoulders and elbows: straight hanging arms, one body with the torso
 //   rigid_trunk  the three trunk joints: pelvis and torso are one body
-// Its changes are made before (subject_changes.h); the mirror image of a body whose left and right then differ is not
-// itself. Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes
-// without feet of two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all
-// there are. Contract: stature and mass within the ranges of ModelSelection.
+// Its changes are made before (subject_changes.h). It is symmetric if it is its own mirror image (IsOwnMirrorImage), in
+// the plane as far as the motion in the plane can feel; if not, its joints have no mirror images but themselves.
+// Violations name the fields of ModelSelection: segment lengths of unknown segments or out of range; toes without feet
+// of two ellipsoids; locked joints that are unknown, fixed already, of the base, out of range, or all there are.
+// Contract: stature and mass within the ranges of ModelSelection.
 Result<Scene> HumanScene(const BodySelection& selection);
 
 }  // namespace rollgait

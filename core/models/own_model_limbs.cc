@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/models/mirror_image.h"
 #include "core/models/own_model_check.h"
 
 namespace rollgait {
@@ -55,11 +56,6 @@ void CheckRole(int index, OwnModelCheck* check) {
   needs(PassiveKind::kHumanAnkle, JointRole::kAnkleDorsiflexion, -1);
 }
 
-// Of lower and upper limits and of what the mirror image's become with sign -1.
-bool SameRange(double min, double max, double image_min, double image_max, double sign) {
-  return sign > 0 ? min == image_min && max == image_max : min == -image_max && max == -image_min;
-}
-
 void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
   const Joint& joint = check->own.joints[index];
   const int other = joint.mirror_joint < 0 ? index : joint.mirror_joint;
@@ -93,16 +89,16 @@ void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
     differs("inertia_kg_m2", inertia.diagonal().transpose(), inertia_image.diagonal().transpose(),
             " kg m² (xx, yy, zz)");
   }
-  if (!SameRange(joint.position_min, joint.position_max, image.position_min, image.position_max, joint.mirror_sign)) {
+  if (!IsMirroredRange(joint.position_min, joint.position_max, image.position_min, image.position_max,
+                       joint.mirror_sign)) {
     differs("position_min", joint.position_min, joint.mirror_sign > 0 ? image.position_min : -image.position_max,
             " (or its position_max differs)");
   }
-  if (!SameRange(joint.effort_min, joint.effort_max, image.effort_min, image.effort_max, joint.mirror_sign)) {
+  if (!IsMirroredRange(joint.effort_min, joint.effort_max, image.effort_min, image.effort_max, joint.mirror_sign)) {
     differs("effort_max", joint.effort_max, joint.mirror_sign > 0 ? image.effort_max : -image.effort_min,
             " (or its effort_min differs)");
   }
-  const bool same_rest = joint.stiffness == 0 || joint.rest_position == joint.mirror_sign * image.rest_position;
-  if (joint.stiffness != image.stiffness || joint.damping != image.damping || !same_rest) {
+  if (!HasMirroredSpring(joint, image)) {
     differs("stiffness", joint.stiffness, image.stiffness, " (or its damping or rest_position differs)");
   }
   if (joint.velocity_max != image.velocity_max) differs("velocity_max", joint.velocity_max, image.velocity_max, "");

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/field_path.h"
 #include "core/models/rigid_body.h"
 
 namespace rollgait {
@@ -19,7 +20,7 @@ std::vector<double> FixedPositions(const Model& model, const std::map<std::strin
   std::vector<double> fixed(model.size(), kMoves);
   size_t left = model.joints().size();
   for (const auto& [name, position] : locked) {
-    const std::string field = "locked_joints_rad[\"" + name + "\"]";
+    const std::string field = Keyed("locked_joints_rad", name);
     const int joint = model.Find(name);
     if (joint < 0) {
       violations->push_back({field, "the model has no joint of that name; see GetModel for its joints"});

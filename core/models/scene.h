@@ -19,7 +19,7 @@ struct Scene {
   BodySelection selection;
   Model model;
   std::vector<ContactSurface> contacts;
-  double leg_length;                     // m, hip to sole with straight leg
+  double leg_length;                     // m, hip to sole with straight leg, of the longer one
   std::vector<std::string> sources;      // where the numbers come from
   bool symmetric = true;                 // its left/right mirror image is itself; if not, it has no half cycle
   std::vector<BodySurface> bodies = {};  // the parts with a thickness

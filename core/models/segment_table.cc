@@ -75,14 +75,10 @@ const Row& RowOf(Sex sex, Segment segment) {
   return row;
 }
 
-bool IsMidline(Segment segment) {
-  return segment == Segment::kHeadNeck || segment == Segment::kTorso || segment == Segment::kPelvis;
-}
-
 // Sum of the mass column over the whole body: 99.9 female, 100.2 male, by rounding in the paper.
 double MassSum(Sex sex) {
   double sum = 0;
-  for (const Row& row : RowsOf(sex)) sum += row.mass * (IsMidline(row.segment) ? 1 : 2);
+  for (const Row& row : RowsOf(sex)) sum += row.mass * (IsPaired(row.segment) ? 2 : 1);
   return sum;
 }
 
@@ -114,7 +110,7 @@ SegmentTable::SegmentTable(Sex sex, double stature, double mass, const SegmentSc
 double SegmentTable::Scaled(double length_mm) const { return length_mm * 1e-3 * length_scale_; }
 
 RigidBody SegmentTable::Body(Segment segment, BodySide side) const {
-  ROLLGAIT_CHECK(IsMidline(segment) == (side == BodySide::kMidline));
+  ROLLGAIT_CHECK(IsPaired(segment) == (side != BodySide::kMidline));
   const Row& row = RowOf(sex_, segment);
   const double mass = mass_ * row.mass / MassSum(sex_);
   // Mirroring changes the sign of everything odd in Z; a body symmetric about the sagittal plane has none of it.
@@ -126,11 +122,9 @@ RigidBody SegmentTable::Body(Segment segment, BodySide side) const {
   inertia << entry(0), entry(3), z_sign * entry(4),  //
       entry(3), entry(1), z_sign * entry(5),         //
       z_sign * entry(4), z_sign * entry(5), entry(2);
-  Matrix3 from_table;     // X anterior, Y up, Z right -> x forward, y left, z up
-  from_table << 1, 0, 0,  //
-      0, 0, -1,           //
-      0, 1, 0;
-  return {mass, from_table * com, from_table * NearestRealisable(inertia) * from_table.transpose()};
+  Matrix3 from_table;
+  from_table << FromIsb(Vector3::UnitX()), FromIsb(Vector3::UnitY()), FromIsb(Vector3::UnitZ());
+  return {mass, FromIsb(com), from_table * NearestRealisable(inertia) * from_table.transpose()};
 }
 
 double SegmentTable::TableLength(Segment segment) const { return Scaled(RowOf(sex_, segment).length_mm); }

@@ -17,6 +17,14 @@ inline constexpr int kSegments = 9;
 // Name on the wire: "head_neck", "torso", "pelvis", "upper_arm", "forearm", "hand", "thigh", "shank", "foot".
 const char* SegmentName(Segment segment);
 
+// Whether a segment has a left and a right: all but head, torso and pelvis.
+constexpr bool IsPaired(Segment segment) {
+  return segment != Segment::kHeadNeck && segment != Segment::kTorso && segment != Segment::kPelvis;
+}
+
+// From the segment axes of the ISB, X forward, Y up, Z to the right, to ours: x forward, y left, z up.
+inline Vector3 FromIsb(const Vector3& isb) { return Vector3(isb.x(), -isb.z(), isb.y()); }
+
 // By how much each segment, in the order of Segment, is longer than the table has it; all 1: proportional to stature.
 using SegmentScales = std::array<double, kSegments>;
 inline constexpr SegmentScales kTableScales = {1, 1, 1, 1, 1, 1, 1, 1, 1};

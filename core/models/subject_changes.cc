@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <sstream>
 #include <utility>
 
-#include "core/base/check.h"
+#include "core/base/field_path.h"
+#include "core/models/human.h"
 #include "core/models/rigid_body.h"
+#include "core/models/sided_segment.h"
 
 namespace rollgait {
 namespace {
@@ -27,74 +28,6 @@ std::string Text(const Parts&... parts) {
   return text.str();
 }
 
-std::string KeyOf(const char* field, const std::string& key) { return Text(field, "[\"", key, "\"]"); }
-
-bool IsPaired(Segment segment) {
-  return segment != Segment::kHeadNeck && segment != Segment::kTorso && segment != Segment::kPelvis;
-}
-
-struct SidedSegment {
-  Segment segment;
-  BodySide side;  // kMidline: both of a paired one
-};
-
-// "thigh", "thigh_l", "torso"; empty if there is none of that name.
-std::optional<SidedSegment> FindSegment(const std::string& name) {
-  for (int s = 0; s < kSegments; ++s) {
-    const Segment segment = static_cast<Segment>(s);
-    if (name == SegmentName(segment)) return SidedSegment{segment, BodySide::kMidline};
-    if (!IsPaired(segment)) continue;
-    if (name == SegmentName(segment) + std::string("_l")) return SidedSegment{segment, BodySide::kLeft};
-    if (name == SegmentName(segment) + std::string("_r")) return SidedSegment{segment, BodySide::kRight};
-  }
-  return std::nullopt;
-}
-
-// The names of segments, the paired ones without and with their sides as asked.
-std::string SegmentNames(bool sided) {
-  std::string names;
-  for (int s = 0; s < kSegments; ++s) {
-    const std::string name = SegmentName(static_cast<Segment>(s));
-    const bool both = sided && IsPaired(static_cast<Segment>(s));
-    names += (s == 0 ? " " : ", ") + (both ? name + "_l, " + name + "_r" : name);
-  }
-  return names;
-}
-
-// Where a segment is on the human: the joint whose link carries it, and its proximal joint centre on that link.
-struct Place {
-  std::string joint;
-  Vector3 origin = Vector3::Zero();
-};
-
-Place PlaceOf(const SidedSegment& at, const SidedTables& tables) {
-  const SegmentTable& table = tables.Of(at.side);
-  const std::string suffix = at.side == BodySide::kLeft ? "_l" : "_r";
-  switch (at.segment) {
-    case Segment::kHeadNeck:
-    case Segment::kTorso:
-      return {"trunk_rotation", Vector3(0, 0, table.Length(Segment::kTorso))};
-    case Segment::kPelvis:
-      return {"base_pitch", -table.LumbarToHips()};
-    case Segment::kUpperArm:
-      return {"shoulder_rotation" + suffix};
-    case Segment::kForearm:
-      return {"elbow" + suffix};
-    case Segment::kHand:
-      return {"elbow" + suffix, Vector3(0, 0, -table.Length(Segment::kForearm))};
-    case Segment::kThigh:
-      return {"hip_rotation" + suffix};
-    case Segment::kShank:
-      return {"knee" + suffix};
-    case Segment::kFoot:
-      return {"ankle_inversion" + suffix};
-  }
-  ROLLGAIT_CHECK(false);
-}
-
-// From X forward, Y up, Z right to x forward, y left, z up.
-Vector3 FromIsb(const Vector3& isb) { return Vector3(isb.x(), -isb.z(), isb.y()); }
-
 bool IsWithin(double value, double min, double max) { return value >= min && value <= max; }  // false for NaN
 
 // What is wrong with a load, if anything.
@@ -102,8 +35,8 @@ bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* vio
   const size_t before = violations->size();
   const auto at = FindSegment(load.segment);
   if (!at || (IsPaired(at->segment) && at->side == BodySide::kMidline)) {
-    violations->push_back({path + ".segment", Text("\"", load.segment.substr(0, 40),
-                                                   "\" is no segment of one side; choose from", SegmentNames(true))});
+    violations->push_back(
+        {path + ".segment", Text(Quoted(load.segment), " is no segment of one side; choose from", SegmentNames(true))});
   }
   if (!(load.mass > 0 && load.mass <= kHeaviest)) {
     violations->push_back(
@@ -125,7 +58,7 @@ bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* vio
 
 void AddLoad(const SegmentLoad& load, const Model& human, const SidedTables& tables, std::vector<Joint>* joints) {
   const SidedSegment at = *FindSegment(load.segment);
-  const Place place = PlaceOf(at, tables);
+  const SegmentPlace place = PlaceOf(at.segment, at.side, tables.Of(at.side));
   Joint& joint = (*joints)[static_cast<size_t>(human.Find(place.joint))];
   const RigidBody carried{
       load.mass, load.position ? FromIsb(*load.position) : tables.Of(at.side).Body(at.segment, at.side).center_of_mass,
@@ -167,10 +100,6 @@ bool CheckSpring(const JointSpring& spring, const std::string& path, Violations*
   return violations->size() == before;
 }
 
-bool AreClose(double a, double b) { return std::abs(a - b) <= 1e-9 * (1 + std::abs(a)); }
-
-Vector3 Flipped(const Vector3& vector) { return Vector3(vector.x(), -vector.y(), vector.z()); }
-
 }  // namespace
 
 SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
@@ -178,7 +107,7 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
   SegmentScales left = kTableScales, right = kTableScales;
   // In the order of names: of a segment both sides before one of them.
   for (const auto& [name, length] : selection.segment_lengths) {
-    const std::string field = KeyOf("segment_lengths_m", name);
+    const std::string field = Keyed("segment_lengths_m", name);
     const auto found = FindSegment(name);
     if (!found) {
       violations->push_back(
@@ -213,7 +142,7 @@ std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, 
     }
   }
   for (const auto& [name, spring] : changes.springs) {
-    const std::string field = KeyOf("joint_springs", name);
+    const std::string field = Keyed("joint_springs", name);
     Joint* const joint = FindMuscled(name, field, human, fixed, &joints, violations);
     if (joint == nullptr || !CheckSpring(spring, field, violations)) continue;
     joint->stiffness = spring.stiffness;
@@ -221,7 +150,7 @@ std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, 
     joint->damping = spring.damping;
   }
   for (const auto& [name, share] : changes.strengths) {
-    const std::string field = KeyOf("joint_strengths", name);
+    const std::string field = Keyed("joint_strengths", name);
     Joint* const joint = FindMuscled(name, field, human, fixed, &joints, violations);
     if (joint == nullptr) continue;
     if (!IsWithin(share, 0, 1)) {
@@ -240,54 +169,6 @@ std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, 
     violations->push_back({"joint_strengths", "leave no joint that a muscle could move; leave at least one above 0"});
   }
   return joints;
-}
-
-bool MayBeOneSided(const BodySelection& selection) {
-  for (const auto& [name, length] : selection.segment_lengths) {
-    if (name.ends_with("_l") || name.ends_with("_r")) return true;
-  }
-  const SubjectChanges& changes = selection.changes;
-  return !changes.loads.empty() || !changes.strengths.empty() || !changes.springs.empty();
-}
-
-BodyRequest WithSidesAlike(BodyRequest request) {
-  request.changes = {};
-  std::erase_if(request.segment_lengths,
-                [](const auto& named) { return named.first.ends_with("_l") || named.first.ends_with("_r"); });
-  const std::map<std::string, double> locked = request.locked_joints;
-  std::erase_if(request.locked_joints, [&](const auto& named) {
-    std::string image = named.first;
-    if (!image.ends_with("_l") && !image.ends_with("_r")) return image.starts_with("trunk_") && named.second != 0;
-    image.back() = image.back() == 'l' ? 'r' : 'l';
-    const auto other = locked.find(image);
-    return other == locked.end() || other->second != named.second;
-  });
-  return request;
-}
-
-bool AreMirrored(const std::vector<Joint>& joints) {
-  for (const Joint& joint : joints) {
-    const Joint& image = joints[static_cast<size_t>(joint.mirror_joint)];
-    const double sign = joint.mirror_sign;
-    const Matrix3 flip = Vector3(1, -1, 1).asDiagonal();
-    const double size = joint.inertia.norm();
-    const bool same_link = (joint.p_PJ - Flipped(image.p_PJ)).norm() <= 1e-9 && AreClose(joint.mass, image.mass) &&
-                           (joint.center_of_mass - Flipped(image.center_of_mass)).norm() <= 1e-9 &&
-                           (joint.inertia - flip * image.inertia * flip).norm() <= 1e-9 * size;
-    const bool same_effort = sign > 0 ? joint.effort_min == image.effort_min && joint.effort_max == image.effort_max
-                                      : joint.effort_min == -image.effort_max && joint.effort_max == -image.effort_min;
-    const bool same_spring = joint.stiffness == image.stiffness && joint.damping == image.damping &&
-                             (joint.stiffness == 0 || joint.rest_position == sign * image.rest_position);
-    if (!same_link || !same_effort || !same_spring || joint.actuated != image.actuated) return false;
-  }
-  return true;
-}
-
-void ForgetMirror(std::vector<Joint>* joints) {
-  for (size_t i = 0; i < joints->size(); ++i) {
-    (*joints)[i].mirror_joint = static_cast<int>(i);
-    (*joints)[i].mirror_sign = 1;
-  }
 }
 
 }  // namespace rollgait

@@ -141,6 +141,7 @@ void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state
     }
     // Joint velocity, and the velocity product V × (S v) with the V before it is added (S v × S v = 0).
     const Motion rate = Relative(joint, v);
+    if (joint.type == JointType::kFree) link.spin = rate.angular;
     link.bias.angular += link.twist.angular.cross(rate.angular);
     link.bias.linear += link.twist.angular.cross(rate.linear) + link.twist.linear.cross(rate.angular);
     link.twist.angular += rate.angular;
@@ -211,7 +212,9 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
     const JointData& joint = joints_[i];
     const Force& f = workspace->force[i];
     for (int c = 0; c < joint.columns; ++c) (*tau)[joint.v_index + c] = Along(joint, c, f);
-    if (joint.stiffness > 0 || joint.damping > 0) {
+    if (joint.type == JointType::kFree) {
+      tau->segment<3>(joint.v_index) += joint.damping * state[i].spin;
+    } else if (joint.stiffness > 0 || joint.damping > 0) {
       (*tau)[joint.v_index] += joint.stiffness * (state[i].position - joint.rest) + joint.damping * state[i].velocity;
     }
     if (joint.parent < 0) continue;

@@ -45,6 +45,7 @@ class BodyDynamics {
     // classical acceleration of the origin is  bias.linear + twist.angular × twist.linear.
     Motion bias;
     double position = 0, velocity = 0;  // of the joint: rad or m, rad/s or m/s; zero of a free joint
+    Vector3 spin = Vector3::Zero();     // rad/s, of a free joint: of the link relative to its parent, in link axes
   };
   using State = std::vector<Link>;
   // Scratch memory; any content, one a thread.

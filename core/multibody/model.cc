@@ -81,9 +81,7 @@ class JointChecker {
       if (joint().mirror_joint != index_ || joint().mirror_sign != 1) {
         Refuse("mirror_joint", "must be the joint itself with sign 1: a free joint has no mirror image");
       }
-      if (joint().stiffness != 0 || joint().damping != 0) {
-        Refuse("stiffness", "must be 0 like damping: a free joint has no spring");
-      }
+      if (joint().stiffness != 0) Refuse("stiffness", "must be 0: a free joint has no spring");
     }
     // Written so that NaN fails.
     if (!(joint().position_min <= joint().position_max)) {

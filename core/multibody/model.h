@@ -34,8 +34,9 @@ struct Joint {
   double effort_min = 0;  // N m or N
   double effort_max = 0;
   // A spring and a damper between the parent and the link, beside what acts as effort: they exert
-  // −stiffness · (q − rest_position) − damping · v.
-  double stiffness = 0;      // N m/rad or N/m, >= 0
+  // −stiffness · (q − rest_position) − damping · v. A free joint has no spring; its damper exerts the couple
+  // −damping · ω on the link, ω the first three of its velocities.
+  double stiffness = 0;      // N m/rad or N/m, >= 0; 0 of a free joint
   double rest_position = 0;  // rad or m
   double damping = 0;        // N m s/rad or N s/m, >= 0
 
@@ -62,8 +63,8 @@ class Model {
   // inertia that no rigid body has (not symmetric positive semidefinite, triangle inequality of the principal moments),
   // inertia without mass, a leaf without mass, empty or repeated names, ranges with min > max, an effort range on a
   // joint that is not actuated, a stiffness or damping below 0, a mirror that is not an involution, a free joint that
-  // has ranges or a spring, is actuated or is mirrored; a role that two joints have on the same side. Violations name
-  // "joints[i].field".
+  // has ranges or a stiffness, is actuated or is mirrored; a role that two joints have on the same side. Violations
+  // name "joints[i].field".
   static Result<Model> Create(std::vector<Joint> joints);
 
   int size() const { return static_cast<int>(joints_.size()); }

@@ -92,6 +92,7 @@ void MotionDerivatives::SetState(const BodyDynamics::State& state) {
     }
     body.inertia = body.own;
     body.spring = joint.stiffness * (link.position - joint.rest_position) + joint.damping * link.velocity;
+    body.couple = joint.damping * link.spin;
   }
   for (int i = model_.size() - 1; i > 0; --i) {
     if (model_.parent(i) < 0) continue;
@@ -175,7 +176,12 @@ void MotionDerivatives::InverseDynamics(VectorX* tau) const {
     (*tau)[k] = columns_[static_cast<size_t>(k)].s.dot(bodies_[joint].force);
   }
   for (int i = 0; i < model_.size(); ++i) {
-    if (HasSpring(model_.joint(i))) (*tau)[model_.v_index(i)] += bodies_[static_cast<size_t>(i)].spring;
+    if (!HasSpring(model_.joint(i))) continue;
+    const Body& body = bodies_[static_cast<size_t>(i)];
+    if (model_.joint(i).type == JointType::kFree)
+      tau->segment<3>(model_.v_index(i)) += body.couple;
+    else
+      (*tau)[model_.v_index(i)] += body.spring;
   }
 }
 
@@ -211,7 +217,8 @@ void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Re
     }
     if (!HasSpring(model_.joint(i))) continue;
     dq(first, first) += model_.joint(i).stiffness;
-    dv(first, first) += model_.joint(i).damping;
+    const int turns = model_.joint(i).type == JointType::kFree ? 3 : 1;
+    for (int k = first; k < first + turns; ++k) dv(k, k) += model_.joint(i).damping;
   }
 }
 

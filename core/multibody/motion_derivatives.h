@@ -72,6 +72,7 @@ class MotionDerivatives {
     SpatialInertia own, inertia;           // of the body, of the subtree
     CompositeMotion motion;                // of the subtree
     double spring = 0;                     // what spring and damper of the joint take, N m or N
+    Vector3 couple = Vector3::Zero();      // what the damper of a free joint takes, N m
     bool massive = false;
     int anchor = 0;  // link at whose origin the reference is
   };

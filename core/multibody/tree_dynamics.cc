@@ -122,11 +122,23 @@ void TreeDynamics::UpdateKinematics(const double* q, const double* v) {
   for (JointSpring& spring : springs_) {
     spring.force = -spring.stiffness * (q[spring.joint] - spring.rest) - spring.damping * v[spring.joint];
   }
+  springs_act_ = true;
   has_forces_ = has_composites_ = false;
 }
 
 void TreeDynamics::Update(const double* q, const double* v, const double* a, const Vector3& gravity) {
   UpdateKinematics(q, v);
+  UpdateAccelerations(v, a, gravity);
+}
+
+void TreeDynamics::UpdateImpact(const double* q, const double* change) {
+  scratch_.setZero();
+  UpdateKinematics(q, scratch_.data());
+  UpdateAccelerations(scratch_.data(), change, Vector3::Zero());
+  springs_act_ = false;
+}
+
+void TreeDynamics::UpdateAccelerations(const double* v, const double* a, const Vector3& gravity) {
   root_acceleration_ << Vector3::Zero(), -gravity;
   for (int i = 0; i < n_; ++i) {
     const int p = joints_[i].parent;
@@ -207,6 +219,7 @@ void TreeDynamics::UpdateComposites() {
 void TreeDynamics::InverseDynamics(double* tau) {
   UpdateForces();
   for (int i = 0; i < n_; ++i) tau[i] = axis_[i].dot(force_[i]);
+  if (!springs_act_) return;
   for (const JointSpring& spring : springs_) tau[spring.joint] -= spring.force;
 }
 
@@ -230,6 +243,7 @@ void TreeDynamics::FirstDerivatives(Eigen::Ref<MatrixX> dq, Eigen::Ref<MatrixX> 
       da(m, k) = da(k, m);
     }
   }
+  if (!springs_act_) return;
   for (const JointSpring& spring : springs_) {
     dq(spring.joint, spring.joint) += spring.stiffness;
     dv(spring.joint, spring.joint) += spring.damping;

@@ -27,10 +27,14 @@ class TreeDynamics {
   // Evaluates the tree at (q, v, a), n values each, with gravity (m/s², world axes). Everything below refers to this
   // point.
   void Update(const double* q, const double* v, const double* a, const Vector3& gravity);
+  // Evaluates an impact: the tree at rest at q (n), whose velocities change by `change` (n) in no time. Forces of
+  // finite size have no impulse, so InverseDynamics and its derivatives are then those of M(q) · change alone, N m s or
+  // N s: neither gravity nor springs and dampers are in them.
+  void UpdateImpact(const double* q, const double* change);
   // The part of Update that contact kinematics needs: poses, axes, velocities.
   void UpdateKinematics(const double* q, const double* v);
 
-  // τ (n) = ID(q, v, a), N m or N.
+  // τ (n) = ID(q, v, a), N m or N; after UpdateImpact impulses.
   void InverseDynamics(double* tau);
 
   // ∂ID/∂q, ∂ID/∂v, ∂ID/∂a = M; each n × n, written where (row, column) are related, zero elsewhere on entry and exit.
@@ -93,6 +97,7 @@ class TreeDynamics {
     RowMajorMatrix vectors;
   };
   void UpdatePose(int i, double q);
+  void UpdateAccelerations(const double* v, const double* a, const Vector3& gravity);
   void UpdateForces();
   void UpdateInertias();
   void UpdateComposites();
@@ -104,6 +109,7 @@ class TreeDynamics {
   int n_;
   std::vector<JointData> joints_;
   std::vector<JointSpring> springs_;
+  bool springs_act_ = true;  // not in an impact
   bool has_forces_ = false, has_composites_ = false;
   std::vector<Matrix3> rotation_;
   std::vector<Vector3> origin_;

@@ -3,13 +3,14 @@
 #include <sstream>
 #include <string>
 
+#include "core/base/field_path.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/simulation/scene.h"
 
 namespace rollgait {
 namespace {
 
-std::string Indexed(const char* list, size_t i) { return std::string(list) + "[" + std::to_string(i) + "]."; }
+std::string ElementOf(const char* list, size_t i) { return Indexed(list, i) + "."; }
 
 class SceneChecker {
  public:
@@ -64,13 +65,13 @@ class SceneChecker {
 
   void CheckJoints() {
     for (int i = 0; i < scene_.model.size(); ++i) {
-      const std::string path = Indexed("joints", static_cast<size_t>(i));
-      const JointForce& force = scene_.forces[static_cast<size_t>(i)];
-      CheckRange(path + "effort", force.effort, -kMaxSceneNumber, kMaxSceneNumber, " N m or N");
-      CheckRange(path + "damping", force.damping, 0, kMaxSceneNumber, " N m s or N s/m");
-      CheckRange(path + "stiffness", force.stiffness, 0, kMaxSceneNumber, " N m/rad or N/m");
-      CheckRange(path + "rest", force.rest, -kMaxSceneNumber, kMaxSceneNumber, " rad or m");
+      const std::string path = ElementOf("joints", static_cast<size_t>(i));
       const Joint& joint = scene_.model.joint(i);
+      const double effort = scene_.efforts[static_cast<size_t>(i)];
+      CheckRange(path + "effort", effort, -kMaxSceneNumber, kMaxSceneNumber, " N m or N");
+      CheckRange(path + "damping", joint.damping, 0, kMaxSceneNumber, " N m s or N s/m");
+      CheckRange(path + "stiffness", joint.stiffness, 0, kMaxSceneNumber, " N m/rad or N/m");
+      CheckRange(path + "rest", joint.rest_position, -kMaxSceneNumber, kMaxSceneNumber, " rad or m");
       CheckRange(path + "mass_kg", joint.mass, 0, kMaxSceneNumber, " kg");
       const int iq = scene_.model.q_index(i), iv = scene_.model.v_index(i);
       for (int c = 0; c < PositionCount(joint.type); ++c) {
@@ -88,7 +89,7 @@ class SceneChecker {
 
   void CheckGround() {
     for (size_t i = 0; i < scene_.ground.size(); ++i) {
-      const std::string path = Indexed("ground", i);
+      const std::string path = ElementOf("ground", i);
       const GroundMotion& motion = scene_.ground[i];
       CheckVector(path + "velocity_m_s", motion.velocity, " m/s");
       CheckVector(path + "acceleration_m_s2", motion.acceleration, " m/s²");
@@ -109,7 +110,7 @@ class SceneChecker {
 
   void CheckContacts() {
     for (size_t k = 0; k < scene_.contacts.size(); ++k) {
-      const std::string path = Indexed("contacts", k);
+      const std::string path = ElementOf("contacts", k);
       const SceneContact& contact = scene_.contacts[k];
       if (!(contact.friction > 0)) Refuse(path + "friction", contact.friction, "must be larger than 0");
       if (contact.friction_loss == FrictionLoss::kSlide) CheckSliding(path, contact);
@@ -118,7 +119,7 @@ class SceneChecker {
       }
       for (size_t g = 0; g < contact.gates.size(); ++g) {
         const Gate& gate = contact.gates[g];
-        const std::string gate_path = path + Indexed("gates", g);
+        const std::string gate_path = path + ElementOf("gates", g);
         if (!(gate.min <= gate.max))
           Refuse(gate_path + "min", gate.min, "must not be larger than max, neither may be NaN");
         if (scene_.model.joint(gate.joint).type == JointType::kFree) {
@@ -167,7 +168,7 @@ class SceneChecker {
       for (int c = 0; c < VelocityCount(scene_.model.joint(i).type); ++c) {
         const int j = scene_.model.v_index(i) + c;
         if (!(mass(j, j) > 0)) {
-          return Refuse(Indexed("joints", static_cast<size_t>(i)) + "mass_kg", scene_.model.joint(i).mass,
+          return Refuse(ElementOf("joints", static_cast<size_t>(i)) + "mass_kg", scene_.model.joint(i).mass,
                         "this joint moves no inertia; give its link, or one that it carries, mass and inertia");
         }
       }

@@ -38,7 +38,7 @@ SimulationSample MakeSample(double time, const VectorX& x, SceneDynamics* dynami
   sample.v = dynamics->Velocities(x);
   sample.acceleration = dynamics->solution().acceleration;
   sample.kinetic_energy = dynamics->KineticEnergy();
-  sample.potential_energy = dynamics->PotentialEnergy() + dynamics->SpringEnergy();
+  sample.potential_energy = dynamics->PotentialEnergy();
   sample.work = x[dynamics->size() - 1];
   for (int k = 0; k < dynamics->contacts().contact_count(); ++k) sample.contacts.push_back(SampleContact(k, dynamics));
   return sample;
@@ -46,7 +46,7 @@ SimulationSample MakeSample(double time, const VectorX& x, SceneDynamics* dynami
 
 void RecordExtremes(const SimulationScene& scene, double time, const VectorX& x, SceneDynamics* dynamics,
                     SimulationReport* report) {
-  const double energy = dynamics->KineticEnergy() + dynamics->PotentialEnergy() + dynamics->SpringEnergy();
+  const double energy = dynamics->KineticEnergy() + dynamics->PotentialEnergy();
   report->energy_final = energy;
   const double error = std::abs(energy - x[dynamics->size() - 1] - report->energy_initial);
   report->max_energy_error = std::max(report->max_energy_error, error);

@@ -12,15 +12,6 @@
 
 namespace rollgait {
 
-// What acts in a joint besides contact and gravity. Of a free joint only `damping` counts: the couple −damping · ω on
-// the link, ω its angular velocity relative to the parent.
-struct JointForce {
-  double effort = 0;     // N m or N, constant
-  double damping = 0;    // N m s or N s/m, ≥ 0: effort −damping · v
-  double stiffness = 0;  // N m/rad or N/m, ≥ 0: effort −stiffness (q − rest)
-  double rest = 0;       // rad or m
-};
-
 // A touch-down counts only while the position of a joint is within [min, max].
 struct Gate {
   int joint = 0;
@@ -65,8 +56,8 @@ struct SimulationOptions {
 // A mechanism, its ground, its state at t = 0 and how to simulate it. A value; valid if it comes out of CheckScene.
 struct SimulationScene {
   std::string name;
-  Model model;
-  std::vector<JointForce> forces;    // one per joint
+  Model model;                       // with the springs and dampers of its joints
+  std::vector<double> efforts;       // N m or N, constant, one per joint; without meaning for a free joint
   std::vector<GroundMotion> ground;  // frames that contacts refer to; frame 0 is the fixed world
   std::vector<SceneContact> contacts;
   Vector3 gravity{0, 0, -9.81};  // m/s², world

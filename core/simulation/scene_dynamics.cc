@@ -33,7 +33,11 @@ SceneDynamics::SceneDynamics(const SimulationScene& scene)
       active_(ActiveAtTheStart(scene)),
       ground_(scene.ground.size()),
       tau_(VectorX::Zero(nv_)),
-      solver_(scene.model.ColumnParents()) {}
+      solver_(scene.model.ColumnParents()) {
+  for (int i = 0; i < scene.model.size(); ++i) {
+    if (scene.model.joint(i).type != JointType::kFree) tau_[scene.model.v_index(i)] = scene.efforts[i];
+  }
+}
 
 VectorX SceneDynamics::MakeState(const VectorX& q, const VectorX& v, double work) const {
   VectorX x(size());
@@ -88,25 +92,12 @@ bool SceneDynamics::FollowSlip() {
   return any;
 }
 
-void SceneDynamics::ComputeEfforts() {
-  for (int i = 0; i < scene_.model.size(); ++i) {
-    const JointForce& force = scene_.forces[i];
-    const int iv = scene_.model.v_index(i);
-    if (scene_.model.joint(i).type == JointType::kFree) {
-      tau_.segment<3>(iv) = -force.damping * v_.segment<3>(iv);
-    } else {
-      tau_[iv] = force.effort - force.damping * v_[iv] - force.stiffness * (q_[scene_.model.q_index(i)] - force.rest);
-    }
-  }
-}
-
 double SceneDynamics::Power() const {
   double power = tau_.dot(v_);
   for (int i = 0; i < scene_.model.size(); ++i) {
-    const JointForce& force = scene_.forces[i];
-    if (force.stiffness != 0) {
-      power += force.stiffness * (q_[scene_.model.q_index(i)] - force.rest) * v_[scene_.model.v_index(i)];
-    }
+    const Joint& joint = scene_.model.joint(i);
+    const int damped = joint.type == JointType::kFree ? 3 : 1;
+    power -= joint.damping * v_.segment(scene_.model.v_index(i), damped).squaredNorm();
   }
   return power;
 }
@@ -114,7 +105,6 @@ double SceneDynamics::Power() const {
 void SceneDynamics::RightSide(double t, const VectorX& x, VectorX* derivative) {
   ++evaluations_;
   SetState(t, x);
-  ComputeEfforts();
   const Baumgarte none;
   const bool baumgarte = scene_.options.drift == DriftControl::kBaumgarte;
   solution_ = &contacts_.Accelerate(active_, tau_, scene_.gravity, baumgarte ? scene_.options.baumgarte : none);
@@ -137,17 +127,6 @@ double SceneDynamics::KineticEnergy() const { return contacts_.dynamics().Kineti
 
 double SceneDynamics::PotentialEnergy() const {
   return contacts_.dynamics().PotentialEnergy(contacts_.state(), scene_.gravity);
-}
-
-double SceneDynamics::SpringEnergy() const {
-  double energy = 0;
-  for (int i = 0; i < scene_.model.size(); ++i) {
-    const JointForce& force = scene_.forces[i];
-    if (force.stiffness == 0) continue;
-    const double stretch = q_[scene_.model.q_index(i)] - force.rest;
-    energy += 0.5 * force.stiffness * stretch * stretch;
-  }
-  return energy;
 }
 
 SceneDynamics::Drift SceneDynamics::Project(double t, bool positions_and_velocities, VectorX* x) {

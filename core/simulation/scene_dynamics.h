@@ -53,10 +53,9 @@ class SceneDynamics {
   // Of the last RightSide.
   const ConstrainedSolution& solution() const { return *solution_; }
 
-  // J, at the last state: kinetic, potential of gravity, potential of springs.
+  // J, at the last state: kinetic; potential of gravity and springs.
   double KineticEnergy() const;
   double PotentialEnergy() const;
-  double SpringEnergy() const;
   int evaluations() const { return evaluations_; }
 
   // Moves q and v onto the constraints of the active contacts by the change of least kinetic energy; quaternions to
@@ -67,7 +66,7 @@ class SceneDynamics {
   Drift Project(double t, bool positions_and_velocities, VectorX* x);
 
  private:
-  void ComputeEfforts();
+  // W, of constant efforts and dampers.
   double Power() const;
 
   const SimulationScene& scene_;

@@ -34,7 +34,7 @@ class SimulationRun {
     if (!start.ok()) return start.violations();
     x_ = std::move(start).value();
     dynamics_.SetState(0, x_);
-    report_.energy_initial = dynamics_.KineticEnergy() + dynamics_.PotentialEnergy() + dynamics_.SpringEnergy();
+    report_.energy_initial = dynamics_.KineticEnergy() + dynamics_.PotentialEnergy();
     Loop();
     Finish();
     return report_;

@@ -101,7 +101,7 @@ void JumpRows::AddPatterns(int first_row, SparsityPattern* jacobian, SparsityPat
   }
 }
 
-// A tree at rest without gravity, accelerated by the jump: its inverse dynamics are M(q) (v⁺ − v⁻).
+// Inverse dynamics of the impact are M(q) (v⁺ − v⁻).
 void JumpRows::Load(const double* x, Jump* jump, bool second) {
   for (int i = 0; i < jump->z.size(); ++i) {
     double sum = 0;
@@ -110,7 +110,7 @@ void JumpRows::Load(const double* x, Jump* jump, bool second) {
   }
   const double* z = jump->z.data();
   context_.z = z;
-  workspace_->tree.Update(z, z + n_, z + 2 * n_, Vector3::Zero());
+  workspace_->tree.UpdateImpact(z, z + 2 * n_);
   for (auto& contact : workspace_->contacts) {
     contact.Update(workspace_->tree);
     if (second) contact.UpdateSecond();

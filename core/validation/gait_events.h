@@ -39,7 +39,8 @@ struct FootOnGround {
   std::vector<int> contacts;  // indices into Scene::contacts, ascending
   double stance = 0;          // share of the cycle with a contact on the ground, 0 … 1; the rest is swing
   // The step that ends with the heel strike of this foot, from that of the other: m along x between the places where
-  // the two come down (of several surfaces at once the rearmost), and s. Zero without a heel strike of both feet.
+  // the two come down (of several surfaces at once the rearmost), and s. Zero without a heel strike of both feet, and
+  // where both come down at the same instant.
   double step_length = 0, step_duration = 0;
   // Share of the cycle on both feet that begins with the heel strike of this foot; zero without one.
   double loading = 0;
@@ -64,7 +65,9 @@ struct GaitEvents {
   std::array<FootOnGround, kFootCount> feet;
   double double_support = 0, single_support = 0, flight = 0;  // shares of the cycle, their sum is 1
 
-  // Right less left over their mean, [-2, 2]; 0 where that mean is 0. Of step length, step duration and stance.
+  // Right less left over their mean; 0 where that mean is 0. Of step length, step duration and stance. Durations and
+  // stances are not negative, which keeps theirs in [-2, 2]; a step length may be negative (a foot that comes down
+  // behind the other), and then that of lengths may be any number.
   double StepLengthAsymmetry() const;
   double StepDurationAsymmetry() const;
   double StanceAsymmetry() const;

@@ -121,13 +121,14 @@ BalanceErrors MeasureBalances(const BodyDynamics& dynamics, const Model& model, 
           const double weight = kGaussWeights[i] * interval.length();
           interval.Evaluate(kGaussNodes[i], &sample);
           for (size_t a = 0; a < model.actuated().size(); ++a) {
-            const double power = sample.efforts[static_cast<int>(a)] * sample.velocity[model.actuated()[a]];
+            const double power =
+                sample.efforts[static_cast<int>(a)] * sample.velocity[model.v_index(model.actuated()[a])];
             done += weight * power;
             (power > 0 ? positive : negative) += weight * std::abs(power);
           }
           for (int j = 0; j < model.size(); ++j) {
-            const double rate = sample.velocity[j], damping = model.joint(j).damping;
-            if (damping > 0) done -= weight * damping * rate * rate;
+            const double rate = sample.velocity[model.v_index(j)];
+            done -= weight * model.joint(j).damping * rate * rate;
           }
           pushed += weight * dynamics.total_mass() * gravity;
           for (int c = 0; c < static_cast<int>(phase.contacts.size()); ++c)

@@ -14,6 +14,7 @@ std::string SceneField(std::string field) {
   static const std::map<std::string, std::string> kNames = {{"p_PJ", "origin_m"},
                                                             {"R_PJ", "orientation"},
                                                             {"mass", "mass_kg"},
+                                                            {"rest_position", "rest"},
                                                             {"center_of_mass", "center_of_mass_m"},
                                                             {"inertia", "inertia_kg_m2"}};
   const size_t dot = field.rfind('.');
@@ -95,6 +96,11 @@ class SceneDecoder {
       decoding_.Refuse(path + "inertia_kg_m2", "has " + std::to_string(encoded.inertia_kg_m2_size()) +
                                                    " entries; must have 6 (xx, yy, zz, xy, xz, yz) or none");
     }
+    joint.damping = encoded.damping();
+    if (joint.type != JointType::kFree) {
+      joint.stiffness = encoded.stiffness();
+      joint.rest_position = encoded.rest();
+    }
     if (!encoded.mirror_joint().empty()) {
       joint.mirror_joint = decoding_.Joint(path + "mirror_joint", encoded.mirror_joint());
     }
@@ -107,7 +113,7 @@ class SceneDecoder {
     for (int i = 0; i < message_.joints_size(); ++i) {
       const v1::SceneJoint& joint = message_.joints(i);
       const v1::SceneJointState& state = joint.initial();
-      scene->forces.push_back({joint.effort(), joint.damping(), joint.stiffness(), joint.rest()});
+      scene->efforts.push_back(joint.effort());
       const int iq = scene->model.q_index(i), iv = scene->model.v_index(i);
       if (scene->model.joint(i).type != JointType::kFree) {
         scene->q[iq] = state.position();

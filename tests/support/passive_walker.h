@@ -41,7 +41,7 @@ inline SimulationScene SceneOf(const PassiveWalker& walker) {
     joint.mirror_joint = 5 - leg;
   }
   SimulationScene scene{"walker", Model::Create(joints).value(), {}, {}, {}, {}, {}, {}, {}, 0, {}};
-  scene.forces.resize(4);
+  scene.efforts.resize(4);
   scene.ground = {GroundMotion{}};
   for (int foot = 0; foot < 2; ++foot) {
     SceneContact contact;

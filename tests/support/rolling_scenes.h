@@ -30,8 +30,9 @@ inline SimulationScene SceneOf(const BodyOnPlane& body) {
   joint.mass = body.mass;
   joint.center_of_mass = body.center_of_mass;
   joint.inertia = body.inertia;
+  joint.damping = body.sigma;
   SimulationScene scene{"body", Model::Create({joint}).value(), {}, {}, {}, {}, {}, {}, {}, -1, {}};
-  scene.forces = {JointForce{0, body.sigma, 0, 0}};
+  scene.efforts = {0};
   scene.ground = {GroundMotion{}, body.ground};
   SceneContact contact;
   contact.contact.name = "touch";

@@ -20,7 +20,7 @@ inline SimulationScene Ball(double friction, const Vector3& gravity, const Vecto
   contact.friction = friction;
   contact.friction_loss = FrictionLoss::kSlide;
   SimulationScene scene{
-      "ball", Model::Create({joint}).value(), {JointForce{}}, {GroundMotion{}}, {contact}, gravity, {}, {}, {}, -1, {}};
+      "ball", Model::Create({joint}).value(), {0.0}, {GroundMotion{}}, {contact}, gravity, {}, {}, {}, -1, {}};
   scene.q = NeutralConfiguration(scene.model);
   scene.q[6] = kRadius;
   scene.v.resize(6);

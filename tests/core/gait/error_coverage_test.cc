@@ -20,7 +20,7 @@ namespace {
 // reached in steps that stay in one minimum.
 std::vector<double> Ratios(double slope_deg, Preset preset) {
   const GaitRequest request = Planar(slope_deg, preset, 24);
-  const GaitSolution solution = Solve(request);
+  const GaitSolution solution = SolvePlanar(request);
   EXPECT_TRUE(solution.errors) << solution.message;
   if (!solution.errors) return {};
   GaitSpec fine = CheckRequest(request).value();

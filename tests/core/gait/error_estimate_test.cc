@@ -15,9 +15,9 @@ namespace {
 // The estimate changes nothing of the answer, and its program is marked.
 TEST(ErrorEstimate, LeavesTheAnswerAsItIs) {
   GaitRequest request = Planar(0, Preset::kTorque, 12);
-  const GaitSolution with = Solve(request);
+  const GaitSolution with = SolvePlanar(request);
   request.accuracy.estimate_errors = false;
-  const GaitSolution without = Solve(request);
+  const GaitSolution without = SolvePlanar(request);
   EXPECT_FALSE(without.errors);
   ASSERT_TRUE(with.errors) << with.message;
   EXPECT_EQ(with.objective, without.objective);
@@ -36,11 +36,11 @@ TEST(ErrorEstimate, LeavesTheAnswerAsItIs) {
 
 TEST(MaxError, IsReachedByFinerMeshes) {
   GaitRequest request = Planar(0, Preset::kTorque, 8);
-  const GaitSolution coarse = Solve(request);
+  const GaitSolution coarse = SolvePlanar(request);
   ASSERT_TRUE(coarse.errors);
   const double target = Largest(coarse.errors->motion, MotionQuantity::kAngle) / 10;
   request.accuracy.max_error = MaxError{.angle = target};
-  const GaitSolution solution = Solve(request);
+  const GaitSolution solution = SolvePlanar(request);
   ASSERT_TRUE(solution.errors) << solution.message;
   EXPECT_EQ(solution.errors->is_within_max_error, true) << solution.message;
   EXPECT_LE(Largest(solution.errors->motion, MotionQuantity::kAngle), target);
@@ -51,7 +51,7 @@ TEST(MaxError, WhatIsNotReachedIsTold) {
   GaitRequest request = Planar(0, Preset::kTorque, 8);
   request.accuracy.max_error = MaxError{.torque = 1e-9};
   request.solver_limits.max_iterations = static_cast<int>(60);
-  const GaitSolution solution = Solve(request);
+  const GaitSolution solution = SolvePlanar(request);
   ASSERT_TRUE(Converged(solution.termination)) << solution.message;
   EXPECT_FALSE(solution.errors && *solution.errors->is_within_max_error);
   EXPECT_NE(solution.message.find("error"), std::string::npos) << solution.message;
@@ -62,14 +62,14 @@ TEST(ErrorEstimate, AStopIsToldAsOne) {
   const GaitRequest request = Planar(0, Preset::kTorque, 12);
   GaitRequest plain = request;
   plain.accuracy.estimate_errors = false;
-  const int last = static_cast<int>(Solve(plain).meshes.size()) - 1;
+  const int last = static_cast<int>(SolvePlanar(plain).meshes.size()) - 1;
   StopFlag stop;
   SolveControl control;
   control.stop = &stop;
   control.observer = [&](const IterationInfo& info) {
     if (info.mesh > last) stop.Request();
   };
-  const GaitSolution solution = Solve(request, control);
+  const GaitSolution solution = SolvePlanar(request, control);
   EXPECT_EQ(solution.termination, Termination::kCancelled);
   EXPECT_FALSE(solution.errors);
 }

@@ -72,6 +72,15 @@ TEST(HalfCycleOf, IsEmptyWhereLeftAndRightDiffer) {
   request.costs = {{GaitRequest::SquaredTorque{}, 1},
                    {GaitRequest::Tracking{{Channel{"base_pitch", {0.1, 0.1}, 1}}}, 1}};
   EXPECT_TRUE(HasHalf(request));
+  // Where the base is held forward or to the side, the second step is not what the first one is.
+  request.costs.back().term = GaitRequest::Tracking{{Channel{"base_x", {0, 0}, 1}}};
+  EXPECT_FALSE(HasHalf(request));
+  GaitRequest in_space = request;
+  in_space.body.model = "human29";
+  in_space.costs.back().term = GaitRequest::Tracking{{Channel{"base_y", {0, 0}, 1}}};
+  EXPECT_FALSE(HasHalf(in_space));
+  in_space.costs.back().term = GaitRequest::Tracking{{Channel{"base_roll", {0, 0}, 1}}};
+  EXPECT_TRUE(HasHalf(in_space));
   request.costs.back().term = GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}}};
   EXPECT_FALSE(HasHalf(request));
   request.costs.back().term =

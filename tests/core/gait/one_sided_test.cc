@@ -53,6 +53,15 @@ TEST(OneSidedBody, TakesTheFullCycleByItself) {
   EXPECT_EQ(CheckRequest(Planar()).value().cycle, Cycle::kHalf);
 }
 
+// What the search of several starts does not use is not made.
+TEST(OneSidedBody, KnowsTheSymmetricOneOfASingleStart) {
+  GaitRequest request = OneSided("_l");
+  EXPECT_NE(CheckRequest(request).value().symmetric, nullptr);
+  EXPECT_EQ(CheckRequest(request).value().symmetric->symmetric, nullptr);
+  request.starts = 2;
+  EXPECT_EQ(CheckRequest(request).value().symmetric, nullptr);
+}
+
 TEST(OneSidedBody, WalksAsItsMirrorImageMirrored) {
   const GaitSolution left = Solve(OneSided("_l")), right = Solve(OneSided("_r"));
   ASSERT_EQ(left.termination, Termination::kOptimal) << left.message;

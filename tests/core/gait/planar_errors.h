@@ -20,7 +20,7 @@ inline GaitRequest Planar(double slope_deg, Preset preset, int intervals) {
   return request;
 }
 
-inline GaitSolution Solve(const GaitRequest& request, const SolveControl& control = {}) {
+inline GaitSolution SolvePlanar(const GaitRequest& request, const SolveControl& control = {}) {
   return OptimizingGaitSolver().Solve(CheckRequest(request).value(), control);
 }
 

@@ -103,6 +103,67 @@ TEST_F(Springs, FirstDerivativesMeetDifferences) {
   EXPECT_LT((motion_v - dv).cwiseAbs().maxCoeff(), tolerance);
 }
 
+// The damper of a free joint: a couple against the turning of the link relative to its parent, in both algorithms that
+// have free joints, with its derivatives.
+TEST(FreeDamper, IsACoupleAgainstTheSpin) {
+  std::vector<Joint> joints(2);
+  for (int i = 0; i < 2; ++i) {
+    joints[i].name = i == 0 ? "one" : "two";
+    joints[i].type = JointType::kFree;
+    joints[i].parent = i - 1;
+    joints[i].mass = 2;
+    joints[i].center_of_mass = Vector3(0.1, -0.2, 0.05);
+    joints[i].inertia = Vector3(0.2, 0.3, 0.4).asDiagonal();
+  }
+  const Model plain = Model::Create(joints).value();
+  const double damping = joints[1].damping = 3;
+  const Model damped = Model::Create(joints).value();
+  std::mt19937 random(4);
+  const VectorX q = RandomVector(random, 14), v = RandomVector(random, 12, 2), a = RandomVector(random, 12, 2);
+  VectorX couple = VectorX::Zero(12);
+  couple.segment<3>(6) = damping * v.segment<3>(6);
+  BodyDynamics::State state;
+  BodyDynamics::Workspace workspace;
+  VectorX with, without;
+  BodyDynamics(damped).ComputeState(q, v, &state);
+  BodyDynamics(damped).InverseDynamics(state, a, kGravity, &workspace, &with);
+  BodyDynamics(plain).InverseDynamics(state, a, kGravity, &workspace, &without);
+  EXPECT_LT((with - without - couple).norm(), 1e-13 * with.norm());
+  MotionDerivatives motion(damped), bare(plain);
+  VectorX by_motion;
+  RowMajorMatrix dq = RowMajorMatrix::Zero(12, 12), dv = dq, bare_q = dq, bare_v = dq;
+  motion.Update(state, v, a, kGravity);
+  motion.InverseDynamics(&by_motion);
+  motion.InverseDynamics(dq, dv);
+  EXPECT_LT((by_motion - with).norm(), 1e-12 * with.norm());
+  bare.Update(state, v, a, kGravity);
+  bare.InverseDynamics(bare_q, bare_v);
+  EXPECT_EQ(dq, bare_q);
+  RowMajorMatrix change = RowMajorMatrix::Zero(12, 12);
+  change.diagonal().segment<3>(6).setConstant(damping);
+  EXPECT_LT((dv - bare_v - change).norm(), 1e-13 * dv.norm());
+}
+
+// An impact lasts no time: what springs and dampers exert in it is no impulse. The next point has them again.
+TEST_F(Springs, HaveNoImpulse) {
+  TreeDynamics sprung(sprung_), plain(plain_);
+  MatrixX mass = MatrixX::Zero(kJoints, kJoints), dq = mass, dv = mass, da = mass, q_plain = mass, v_plain = mass;
+  plain.MassMatrix(q_.data(), mass);
+  VectorX impulse(kJoints);
+  sprung.UpdateImpact(q_.data(), a_.data());
+  sprung.InverseDynamics(impulse.data());
+  sprung.FirstDerivatives(dq, dv, da);
+  EXPECT_LT((impulse - mass * a_).norm(), 1e-13 * impulse.norm());
+  EXPECT_LT((da - mass).norm(), 1e-13 * mass.norm());
+  plain.UpdateImpact(q_.data(), a_.data());
+  plain.FirstDerivatives(q_plain, v_plain, da);
+  EXPECT_EQ(dq, q_plain);
+  EXPECT_EQ(dv, v_plain);
+  sprung.Update(q_.data(), v_.data(), a_.data(), kGravity);
+  sprung.InverseDynamics(impulse.data());
+  EXPECT_EQ(impulse, ByTree(sprung_, q_, v_));
+}
+
 // Released from anywhere: the energy falls by what the dampers take.
 TEST_F(Springs, EnergyFallsByWhatDampersTake) {
   TreeDynamics tree(sprung_);
@@ -133,14 +194,17 @@ TEST_F(Springs, AreRefusedWhereNoSpringIs) {
   EXPECT_EQ(refused([](Joint* joint) { joint->stiffness = -1; }), "joints[3].stiffness");
   EXPECT_EQ(refused([](Joint* joint) { joint->damping = kInfinity; }), "joints[3].damping");
   EXPECT_EQ(refused([](Joint* joint) { joint->rest_position = kInfinity; }), "joints[3].rest_position");
-  std::vector<Joint> free = Sprung();
-  EXPECT_FALSE(Model::Create([&] {
-                 free[3].type = JointType::kFree;
-                 free[3].actuated = false;
-                 free[3].effort_min = free[3].effort_max = 0;
-                 return free;
-               }())
-                   .ok());
+  EXPECT_EQ(refused([](Joint* joint) {
+              Joint free;
+              free.name = joint->name;
+              free.type = JointType::kFree;
+              free.parent = joint->parent;
+              free.mass = joint->mass;
+              free.inertia = joint->inertia;
+              free.stiffness = free.damping = 1;
+              *joint = free;
+            }),
+            "joints[3].stiffness");
 }
 
 }  // namespace

@@ -160,7 +160,13 @@ TEST(CheckScene, NamesWhatIsWrong) {
   EXPECT_EQ(field([&](auto& s) { s.q[5] = nan; }), "joints[0].initial.position");
   EXPECT_EQ(field([&](auto& s) { s.v[0] = kInfinity; }), "joints[0].initial.velocity");
   EXPECT_EQ(field([&](auto& s) { s.q.template head<4>().setZero(); }), "joints[0].initial.orientation");
-  EXPECT_EQ(field([&](auto& s) { s.forces[0].damping = -1; }), "joints[0].damping");
+  EXPECT_EQ(field([&](auto& s) { s.efforts[0] = nan; }), "joints[0].effort");
+  EXPECT_EQ(field([&](auto& s) {
+              std::vector<Joint> joints = s.model.joints();
+              joints[0].damping = 2 * kMaxSceneNumber;
+              s.model = Model::Create(joints).value();
+            }),
+            "joints[0].damping");
   EXPECT_EQ(field([&](auto& s) { s.ground[1].rate = nan; }), "ground[1].rate_rad_s");
   EXPECT_EQ(field([&](auto& s) { s.contacts[0].friction = 0; }), "contacts[0].friction");
   EXPECT_EQ(field([&](auto& s) { s.contacts[0].active = false, s.contacts[0].bilateral = true; }),

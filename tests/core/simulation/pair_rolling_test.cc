@@ -23,7 +23,7 @@ SimulationScene TwoBodies(bool plane, bool no_spin) {
     joint.inertia = Vector3(0.02, 0.03, 0.04).asDiagonal();
   }
   SimulationScene scene{"pair", Model::Create(joints).value(), {}, {}, {}, {}, {}, {}, {}, -1, {}};
-  scene.forces.resize(2);
+  scene.efforts.resize(2);
   scene.ground = {GroundMotion{}};
   SceneContact contact;
   contact.contact.name = "touch";

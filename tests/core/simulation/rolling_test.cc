@@ -168,17 +168,8 @@ TEST(RollingSimulation, RattlebackReversesWhenItShould) {
 // reported.
 TEST(Standing, NearlyRedundantContactsAreReported) {
   for (const double delta : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    SimulationScene scene{"plate",
-                          testing::StandingPlate::MakeModel(),
-                          {JointForce{}},
-                          {GroundMotion{}},
-                          {},
-                          {0, 0, -9.81},
-                          {},
-                          {},
-                          {},
-                          -1,
-                          {}};
+    SimulationScene scene{
+        "plate", testing::StandingPlate::MakeModel(), {0.0}, {GroundMotion{}}, {}, {0, 0, -9.81}, {}, {}, {}, -1, {}};
     for (TreeContact& contact :
          testing::StandingPlate::Contacts({{-1, 0.3, 0}, {1, 0.3, 0}, {0, 0.3 + delta, 0}}, Grip::kFrictionless)) {
       SceneContact touching;

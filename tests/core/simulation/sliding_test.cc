@@ -131,7 +131,7 @@ TEST(Sliding, BlockOnAShakenPlaneSticksAndSlips) {
   const double mu = 0.3, amplitude = 0.1, frequency = 1.3, rate = 2 * M_PI * frequency;
   SimulationScene scene = testing::Ball(mu, {0, 0, -kG}, Vector3::Zero(), Vector3::Zero());
   scene.model = Model::Create(joints).value();
-  scene.forces.resize(2);
+  scene.efforts.resize(2);
   scene.q = Eigen::Vector2d(0, kRadius);
   scene.contacts[0].contact.link = 1;
   scene.contacts[0].contact.grip = Grip::kRollingAlong;

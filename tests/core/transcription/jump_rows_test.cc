@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/contact/rolling_kinematics.h"
 #include "core/gait/build_problem.h"
@@ -18,24 +22,20 @@
 namespace rollgait {
 namespace {
 
+constexpr JointSpring kNoSpring, kStiffSpring{2000, 0.2, 50};
+
 struct Case {
   const char* model;
   Cycle cycle;
+  JointSpring spring;  // in both ankles
 };
 
 class JumpRowsTest : public ::testing::TestWithParam<Case> {
  protected:
   JumpRowsTest() {
-    GaitRequest request;
-    request.body.model = GetParam().model;
-    request.body.feet = FootShape::kTwoEllipsoids;
-    request.cycle = GetParam().cycle;
-    request.slope = 0.1;
-    request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;
-    spec_ = std::make_unique<GaitSpec>(CheckRequest(request).value());
+    spec_ = std::make_unique<GaitSpec>(SpecWith(GetParam().spring));
     problem_ = BuildProblem(*spec_);
-    nlp_ = std::make_unique<CollocationNlp>(*problem_, Scheme::kRadau2,
-                                            Mesh::Uniform(std::vector<int>(problem_->phases.size(), 1)));
+    nlp_ = NlpOf(*problem_);
     x_ = nlp_->MakeStart(WalkingGuess(*spec_, *problem_));
     std::mt19937 random(7);
     std::uniform_real_distribution<double> noise(-0.3, 0.3);
@@ -43,6 +43,21 @@ class JumpRowsTest : public ::testing::TestWithParam<Case> {
     for (int k = 0; k < nlp_->layout().intervals(); ++k) {
       for (int j = 0; j < n_; ++j) x_(nlp_->layout().end_node(k) + n_ + j) += noise(random);
     }
+  }
+
+  static GaitSpec SpecWith(const JointSpring& spring) {
+    GaitRequest request;
+    request.body.model = GetParam().model;
+    request.body.feet = FootShape::kTwoEllipsoids;
+    request.body.changes.springs = {{"ankle_l", spring}, {"ankle_r", spring}};
+    request.cycle = GetParam().cycle;
+    request.slope = 0.1;
+    request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;
+    return CheckRequest(request).value();
+  }
+  static std::unique_ptr<CollocationNlp> NlpOf(const OptimalControlProblem& problem) {
+    return std::make_unique<CollocationNlp>(problem, Scheme::kRadau2,
+                                            Mesh::Uniform(std::vector<int>(problem.phases.size(), 1)));
   }
 
   // Rows that hold a phase's velocities after its jump and its impulses. They are linear in them, and leave open what
@@ -155,6 +170,34 @@ TEST_P(JumpRowsTest, ImpulsesAreProportionalToWhatTheyStop) {
   }
 }
 
+// A spring and a damper are finite forces, which have no impulse.
+TEST_P(JumpRowsTest, DoNotDependOnSprings) {
+  const GaitSpec spec = SpecWith(kStiffSpring);
+  const std::unique_ptr<OptimalControlProblem> problem = BuildProblem(spec);
+  const std::unique_ptr<CollocationNlp> stiff = NlpOf(*problem);
+  const SparsityPattern& pattern = nlp_->jacobian_pattern();
+  ASSERT_EQ(stiff->constraints(), nlp_->constraints());
+  ASSERT_EQ(stiff->jacobian_pattern().rows, pattern.rows);
+  ASSERT_EQ(stiff->jacobian_pattern().columns, pattern.columns);
+  VectorX g(nlp_->constraints()), g_stiff = g, values(pattern.size()), values_stiff = values;
+  ASSERT_TRUE(nlp_->Constraints(x_.data(), g.data()) && stiff->Constraints(x_.data(), g_stiff.data()));
+  ASSERT_TRUE(nlp_->Jacobian(x_.data(), values.data()) && stiff->Jacobian(x_.data(), values_stiff.data()));
+  std::vector<char> is_impact;
+  double largest = 0;
+  for (int row = 0; row < nlp_->constraints(); ++row) {
+    const std::string name = nlp_->Describe(x_.data(), row).name;
+    is_impact.push_back(name.starts_with("impact"));
+    if (!is_impact.back()) continue;
+    EXPECT_EQ(g(row), g_stiff(row)) << name;
+    largest = std::max(largest, std::abs(g(row)));
+  }
+  EXPECT_GT(largest, 0.1);
+  for (size_t e = 0; e < pattern.rows.size(); ++e) {
+    if (!is_impact[pattern.rows[e]]) continue;
+    EXPECT_EQ(values[e], values_stiff[e]) << e;
+  }
+}
+
 // Of all impulses that stop the same velocities the least are returned, whichever of them the solver found.
 TEST_P(JumpRowsTest, ImpulsesOfOneFootAreTheLeast) {
   const BodyDynamics dynamics(spec_->scene.model);
@@ -198,8 +241,10 @@ TEST_P(JumpRowsTest, ImpulsesOfOneFootAreTheLeast) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, JumpRowsTest,
-                         ::testing::Values(Case{"planar", Cycle::kHalf}, Case{"planar", Cycle::kFull},
-                                           Case{"human29", Cycle::kHalf}, Case{"human29", Cycle::kFull}));
+                         ::testing::Values(Case{"planar", Cycle::kHalf, kNoSpring},
+                                           Case{"planar", Cycle::kFull, {300, 0, 1}},
+                                           Case{"human29", Cycle::kHalf, {300, 0.1, 0}},
+                                           Case{"human29", Cycle::kFull, kNoSpring}));
 
 }  // namespace
 }  // namespace rollgait

@@ -1,0 +1,137 @@
+// What of a subject stays when its sides are made alike, and what may differ without making it one-sided.
+#include "core/models/sides_alike.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/models/catalog.h"
+
+namespace rollgait {
+namespace {
+
+BodyRequest AnyOf(const std::string& model) {
+  BodyRequest request;
+  request.model = model;
+  return request;
+}
+
+Scene SceneFor(const BodyRequest& request) { return BuildScene(request).value(); }
+const Joint& JointNamed(const Scene& scene, const char* name) { return scene.model.joint(scene.model.Find(name)); }
+
+TEST(WithSidesAlike, KeepsWhatBothSidesHave) {
+  BodyRequest request = AnyOf("human29");
+  request.stature = 1.6;
+  request.mass = 90;
+  request.segment_lengths = {{"torso", 0.5}, {"shank", 0.4}, {"thigh_l", 0.41}, {"thigh_r", 0.41}};
+  request.changes.strengths = {{"knee_l", 0.5}, {"knee_r", 0.5}, {"trunk_bending", 0.7}};
+  request.changes.springs = {{"ankle_l", {300, 0.1, 2}}, {"ankle_r", {300, 0.1, 2}}, {"trunk_flexion", {50, 0.2, 1}}};
+  request.changes.loads = {{.segment = "hand_l", .mass = 3, .position = Vector3(0.1, -0.1, 0.02)},
+                           {.segment = "hand_r", .mass = 3, .position = Vector3(0.1, -0.1, -0.02)},
+                           {.segment = "foot_r", .mass = 1, .position = {}},
+                           {.segment = "foot_l", .mass = 1, .position = {}},
+                           {.segment = "torso", .mass = 12, .position = Vector3(-0.2, -0.2, 0)}};
+  request.locked_joints = {{"elbow_l", 0.3}, {"elbow_r", 0.3}, {"trunk_rotation", 0.0}};
+  const Scene scene = SceneFor(request), alike = SceneFor(WithSidesAlike(request));
+  ASSERT_TRUE(scene.symmetric && alike.symmetric);
+  ASSERT_EQ(alike.model.size(), scene.model.size());
+  for (int i = 0; i < scene.model.size(); ++i) {
+    const Joint &joint = scene.model.joint(i), &kept = alike.model.joint(i);
+    EXPECT_EQ(kept.name, joint.name);
+    EXPECT_EQ(kept.mass, joint.mass) << joint.name;
+    EXPECT_EQ(kept.center_of_mass, joint.center_of_mass) << joint.name;
+    EXPECT_EQ(kept.p_PJ, joint.p_PJ) << joint.name;
+    EXPECT_EQ(kept.effort_max, joint.effort_max) << joint.name;
+    EXPECT_EQ(kept.stiffness, joint.stiffness) << joint.name;
+    EXPECT_EQ(kept.rest_position, joint.rest_position) << joint.name;
+  }
+}
+
+TEST(WithSidesAlike, LeavesOutWhatOneSideHasAlone) {
+  BodyRequest request = AnyOf("human29");
+  request.segment_lengths = {{"thigh", 0.41}, {"thigh_r", 0.4}, {"shank_l", 0.4}, {"foot_l", 0.25}, {"foot_r", 0.26}};
+  request.changes.strengths = {{"knee_l", 0.5}, {"hip_l", 0.5}, {"hip_r", 0.6}, {"trunk_flexion", 0.8}};
+  request.changes.springs = {{"ankle_l", {300, 0.1, 2}}, {"knee_l", {300, 0.1, 2}}, {"knee_r", {300, 0.2, 2}}};
+  request.changes.loads = {{.segment = "hand_l", .mass = 3, .position = {}},
+                           {.segment = "hand_r", .mass = 2, .position = {}},
+                           {.segment = "hand_l", .mass = 2, .position = {}},
+                           {.segment = "shank_l", .mass = 1, .position = Vector3(0, 0, 0.1)},
+                           {.segment = "shank_r", .mass = 1, .position = Vector3(0, 0, 0.1)},
+                           {.segment = "torso", .mass = 5, .position = {}}};
+  request.locked_joints = {{"elbow_l", 0.3}, {"elbow_r", 0.4}, {"ankle_inversion_l", 0.0}, {"trunk_rotation", 0.0}};
+  const BodyRequest alike = WithSidesAlike(request);
+  EXPECT_EQ(alike.segment_lengths, (std::map<std::string, double>{{"thigh", 0.41}}));
+  EXPECT_EQ(alike.changes.strengths, (std::map<std::string, double>{{"trunk_flexion", 0.8}}));
+  EXPECT_TRUE(alike.changes.springs.empty());
+  EXPECT_EQ(alike.locked_joints, (std::map<std::string, double>{{"trunk_rotation", 0.0}}));
+  ASSERT_EQ(alike.changes.loads.size(), 3u);
+  EXPECT_EQ(alike.changes.loads[0].segment, "hand_r");
+  EXPECT_EQ(alike.changes.loads[1].segment, "hand_l");
+  EXPECT_EQ(alike.changes.loads[1].mass, 2);
+  EXPECT_EQ(alike.changes.loads[2].segment, "torso");
+  EXPECT_FALSE(SceneFor(request).symmetric);
+  EXPECT_TRUE(SceneFor(alike).symmetric);
+}
+
+// A load beside the spine stays with its mass, a joint that is locked to one side stays locked.
+TEST(WithSidesAlike, PutsWhatIsOfTheMiddleIntoTheMiddle) {
+  BodyRequest request = AnyOf("human29");
+  request.changes.loads = {{.segment = "torso", .mass = 12, .position = Vector3(-0.2, -0.1, 0.1)}};
+  request.changes.springs = {{"trunk_rotation", {50, 0.2, 3}}};
+  request.locked_joints = {{"trunk_bending", 0.1}, {"trunk_flexion", 0.2}};
+  const BodyRequest alike = WithSidesAlike(request);
+  ASSERT_EQ(alike.changes.loads.size(), 1u);
+  EXPECT_EQ(*alike.changes.loads[0].position, Vector3(-0.2, -0.1, 0));
+  EXPECT_EQ(alike.changes.springs.at("trunk_rotation").rest, 0);
+  EXPECT_EQ(alike.locked_joints, (std::map<std::string, double>{{"trunk_bending", 0.0}, {"trunk_flexion", 0.2}}));
+  const Scene scene = SceneFor(request), middle = SceneFor(alike);
+  EXPECT_FALSE(scene.symmetric);
+  EXPECT_TRUE(middle.symmetric);
+  EXPECT_EQ(middle.model.total_mass(), scene.model.total_mass());
+  EXPECT_EQ(JointNamed(middle, "trunk_rotation").stiffness, 50);
+  EXPECT_EQ(JointNamed(middle, "trunk_rotation").damping, 3);
+}
+
+bool HasSymmetry(const BodyRequest& request) { return SceneFor(request).symmetric; }
+
+// What lies beside the plane cannot be felt by a motion within it.
+TEST(Symmetry, InTheSagittalPlaneIsThatOfTheMotion) {
+  BodyRequest request = AnyOf("human29");
+  request.changes.loads = {
+      {.segment = "torso", .mass = 12, .position = Vector3(-0.2, -0.2, 0.1), .moments = {1, 2, 2}}};
+  EXPECT_FALSE(HasSymmetry(request));
+  request.sagittal = true;
+  EXPECT_TRUE(HasSymmetry(request));
+  request.changes.loads = {{.segment = "hand_l", .mass = 3, .position = {}}};
+  EXPECT_FALSE(HasSymmetry(request));
+  request.drop_arms = true;  // part of the trunk
+  EXPECT_TRUE(HasSymmetry(request));
+  const Scene scene = SceneFor(request);
+  EXPECT_EQ(JointNamed(scene, "knee_l").mirror_joint, scene.model.Find("knee_r"));
+  request.segment_lengths = {{"forearm_r", 0.25}};
+  EXPECT_TRUE(HasSymmetry(request));
+
+  const auto shanks = [](double left, double right, double forward) {
+    BodyRequest body = AnyOf("planar");
+    body.changes.loads = {{.segment = "shank_l", .mass = 1, .position = Vector3(0, -0.2, left)},
+                          {.segment = "shank_r", .mass = 1, .position = Vector3(forward, -0.2, right)}};
+    return body;
+  };
+  EXPECT_TRUE(HasSymmetry(shanks(0.05, 0.02, 0)));
+  EXPECT_FALSE(HasSymmetry(shanks(0.05, -0.05, 0.01)));
+  BodyRequest planar = AnyOf("planar");
+  planar.changes.springs = {{"ankle_l", {300, 0, 1}}};
+  EXPECT_FALSE(HasSymmetry(planar));
+  planar = AnyOf("planar");
+  planar.changes.strengths = {{"knee_r", 0.9}};
+  EXPECT_FALSE(HasSymmetry(planar));
+  planar.changes.strengths = {{"ankle_r", 0}};
+  EXPECT_FALSE(HasSymmetry(planar));
+  planar = AnyOf("planar");
+  planar.segment_lengths = {{"foot_r", 0.25}};
+  EXPECT_FALSE(HasSymmetry(planar));
+}
+
+}  // namespace
+}  // namespace rollgait
