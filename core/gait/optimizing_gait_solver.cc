@@ -18,6 +18,7 @@
 #include "core/gait/request_check.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
+#include "core/gait/solver_settings.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
@@ -64,16 +65,12 @@ GaitSpec WithFinerMesh(GaitSpec spec, int refinements) {
 
 // The first mesh with smooth powers, then the spec's. Where that mesh finds an artefact, finer ones with smooth powers.
 GaitSolution SearchOnMesh(const GaitSpec& spec, Otherwise otherwise, SolveBudget* budget) {
-  // Of what is only a start. human29, six requests: 469 iterations in all, 520 with 1e-3; with 0.1 they are 447, but
-  // some planar gaits then end in a minimum that is 3 % dearer.
-  constexpr double kCoarseTolerance = 1e-2;
-  constexpr int kMostFromTheGuess = 200;  // iterations; those that succeed take 30 to 130
   const double cold = ColdSmoothing(spec);
   if (LeastSmoothing(spec).value_or(cold) >= cold) return SearchFromAfar(spec, otherwise, budget);
   GaitSpec smooth = SmoothedBy(cold, spec);
   LeaveTheRest(&smooth);
-  smooth.kkt_tolerance = std::max(kCoarseTolerance, spec.kkt_tolerance);
-  smooth.max_iterations = std::min(spec.max_iterations, kMostFromTheGuess);
+  smooth.kkt_tolerance = ToleranceOfStart(spec);
+  smooth.max_iterations = std::min(spec.max_iterations, MostIterations::kFromGuess);
   GaitSolution solution = SearchFromAfar(smooth, otherwise, budget);
   const bool takes_long = solution.termination == Termination::kIterationLimit;
   if ((takes_long || solution.termination == Termination::kNumericalDifficulty) && spec.max_refinements > 0 &&
@@ -108,9 +105,8 @@ bool Answers(const GaitSolution& solution) {
 // Squared torque alone is solved as it is, and where that takes long or leads to motions that exist on no finer mesh,
 // by continuation in the weight of torque rates.
 GaitSolution SearchWithoutRates(const GaitSpec& spec, SolveBudget* budget) {
-  constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100
   GaitSpec impatient = spec;
-  impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
+  impatient.max_iterations = std::min(spec.max_iterations, MostIterations::kWithoutRates);
   GaitSolution direct = SearchByMeshes(impatient, Otherwise::kGiveUp, budget);
   if (Answers(direct) || !budget->Left()) return direct;
   GaitSolution rated =
@@ -139,8 +135,7 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   if (!Answers(step)) return std::nullopt;
   GaitSpec both = spec;
   both.warm_start = BothSteps(spec, step);
-  constexpr int kMostIterations = 200;  // of one program; the four requests that optimizer.md names took 30 to 100
-  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), kMostIterations, budget);
+  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), MostIterations::kFromImage, budget);
   if (!Answers(solution)) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     return std::nullopt;
@@ -154,8 +149,6 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
 // Empty where that does not answer, as above.
 std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudget* budget,
                                                 std::vector<MeshStatistics>* meshes) {
-  constexpr double kStartTolerance = 1e-2;
-  constexpr int kMostIterations = 200;  // of one program
   const std::optional<GaitSpec> step_spec = SymmetricStepOf(spec);
   if (!step_spec || spec.starts > 1) return std::nullopt;
   const double cold = ColdSmoothing(spec);
@@ -163,7 +156,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   const auto as_start = [&](const GaitSpec& of) {
     GaitSpec start = sharpens ? SmoothedBy(cold, of) : of;
     LeaveTheRest(&start);
-    start.kkt_tolerance = std::max(kStartTolerance, of.kkt_tolerance);
+    start.kkt_tolerance = ToleranceOfStart(of);
     return start;
   };
   const GaitSolution step = SearchCold(as_start(*step_spec), budget);
@@ -171,7 +164,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   if (!Converged(step.termination) || !budget->Left()) return std::nullopt;
   GaitSpec first = sharpens ? as_start(spec) : spec;
   first.warm_start = OneSidedStart(spec, step);
-  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), kMostIterations, budget);
+  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), MostIterations::kFromSymmetric, budget);
   if (sharpens && Converged(solution.termination)) solution = Sharpen(spec, std::move(solution), budget);
   if (!Answers(solution)) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
@@ -197,8 +190,7 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
 // From the warm start, if there is one, and without it where that does not converge.
 GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   if (!spec.warm_start) return SearchCold(spec, budget);
-  constexpr int kMostIterations = 200;  // cold starts take fewer
-  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), kMostIterations, budget);
+  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), MostIterations::kFromWarmStart, budget);
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
   PutBefore(warm.meshes, &cold);
