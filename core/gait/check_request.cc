@@ -136,10 +136,9 @@ GaitRequest ForBothSidesAlike(GaitRequest request) {
 enum class Symmetric { kWhereUsed, kLeftOut };
 Result<GaitSpec> Check(const GaitRequest& given, Symmetric with);
 
-// Null where it is not used: left and right of the body do not differ, nothing else is known of it, or there are
-// several starts.
-std::shared_ptr<const GaitSpec> SymmetricSpec(const GaitRequest& given, const Scene& scene, Cycle cycle, int starts) {
-  if (scene.symmetric || cycle != Cycle::kFull || given.body.own || starts > 1) return nullptr;
+// Null where it is not used: left and right of the body do not differ, or nothing else is known of it.
+std::shared_ptr<const GaitSpec> SymmetricSpec(const GaitRequest& given, const Scene& scene, Cycle cycle) {
+  if (scene.symmetric || cycle != Cycle::kFull || given.body.own) return nullptr;
   const Result<GaitSpec> symmetric = Check(ForBothSidesAlike(given), Symmetric::kLeftOut);
   if (!symmetric.ok()) return nullptr;
   return std::make_shared<const GaitSpec>(symmetric.value());
@@ -197,7 +196,7 @@ Result<GaitSpec> Check(const GaitRequest& given, Symmetric with) {
   Result<Model> model = Model::Create(std::move(joints));
   if (!model.ok()) return model.violations();
   std::shared_ptr<const GaitSpec> symmetric;
-  if (with == Symmetric::kWhereUsed) symmetric = SymmetricSpec(given, *scene, *request.cycle, starts);
+  if (with == Symmetric::kWhereUsed) symmetric = SymmetricSpec(given, *scene, *request.cycle);
   Scene limited = *scene;
   limited.model = std::move(model).value();
   return GaitSpec{.scene = std::move(limited),

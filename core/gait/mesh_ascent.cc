@@ -8,6 +8,7 @@
 #include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/rate_costs.h"
+#include "core/gait/solver_settings.h"
 
 namespace rollgait {
 namespace {
@@ -15,9 +16,8 @@ namespace {
 // Intervals of a step. A full cycle has two: with as many intervals in all as a half cycle, of which phases of 2 and 4
 // remained, squared torque and slopes led to motions that exist on that mesh only.
 constexpr int kMostFromAfar = 36;
-constexpr int kOuterGroups = 6;           // of half the size, at each end of a phase
-constexpr double kRoughTolerance = 1e-2;  // of what is only a start
-constexpr int kMostOnTheWay = 200;        // iterations of what is only a start; those that succeed take 4 to 130
+constexpr int kOuterGroups = 6;     // of half the size, at each end of a phase
+constexpr int kMostOnTheWay = 200;  // iterations of what is only a start; those that succeed take 4 to 130
 
 int Intervals(const GaitSpec& spec) {
   int sum = 0;
@@ -108,7 +108,7 @@ std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
 GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start,
                     SolveBudget* budget) {
   GaitSpec rough = OnTheWay(spec);
-  rough.kkt_tolerance = std::max(spec.kkt_tolerance, kRoughTolerance);
+  rough.kkt_tolerance = ToleranceOfStart(spec);
   rough.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
   GaitSolution last = std::move(start);
   for (int halvings = std::max(Halvings(spec) - 1, 0); halvings >= 0; --halvings) {

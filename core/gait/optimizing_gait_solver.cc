@@ -18,6 +18,7 @@
 #include "core/gait/request_check.h"
 #include "core/gait/sharpening.h"
 #include "core/gait/solve_manoeuvre.h"
+#include "core/gait/solver_settings.h"
 #include "core/gait/walking_search.h"
 
 namespace rollgait {
@@ -68,20 +69,15 @@ bool NeedsSmoothing(const GaitSpec& spec) {
   return LeastSmoothing(spec).value_or(cold) < cold;
 }
 
-// Of what is only a start. human29, six requests: 469 iterations in all, 520 with 1e-3; with 0.1 they are 447, but
-// some planar gaits then end in a minimum that is 3 % dearer.
-constexpr double kStartTolerance = 1e-2;
-
 // The spec as a start for itself: with smooth powers where it needs them.
 GaitSpec AsStart(const GaitSpec& spec) {
-  constexpr int kMostFromTheGuess = 200;  // iterations; those that succeed take 30 to 130
   GaitSpec start = spec;
   if (NeedsSmoothing(spec)) {
     start = SmoothedBy(ColdSmoothing(spec), spec);
-    start.max_iterations = std::min(spec.max_iterations, kMostFromTheGuess);
+    start.max_iterations = std::min(spec.max_iterations, MostIterations::kFromGuess);
   }
   LeaveTheRest(&start);
-  start.kkt_tolerance = std::max(kStartTolerance, spec.kkt_tolerance);
+  start.kkt_tolerance = ToleranceOfStart(spec);
   return start;
 }
 
@@ -123,9 +119,8 @@ bool Answers(const GaitSolution& solution) {
 // Squared torque alone is solved as it is, and where that takes long or leads to motions that exist on no finer mesh,
 // by continuation in the weight of torque rates.
 GaitSolution SearchWithoutRates(const GaitSpec& spec, SolveBudget* budget) {
-  constexpr int kMostIterations = 120;  // of one program; most that succeed take 20 to 100
   GaitSpec impatient = spec;
-  impatient.max_iterations = std::min(spec.max_iterations, kMostIterations);
+  impatient.max_iterations = std::min(spec.max_iterations, MostIterations::kWithoutRates);
   GaitSolution direct = SearchByMeshes(impatient, Otherwise::kGiveUp, budget);
   if (Answers(direct) || !budget->Left()) return direct;
   GaitSolution rated =
@@ -154,8 +149,7 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   if (!Answers(step)) return std::nullopt;
   GaitSpec both = spec;
   both.warm_start = BothSteps(spec, step);
-  constexpr int kMostIterations = 200;  // of one program; the four requests that optimizer.md names took 30 to 100
-  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), kMostIterations, budget);
+  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), MostIterations::kFromImage, budget);
   if (!Answers(solution)) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     return std::nullopt;
@@ -171,7 +165,6 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
 // answers; `meshes` as above.
 std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudget* budget,
                                                 std::vector<MeshStatistics>* meshes) {
-  constexpr int kMostIterations = 200;  // of one program; one_sided_start of docs/explanation/optimizer.md: 66 to 249
   // Another start saves at most about what the difference of the sides costs, for with both alike the body walks the
   // cheaper: a tenth is left alone.
   constexpr double kDear = 1.1;
@@ -187,7 +180,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   const bool sharpens = NeedsSmoothing(spec);
   GaitSpec first = sharpens ? AsStart(spec) : spec;
   first.warm_start = OneSidedStart(spec, step);
-  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), kMostIterations, budget);
+  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), MostIterations::kFromSymmetric, budget);
   solution.warm_started = solution.used_multipliers = false;  // not from what the request named
   if (!Converged(solution.termination)) {
     keep_meshes(&solution);
@@ -231,8 +224,7 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
 // From the warm start, if there is one, and without it where that does not converge.
 GaitSolution Search(const GaitSpec& spec, SolveBudget* budget) {
   if (!spec.warm_start) return SearchCold(spec, budget);
-  constexpr int kMostIterations = 200;  // cold starts take fewer
-  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), kMostIterations, budget);
+  GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), MostIterations::kFromWarmStart, budget);
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
   PutBefore(warm.meshes, &cold);

@@ -1,6 +1,5 @@
 #include "core/gait/rate_continuation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -9,13 +8,13 @@
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/rate_costs.h"
+#include "core/gait/solver_settings.h"
 
 namespace rollgait {
 namespace {
 
 // s², of the rate's weight beside the torque's, on Earth.
 constexpr double kFirstWeight = 1e-4;
-constexpr double kRoughTolerance = 1e-2;  // of what is only a start
 
 double TorqueWeight(const GaitSpec& spec) {
   double weight = 0;
@@ -32,7 +31,7 @@ GaitSpec WithRatesAt(double rate_weight, GaitSpec spec) {
 }
 
 GaitSpec AsAStart(GaitSpec spec) {
-  spec.kkt_tolerance = std::max(kRoughTolerance, spec.kkt_tolerance);
+  spec.kkt_tolerance = ToleranceOfStart(spec);
   spec.is_only_a_start = true;
   return spec;
 }

@@ -92,19 +92,19 @@ double BarrierProblem::Damping(int i, double mu) const {
   return 0;
 }
 
-double BarrierProblem::Barrier(const Point& point, double mu) const {
+double BarrierProblem::Barrier(double f, const VectorX& w, double mu) const {
   double logarithms = 0, damping = 0;
   for (int i = 0; i < unknowns(); ++i) {
     if (has_lower(i)) {
-      logarithms += std::log(point.w(i) - lower_(i));
-      if (!has_upper(i)) damping += point.w(i) - lower_(i);
+      logarithms += std::log(w(i) - lower_(i));
+      if (!has_upper(i)) damping += w(i) - lower_(i);
     }
     if (has_upper(i)) {
-      logarithms += std::log(upper_(i) - point.w(i));
-      if (!has_lower(i)) damping += upper_(i) - point.w(i);
+      logarithms += std::log(upper_(i) - w(i));
+      if (!has_lower(i)) damping += upper_(i) - w(i);
     }
   }
-  return point.f - mu * logarithms + kDamping * mu * damping;
+  return f - mu * logarithms + kDamping * mu * damping;
 }
 
 void BarrierProblem::AddBarrierGradient(const Point& point, double mu, const VectorX& base, VectorX* gradient) const {

@@ -43,7 +43,9 @@ class BarrierProblem {
   bool MakeInterior(const VectorX& x, double push, Point* point);
   // Fills f, c, θ from w. False if a value is not finite.
   bool Evaluate(Point* point);
-  double Barrier(const Point& point, double mu) const;
+  double Barrier(const Point& point, double mu) const { return Barrier(point.f, point.w, mu); }
+  // φ_μ of another objective, whose value at w is f.
+  double Barrier(double f, const VectorX& w, double mu) const;
   // gradient = base (unknowns()) + ∇(φ_μ − f); 0 for fixed variables.
   void AddBarrierGradient(const Point& point, double mu, const VectorX& base, VectorX* gradient) const;
   // Moves a bound away from w where the distance has been lost to rounding.

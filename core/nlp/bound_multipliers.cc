@@ -33,23 +33,25 @@ void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::
   }
 }
 
+void StepBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point,
+                          const Multipliers& multipliers, const VectorX& move, double mu, Multipliers* step) {
+  step->lower.setZero(barrier.unknowns());
+  step->upper.setZero(barrier.unknowns());
+  for (int i = 0; i < barrier.unknowns(); ++i) {
+    if (barrier.has_lower(i)) {
+      step->lower(i) = MultiplierStep(point.w(i) - barrier.lower(i), multipliers.lower(i), move(i), mu);
+    }
+    if (barrier.has_upper(i)) {
+      step->upper(i) = MultiplierStep(barrier.upper(i) - point.w(i), multipliers.upper(i), -move(i), mu);
+    }
+  }
+}
+
 void MoveBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& from,
                           const BarrierProblem::Point& to, double mu, double tau, double most,
                           Multipliers* multipliers) {
   Multipliers step;
-  step.lower.setZero(barrier.unknowns());
-  step.upper = step.lower;
-  for (int i = 0; i < barrier.unknowns(); ++i) {
-    const double move = to.w(i) - from.w(i);
-    if (barrier.has_lower(i)) {
-      const double distance = from.w(i) - barrier.lower(i), z = multipliers->lower(i);
-      step.lower(i) = mu / distance - z - z / distance * move;
-    }
-    if (barrier.has_upper(i)) {
-      const double distance = barrier.upper(i) - from.w(i), z = multipliers->upper(i);
-      step.upper(i) = mu / distance - z + z / distance * move;
-    }
-  }
+  StepBoundMultipliers(barrier, from, *multipliers, to.w - from.w, mu, &step);
   const double alpha = MaxDualStep(*multipliers, step, tau);
   multipliers->lower += alpha * step.lower;
   multipliers->upper += alpha * step.upper;
@@ -62,14 +64,17 @@ void MoveBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::P
   }
 }
 
+double NearCentralPath(double distance, double z, double mu) {
+  return std::clamp(z, mu / (kKappaSigma * distance), kKappaSigma * mu / distance);
+}
+
 void KeepNearCentralPath(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
                          Multipliers* multipliers) {
-  const auto within = [mu](double z, double distance) {
-    return std::clamp(z, mu / (kKappaSigma * distance), kKappaSigma * mu / distance);
-  };
   for (int i = 0; i < barrier.unknowns(); ++i) {
-    if (barrier.has_lower(i)) multipliers->lower(i) = within(multipliers->lower(i), point.w(i) - barrier.lower(i));
-    if (barrier.has_upper(i)) multipliers->upper(i) = within(multipliers->upper(i), barrier.upper(i) - point.w(i));
+    double& lower = multipliers->lower(i);
+    double& upper = multipliers->upper(i);
+    if (barrier.has_lower(i)) lower = NearCentralPath(point.w(i) - barrier.lower(i), lower, mu);
+    if (barrier.has_upper(i)) upper = NearCentralPath(barrier.upper(i) - point.w(i), upper, mu);
   }
 }
 

@@ -12,7 +12,19 @@ namespace rollgait {
 void StartBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
                            const NlpStart& start, bool estimate, Multipliers* multipliers);
 
-// Keeps them within a factor of 1e10 of those of the central path (Wächter and Biegler, eq. 16).
+// Newton step of the multiplier z of a distance that changes by `move`.
+inline double MultiplierStep(double distance, double z, double move, double mu) {
+  return mu / distance - z - z / distance * move;
+}
+
+// The same of all bounds of w for a step in w; 0 where there is no bound.
+void StepBoundMultipliers(const BarrierProblem& barrier, const BarrierProblem::Point& point,
+                          const Multipliers& multipliers, const VectorX& move, double mu, Multipliers* step);
+
+// z, or the nearest number within a factor of 1e10 of the multiplier on the central path (Wächter and Biegler, eq. 16).
+double NearCentralPath(double distance, double z, double mu);
+
+// Keeps all of them there.
 void KeepNearCentralPath(const BarrierProblem& barrier, const BarrierProblem::Point& point, double mu,
                          Multipliers* multipliers);
 

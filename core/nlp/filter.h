@@ -15,6 +15,7 @@ class Filter {
   void Reset(double largest_theta) {
     largest_theta_ = largest_theta;
     corners_.clear();
+    corners_.reserve(kUsualCorners);
   }
   bool Accepts(double theta, double phi) const {
     if (theta >= largest_theta_) return false;
@@ -30,6 +31,7 @@ class Filter {
   }
 
  private:
+  static constexpr size_t kUsualCorners = 64;  // more than most solves have: it seldom grows between resets
   double largest_theta_ = 0;
   std::vector<Corner> corners_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/nlp/bound_multipliers.h"
 #include "core/nlp/interior_point_solver.h"
@@ -62,17 +63,28 @@ bool InteriorPointSolver::Resume(const InteriorPointState& state) {
   return barrier_.Evaluate(&point_) && Linearise();
 }
 
-InteriorPointState InteriorPointSolver::State() const {
-  return {iteration_,
-          Elapsed(),
-          point_.w,
-          multipliers_,
-          parameter_.memory(),
-          acceptance_.memory(),
-          newton_.memory(),
-          barrier_.MovedBounds(),
-          tiny_steps_,
-          asked_};
+InteriorPointState InteriorPointSolver::State(const Restoration* phase) const {
+  InteriorPointState state{iteration_,
+                           Elapsed(),
+                           point_.w,
+                           multipliers_,
+                           parameter_.memory(),
+                           acceptance_.memory(),
+                           newton_.memory(),
+                           barrier_.MovedBounds(),
+                           tiny_steps_,
+                           asked_};
+  if (phase != nullptr) {
+    state.newton = phase->newton_before();
+    state.restoration = phase->State();
+  }
+  return state;
+}
+
+void InteriorPointSolver::KeepState(const Restoration* phase) {
+  if (resumption_.keeper == nullptr) return;
+  const bool is_stopped = control_.stop != nullptr && control_.stop->requested();
+  if (resumption_.keeper->IsDue(iteration_) || is_stopped) resumption_.keeper->Keep(State(phase));
 }
 
 bool InteriorPointSolver::Linearise() {
@@ -81,22 +93,26 @@ bool InteriorPointSolver::Linearise() {
                             newton_.kkt().hessian())) {
     return false;
   }
-  lagrangian_ = gradient_;
+  lagrangian_.resize(barrier_.unknowns());
+  lagrangian_.head(barrier_.variables()) = gradient_;
   AddConstraintGradients(barrier_, newton_.kkt(), multipliers_.y, &lagrangian_);
   return true;
 }
 
 Termination InteriorPointSolver::Iterate() {
   const int reported = resumption_.from != nullptr ? iteration_ : -1;
+  if (resumption_.from != nullptr && resumption_.from->restoration) {
+    error_ = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, 0);
+    if (const auto end = RunRestoration(&*resumption_.from->restoration)) return *end;
+    tiny_steps_ = 0;
+    ++iteration_;
+  }
   for (;; ++iteration_) {
     error_ = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian_, 0);
     if (iteration_ > reported) Report();
     has_restored_ = false;
     if (IsWithin(error_, options_.tolerance) || IsNotWorthFinishing()) return Termination::kOptimal;
-    const bool is_stopped = control_.stop != nullptr && control_.stop->requested();
-    if (resumption_.keeper != nullptr && (resumption_.keeper->IsDue(iteration_) || is_stopped)) {
-      resumption_.keeper->Keep(State());
-    }
+    KeepState(nullptr);
     if (const auto limit = Limit()) return *limit;
     // While the barrier parameter can still fall, steps that do not move the point improve the multipliers.
     const double mu_before = parameter_.mu();
@@ -126,24 +142,37 @@ std::optional<Termination> InteriorPointSolver::Limit() const {
 
 std::optional<Termination> InteriorPointSolver::Restore() {
   if (HasAcceptableError()) return Termination::kNumericalDifficulty;
-  needs_restoration_ = true;
   // Where nothing is violated, nothing can be restored.
-  if (error_.primal <= options_.tolerance) return Termination::kNumericalDifficulty;
+  if (error_.primal <= options_.tolerance) {
+    needs_restoration_ = true;
+    return Termination::kNumericalDifficulty;
+  }
+  acceptance_.Exclude({point_.theta, barrier_.Barrier(point_, parameter_.mu()), 0});
+  return RunRestoration(nullptr);
+}
+
+std::optional<Termination> InteriorPointSolver::RunRestoration(const RestorationState* from) {
+  needs_restoration_ = true;
   const double theta = point_.theta, mu = parameter_.mu();
-  acceptance_.Exclude({theta, barrier_.Barrier(point_, mu), 0});
-  const auto is_acceptable = [&](const Point& point) {
+  Restoration phase(barrier_, newton_, options_);
+  std::optional<Termination> limit;
+  bool is_known = from != nullptr;  // the iterate has been reported and kept
+  Restoration::Watch watch;
+  watch.is_acceptable = [&](const Point& point) {
     return point.theta <= kKappaResto * theta &&
            acceptance_.TakesFromAnywhere({point.theta, barrier_.Barrier(point, mu), 0});
   };
-  Restoration phase(barrier_, newton_, options_);
-  std::optional<Termination> limit;
-  const auto goes_on = [&] {
-    ++iteration_;
-    Report(&phase);
+  watch.goes_on = [&] {
+    if (!std::exchange(is_known, false)) {
+      ++iteration_;
+      Report(&phase);
+      KeepState(&phase);
+    }
     limit = Limit();
     return !limit;
   };
-  const Restoration::End end = phase.Run(point_, multipliers_, mu, is_acceptable, goes_on);
+  const Restoration::End end =
+      from != nullptr ? phase.Resume(point_, *from, watch) : phase.Run(point_, multipliers_, mu, watch);
   if (end == Restoration::End::kFailed) return Termination::kNumericalDifficulty;
   needs_restoration_ = false;
   has_restored_ = true;

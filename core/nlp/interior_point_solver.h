@@ -37,13 +37,17 @@ class InteriorPointSolver {
 
   bool Begin();
   bool Resume(const InteriorPointState& state);
-  InteriorPointState State() const;
+  InteriorPointState State(const Restoration* phase) const;
+  // Gives the keeper the state of the present iteration where it wants it. phase: null outside restoration.
+  void KeepState(const Restoration* phase);
   bool Linearise();
   Termination Iterate();
   // Why the solve is to end at this iteration whatever its point is; nothing: it goes on.
   std::optional<Termination> Limit() const;
   // Where no step can be found: the restoration phase. Nothing: the solve goes on from a better point.
   std::optional<Termination> Restore();
+  // The phase from here, or from a state of it, and what follows from its end.
+  std::optional<Termination> RunRestoration(const RestorationState* from);
   void TakeRestored(const Point& restored);
   bool IsNotWorthFinishing();
   bool HasAcceptableError() const;

@@ -81,7 +81,8 @@ class Adapter : public Ipopt::TNLP {
                              Number mu, Number step_norm, Number regularization, Number dual_step, Number primal_step,
                              Index trials, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     const double elapsed = Seconds(Clock::now() - begin_);
-    if (control_.observer) {
+    // The point where its restoration phase ends is given twice with one index, once by that phase.
+    if (iteration > last_iteration_ && control_.observer) {
       IterationInfo info;
       info.index = iteration;
       info.objective = objective;
@@ -98,6 +99,7 @@ class Adapter : public Ipopt::TNLP {
       info.mesh = options_.mesh;
       control_.observer(info);
     }
+    last_iteration_ = std::max(last_iteration_, iteration);
     if (elapsed > options_.max_wall_time_s) {
       out_of_time_ = true;
       return false;
@@ -113,7 +115,8 @@ class Adapter : public Ipopt::TNLP {
     result_->upper_bound_multipliers = Eigen::Map<const VectorX>(z_upper, n);
     result_->constraint_multipliers = Eigen::Map<const VectorX>(lambda, m);
     result_->objective = objective;
-    result_->iterations = data->iter_count();
+    // Where Ipopt ends within its restoration phase, its own count lags behind what it has reported.
+    result_->iterations = std::max(data->iter_count(), last_iteration_);
     result_->kkt_error = quantities->curr_nlp_error();
     result_->constraint_violation = quantities->curr_nlp_constraint_violation(Ipopt::NORM_MAX);
   }
@@ -126,6 +129,7 @@ class Adapter : public Ipopt::TNLP {
   NlpResult* result_;
   Clock::time_point begin_;
   bool out_of_time_ = false;
+  Index last_iteration_ = -1;
 };
 
 void SetOptions(Ipopt::IpoptApplication& app, const NlpStart& start, const NlpOptions& options) {

@@ -12,7 +12,7 @@ namespace rollgait {
 namespace {
 
 // "RGJ" and the version of the format: to be raised with every change of what is written here or of what it means.
-constexpr int64_t kFinished = 0x4a475201'0001, kStarted = 0x4a475202'0002;
+constexpr int64_t kFinished = 0x4a475201'0001, kStarted = 0x4a475202'0003;
 constexpr size_t kChecksumBytes = sizeof(uint64_t);
 constexpr double kLargestNumber = 1e19;  // beyond: no bound
 
@@ -81,6 +81,46 @@ void Get(ByteReader* in, NlpFingerprint* fingerprint) {
 }
 
 int Bounded(int64_t value) { return static_cast<int>(std::clamp<int64_t>(value, -1, 1 << 30)); }
+
+// Where an interior point method is and what it remembers: of the program, or of its restoration.
+template <typename State>
+void PutMethod(const State& state, ByteWriter* out) {
+  for (const VectorX* part : {&state.w, &state.multipliers.y, &state.multipliers.lower, &state.multipliers.upper}) {
+    out->Put(*part);
+  }
+  for (const int part : {state.newton.zero_failures, state.newton.skipped, state.barrier.raised}) {
+    out->Put(static_cast<int64_t>(part));
+  }
+  for (const double part : {state.barrier.mu, state.barrier.recent_step, state.acceptance.theta_min,
+                            state.acceptance.theta_max, state.newton.last_shift, state.newton.threshold}) {
+    out->Put(part);
+  }
+  out->Put(static_cast<int64_t>(state.acceptance.corners.size()));
+  for (const auto& [theta, phi] : state.acceptance.corners) {
+    out->Put(theta);
+    out->Put(phi);
+  }
+}
+
+template <typename State>
+void GetMethod(ByteReader* in, State* state) {
+  for (VectorX* part : {&state->w, &state->multipliers.y, &state->multipliers.lower, &state->multipliers.upper}) {
+    *part = in->Vector();
+  }
+  for (int* part : {&state->newton.zero_failures, &state->newton.skipped, &state->barrier.raised}) {
+    *part = Bounded(in->Int());
+  }
+  for (double* part : {&state->barrier.mu, &state->barrier.recent_step, &state->acceptance.theta_min,
+                       &state->acceptance.theta_max, &state->newton.last_shift, &state->newton.threshold}) {
+    *part = in->Double();
+  }
+  state->acceptance.corners.clear();
+  const int64_t corners = in->Int();
+  for (int64_t i = 0; i < corners && in->ok(); ++i) {
+    const double theta = in->Double();
+    state->acceptance.corners.emplace_back(theta, in->Double());
+  }
+}
 
 }  // namespace
 
@@ -167,27 +207,22 @@ std::string Encode(const StartedProgram& program) {
   ByteWriter out;
   out.Put(kStarted);
   Put(program.fingerprint, &out);
-  for (const VectorX* part : {&state.w, &state.multipliers.y, &state.multipliers.lower, &state.multipliers.upper}) {
-    out.Put(*part);
-  }
-  for (const int part : {state.iteration, state.tiny_steps, static_cast<int>(state.asked), state.newton.zero_failures,
-                         state.newton.skipped, state.barrier.raised}) {
+  for (const int part : {state.iteration, state.tiny_steps, static_cast<int>(state.asked)}) {
     out.Put(static_cast<int64_t>(part));
   }
-  for (const double part : {state.elapsed_s, state.barrier.mu, state.barrier.recent_step, state.acceptance.theta_min,
-                            state.acceptance.theta_max, state.newton.last_shift, state.newton.threshold}) {
-    out.Put(part);
-  }
-  out.Put(static_cast<int64_t>(state.acceptance.corners.size()));
-  for (const auto& [theta, phi] : state.acceptance.corners) {
-    out.Put(theta);
-    out.Put(phi);
-  }
+  out.Put(state.elapsed_s);
+  PutMethod(state, &out);
   out.Put(static_cast<int64_t>(state.moved_bounds.size()));
   for (const BarrierProblem::MovedBound& bound : state.moved_bounds) {
     out.Put(static_cast<int64_t>(bound.unknown));
     out.Put(bound.lower);
     out.Put(bound.upper);
+  }
+  out.Put(static_cast<int64_t>(state.restoration ? 1 : 0));
+  if (state.restoration) {
+    PutMethod(*state.restoration, &out);
+    const ElasticVariables& elastic = state.restoration->elastic;
+    for (const VectorX* part : {&elastic.p, &elastic.n, &elastic.z_p, &elastic.z_n}) out.Put(*part);
   }
   return WithChecksum(out);
 }
@@ -197,25 +232,11 @@ bool Decode(const std::string& bytes, StartedProgram* program) {
   if (in.Int() != kStarted) return false;
   Get(&in, &program->fingerprint);
   InteriorPointState& state = program->state;
-  for (VectorX* part : {&state.w, &state.multipliers.y, &state.multipliers.lower, &state.multipliers.upper}) {
-    *part = in.Vector();
-  }
   state.iteration = Bounded(in.Int());
   state.tiny_steps = Bounded(in.Int());
   state.asked = in.Int() != 0;
-  state.newton.zero_failures = Bounded(in.Int());
-  state.newton.skipped = Bounded(in.Int());
-  state.barrier.raised = Bounded(in.Int());
-  for (double* part : {&state.elapsed_s, &state.barrier.mu, &state.barrier.recent_step, &state.acceptance.theta_min,
-                       &state.acceptance.theta_max, &state.newton.last_shift, &state.newton.threshold}) {
-    *part = in.Double();
-  }
-  state.acceptance.corners.clear();
-  const int64_t corners = in.Int();
-  for (int64_t i = 0; i < corners && in.ok(); ++i) {
-    const double theta = in.Double();
-    state.acceptance.corners.emplace_back(theta, in.Double());
-  }
+  state.elapsed_s = in.Double();
+  GetMethod(&in, &state);
   state.moved_bounds.clear();
   const int64_t moved = in.Int();
   for (int64_t i = 0; i < moved && in.ok(); ++i) {
@@ -224,6 +245,12 @@ bool Decode(const std::string& bytes, StartedProgram* program) {
     bound.lower = in.Double();
     bound.upper = in.Double();
     state.moved_bounds.push_back(bound);
+  }
+  state.restoration.reset();
+  if (in.Int() != 0) {
+    GetMethod(&in, &state.restoration.emplace());
+    ElasticVariables& elastic = state.restoration->elastic;
+    for (VectorX* part : {&elastic.p, &elastic.n, &elastic.z_p, &elastic.z_n}) *part = in.Vector();
   }
   return in.AtEnd();
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/nlp/bound_multipliers.h"
+
 namespace rollgait {
 namespace {
 
@@ -44,7 +46,7 @@ void NewtonSystem::Restore(const Memory& memory) {
   kkt_.set_threshold(memory.threshold);
 }
 
-void NewtonSystem::SetElastic(const VectorX& curvature, const VectorX& compliance) {
+void NewtonSystem::SetElastic(const VectorX* curvature, const VectorX* compliance) {
   elastic_curvature_ = curvature;
   elastic_compliance_ = compliance;
 }
@@ -91,7 +93,7 @@ bool NewtonSystem::TryShift(double shift, double mu) {
   const int n = barrier_.variables();
   shift_ = shift;
   primal_diagonal_ = sigma_.head(n).array() + shift;
-  if (elastic_curvature_.size() > 0) primal_diagonal_ += elastic_curvature_;
+  if (elastic_curvature_ != nullptr) primal_diagonal_ += *elastic_curvature_;
   for (int trial = 0; trial < 2; ++trial) {
     dual_diagonal_.setConstant(degenerate_ ? kDualShift * std::pow(mu, kDualShiftExponent) : 0);
     for (size_t k = 0; k < barrier_.slack_rows().size(); ++k) {
@@ -99,7 +101,7 @@ bool NewtonSystem::TryShift(double shift, double mu) {
       slack_compliance_(static_cast<int>(k)) = 1 / curvature;
       dual_diagonal_(barrier_.slack_rows()[k]) = 1 / curvature;
     }
-    if (elastic_compliance_.size() > 0) dual_diagonal_ += elastic_compliance_;
+    if (elastic_compliance_ != nullptr) dual_diagonal_ += *elastic_compliance_;
     for (const int row : barrier_.free_rows()) dual_diagonal_(row) = kFreeRow;
     const auto outcome = kkt_.Factorise(primal_diagonal_, dual_diagonal_);
     if (outcome != KktSystem::Outcome::kSingular || degenerate_) return outcome == KktSystem::Outcome::kRight;
@@ -200,18 +202,9 @@ bool NewtonSystem::Solve(const BarrierProblem::Point& point, const Multipliers& 
     const int i = n + static_cast<int>(k), row = barrier_.slack_rows()[k];
     step->w(i) = (step->multipliers.y(row) + right(i)) * slack_compliance_(static_cast<int>(k));
   }
-  step->multipliers.lower.setZero(barrier_.unknowns());
-  step->multipliers.upper.setZero(barrier_.unknowns());
-  for (int i = 0; i < barrier_.unknowns(); ++i) {
-    if (barrier_.has_lower(i)) {
-      const double distance = point.w(i) - barrier_.lower(i), z = multipliers.lower(i);
-      step->multipliers.lower(i) = mu / distance - z - z / distance * step->w(i) + excess.lower(i);
-    }
-    if (barrier_.has_upper(i)) {
-      const double distance = barrier_.upper(i) - point.w(i), z = multipliers.upper(i);
-      step->multipliers.upper(i) = mu / distance - z + z / distance * step->w(i) + excess.upper(i);
-    }
-  }
+  StepBoundMultipliers(barrier_, point, multipliers, step->w, mu, &step->multipliers);
+  step->multipliers.lower += excess.lower;
+  step->multipliers.upper += excess.upper;
   return true;
 }
 

@@ -38,9 +38,10 @@ class NewtonSystem {
   Memory memory() const { return {last_shift_, kkt_.threshold(), zero_failures_, skipped_}; }
   void Restore(const Memory& memory);
 
-  // Of a restoration phase, until it is called with empty vectors: further curvature of the variables (variables(), ≥
-  // 0) and further compliance of the rows (rows(), ≥ 0), which stands on their diagonal as −compliance.
-  void SetElastic(const VectorX& curvature, const VectorX& compliance);
+  // Of a restoration phase, until it is called with null: further curvature of the variables (variables(), ≥ 0) and
+  // further compliance of the rows (rows(), ≥ 0), which stands on their diagonal as −compliance. Both are read where
+  // they are.
+  void SetElastic(const VectorX* curvature, const VectorX* compliance);
 
   // Least-squares multipliers of the rows at a point: min ‖∇f + Jᵀ y − z_l + z_u‖. False if J has no full rank there.
   bool LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers);
@@ -83,8 +84,9 @@ class NewtonSystem {
   Multipliers no_excess_, excess_;       // of targets
   VectorX shifted_right_;
   VectorX primal_diagonal_, dual_diagonal_, a_, b_, x_;
-  VectorX slack_compliance_;                        // of slacks: 1 / (σ + δ_w)
-  VectorX elastic_curvature_, elastic_compliance_;  // empty: none
+  VectorX slack_compliance_;  // of slacks: 1 / (σ + δ_w)
+  const VectorX* elastic_curvature_ = nullptr;
+  const VectorX* elastic_compliance_ = nullptr;
 };
 
 }  // namespace rollgait

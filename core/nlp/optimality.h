@@ -1,6 +1,9 @@
 #ifndef ROLLGAIT_CORE_NLP_OPTIMALITY_H_
 #define ROLLGAIT_CORE_NLP_OPTIMALITY_H_
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/nlp/newton_step.h"
 
 namespace rollgait {
@@ -13,6 +16,23 @@ struct OptimalityError {
   double scaled = kInfinity;           // E_μ of Wächter and Biegler, eq. (5)
 };
 
+// Adds up how far a point is from satisfying the equations for μ.
+class OptimalitySum {
+ public:
+  explicit OptimalitySum(double mu) : mu_(mu) {}
+  // Of every unknown that is not fixed: its part of the gradient, and its bounds. lagrangian: as below.
+  void AddUnknowns(const BarrierProblem& barrier, const BarrierProblem::Point& point, const Multipliers& multipliers,
+                   const VectorX& lagrangian);
+  void AddGradient(double value) { dual_ = std::max(dual_, std::abs(value)); }
+  void AddBound(double distance, double z);
+  // primal: max |c|. y: the multipliers of all rows.
+  OptimalityError With(double primal, const VectorX& y) const;
+
+ private:
+  double mu_, dual_ = 0, complementarity_ = 0, sum_z_ = 0;
+  int bounds_ = 0;
+};
+
 // lagrangian: ∇f + Aᵀ y by w.
 OptimalityError ComputeOptimalityError(const BarrierProblem& barrier, const BarrierProblem::Point& point,
                                        const Multipliers& multipliers, const VectorX& lagrangian, double mu);
@@ -20,7 +40,8 @@ OptimalityError ComputeOptimalityError(const BarrierProblem& barrier, const Barr
 // Whether the optimality conditions hold to the tolerance, as Ipopt asks it with its default tolerances of the parts.
 bool IsWithin(const OptimalityError& error, double tolerance);
 
-// From ∇f (variables()) to ∇f + Aᵀ y by w = (x, s) (unknowns()), with the Jacobian that is in `kkt`.
+// From ∇f to ∇f + Aᵀ y by w = (x, s), with the Jacobian that is in `kkt`. lagrangian (unknowns()): its part of x is ∇f
+// before.
 void AddConstraintGradients(const BarrierProblem& barrier, const KktSystem& kkt, const VectorX& y, VectorX* lagrangian);
 
 }  // namespace rollgait

@@ -12,8 +12,8 @@
 namespace rollgait {
 namespace {
 
-// Constants of Ipopt: resto_penalty_parameter; kappa_sigma.
-constexpr double kPenalty = 1000, kElasticKappaSigma = 1e10;
+// ρ; resto_penalty_parameter of Ipopt.
+constexpr double kPenalty = 1000;
 
 // The barrier parameter falls by Ipopt's settings, whatever those of the solve.
 NlpOptions BarrierOptions(const NlpOptions& options) {
@@ -29,66 +29,94 @@ Restoration::Restoration(BarrierProblem& barrier, NewtonSystem& newton, const Nl
       newton_(newton),
       options_(options),
       parameter_(BarrierOptions(options)),
-      is_elastic_(VectorX::Ones(barrier.rows())) {
+      is_elastic_(VectorX::Ones(barrier.rows())),
+      lagrangian_(VectorX::Zero(barrier.unknowns())),
+      gradient_(lagrangian_),
+      objective_gradient_(lagrangian_) {
   for (const int row : barrier.free_rows()) is_elastic_(row) = 0;
 }
 
 double Restoration::eta() const { return std::sqrt(mu()); }
 
 Restoration::End Restoration::Run(const Point& from, const Multipliers& multipliers, double first_mu,
-                                  const std::function<bool(const Point&)>& is_acceptable,
-                                  const std::function<bool()>& goes_on) {
-  const NewtonSystem::Memory memory = newton_.memory();
-  const End end = [&] {
-    if (!Begin(from, multipliers, first_mu)) return End::kFailed;
-    bool has_been_reset = true, is_first = true;
-    for (;;) {
-      error_ = ErrorAt(0);
-      if (IsWithin(error_, options_.tolerance)) {
-        const bool is_violated = point_.c.lpNorm<Eigen::Infinity>() > AcceptableError(options_.tolerance);
-        return is_violated ? End::kInfeasible : End::kFailed;
-      }
-      if (parameter_.Reduce(false, [this](double barrier) { return ErrorAt(barrier).scaled; })) {
-        acceptance_.ForgetFilter();
-      }
-      if (!ComputeStep() && !(is_first && ComputeStepWithoutCurvature())) return End::kFailed;
-      is_first = false;
-      if (!LineSearch()) {
-        if (has_been_reset) return End::kFailed;
-        has_been_reset = true;
-        MinimiseElastic();
-        acceptance_.ForgetFilter();
-        continue;
-      }
-      has_been_reset = false;
-      barrier_.KeepDistance(point_.w, mu());
-      KeepNearCentralPath(barrier_, point_, mu(), &multipliers_);
-      if (is_acceptable(point_)) return End::kRestored;
-      if (!goes_on()) return End::kStopped;
-      if (!Linearise()) return End::kFailed;
-    }
-  }();
-  newton_.SetElastic({}, {});
-  newton_.Restore(memory);
+                                  const Watch& watch) {
+  SetReference(from);
+  return Finish(Begin(multipliers, first_mu) ? Iterate(watch, true) : End::kFailed);
+}
+
+Restoration::End Restoration::Resume(const Point& from, const RestorationState& state, const Watch& watch) {
+  SetReference(from);
+  if (!Restore(state)) return Finish(End::kFailed);
+  return Finish(watch.goes_on() ? Iterate(watch, false) : End::kStopped);
+}
+
+Restoration::End Restoration::Finish(End end) {
+  newton_.SetElastic(nullptr, nullptr);
+  newton_.Restore(newton_before_);
   return end;
 }
 
-bool Restoration::Begin(const Point& from, const Multipliers& multipliers, double mu) {
+Restoration::End Restoration::Iterate(const Watch& watch, bool is_first) {
+  for (bool has_been_reset = is_first;;) {
+    if (IsWithin(error_, options_.tolerance)) {
+      const bool is_violated = point_.c.lpNorm<Eigen::Infinity>() > AcceptableError(options_.tolerance);
+      return is_violated ? End::kInfeasible : End::kFailed;
+    }
+    if (parameter_.Reduce(false, [this](double barrier) { return ErrorAt(barrier).scaled; })) {
+      acceptance_.ForgetFilter();
+    }
+    if (!ComputeStep() && !(is_first && ComputeStepWithoutCurvature())) return End::kFailed;
+    is_first = false;
+    if (!LineSearch()) {
+      if (has_been_reset) return End::kFailed;
+      has_been_reset = true;
+      MinimiseElastic();
+      acceptance_.ForgetFilter();
+      if (!Linearise()) return End::kFailed;
+      continue;
+    }
+    has_been_reset = false;
+    barrier_.KeepDistance(point_.w, mu());
+    KeepNearCentralPath(barrier_, point_, mu(), &multipliers_);
+    if (watch.is_acceptable(point_)) return End::kRestored;
+    if (!Linearise()) return End::kFailed;
+    if (!watch.goes_on()) return End::kStopped;
+  }
+}
+
+void Restoration::SetReference(const Point& from) {
+  newton_before_ = newton_.memory();
   point_ = from;
-  parameter_.Restore({std::max(mu, from.c.lpNorm<Eigen::Infinity>()), 1, 0});
+  trial_ = from;
   reference_ = from.w.head(barrier_.variables());
   scale_ = reference_.cwiseAbs().cwiseMax(1).cwiseAbs2().cwiseInverse();
+}
+
+bool Restoration::Begin(const Multipliers& multipliers, double mu) {
+  parameter_.Restore({std::max(mu, point_.c.lpNorm<Eigen::Infinity>()), 1, 0});
   multipliers_.y.setZero(barrier_.rows());
   multipliers_.lower = multipliers.lower.cwiseMin(kPenalty);
   multipliers_.upper = multipliers.upper.cwiseMin(kPenalty);
   NewtonSystem::Memory nothing_but_threshold;
-  nothing_but_threshold.threshold = newton_.memory().threshold;
+  nothing_but_threshold.threshold = newton_before_.threshold;
   newton_.Restore(nothing_but_threshold);
   MinimiseElastic();
-  if (!Linearise()) return false;
-  Residual(point_, elastic_, &residual_);
-  acceptance_.Begin(residual_.lpNorm<1>());
-  return true;
+  acceptance_.Begin(0);  // the elastic variables satisfy the constraints
+  return Linearise();
+}
+
+RestorationState Restoration::State() const {
+  return {point_.w, multipliers_, elastic_, parameter_.memory(), acceptance_.memory(), newton_.memory()};
+}
+
+bool Restoration::Restore(const RestorationState& state) {
+  point_.w = state.w;
+  multipliers_ = state.multipliers;
+  elastic_ = state.elastic;
+  parameter_.Restore(state.barrier);
+  acceptance_.Restore(state.acceptance);
+  newton_.Restore(state.newton);
+  return barrier_.Evaluate(&point_) && Linearise();
 }
 
 // p and n that minimise  ρ (p + n) − μ ln p − μ ln n  subject to  p − n = c, and multipliers on the central path.
@@ -119,46 +147,32 @@ bool Restoration::Linearise() {
     return false;
   }
   proximity_ = scale_.cwiseProduct(point_.w.head(barrier_.variables()) - reference_);
-  for (int i = 0; i < barrier_.variables(); ++i) {
-    if (barrier_.fixed(i)) proximity_(i) = 0;
-  }
-  gradient_ = VectorX::Zero(barrier_.variables());
+  gradient_.setZero();
   AddConstraintGradients(barrier_, newton_.kkt(), multipliers_.y, &gradient_);
+  error_ = ErrorAt(0);
   return true;
 }
 
-void Restoration::Residual(const Point& point, const Elastic& elastic, VectorX* residual) const {
-  *residual = point.c - elastic.p + elastic.n;
+void Restoration::FillLagrangian() {
+  lagrangian_ = gradient_;
+  lagrangian_.head(barrier_.variables()) += eta() * proximity_;
 }
 
-OptimalityError Restoration::ErrorAt(double mu) const {
-  constexpr double kSMax = 100;
-  const int n = barrier_.variables();
-  VectorX lagrangian = gradient_;
-  lagrangian.head(n) += eta() * proximity_;
-  OptimalityError error = ComputeOptimalityError(barrier_, point_, multipliers_, lagrangian, mu);
-  error.primal = 0;
-  double sum_z = 0;
-  int bounds = 0;
-  for (int i = 0; i < barrier_.unknowns(); ++i) {
-    bounds += (barrier_.has_lower(i) ? 1 : 0) + (barrier_.has_upper(i) ? 1 : 0);
-  }
-  sum_z = multipliers_.lower.sum() + multipliers_.upper.sum();
+OptimalityError Restoration::ErrorAt(double mu) {
+  FillLagrangian();
+  OptimalitySum sum(mu);
+  sum.AddUnknowns(barrier_, point_, multipliers_, lagrangian_);
+  double primal = 0;
   for (int r = 0; r < barrier_.rows(); ++r) {
     if (!is_elastic(r)) continue;
-    const double y = multipliers_.y(r), p = elastic_.p(r), q = elastic_.n(r), z_p = elastic_.z_p(r),
-                 z_n = elastic_.z_n(r);
-    error.primal = std::max(error.primal, std::abs(point_.c(r) - p + q));
-    error.dual = std::max({error.dual, std::abs(kPenalty - y - z_p), std::abs(kPenalty + y - z_n)});
-    error.complementarity = std::max({error.complementarity, std::abs(p * z_p - mu), std::abs(q * z_n - mu)});
-    sum_z += z_p + z_n;
-    bounds += 2;
+    const double y = multipliers_.y(r);
+    primal = std::max(primal, std::abs(point_.c(r) - elastic_.p(r) + elastic_.n(r)));
+    sum.AddGradient(kPenalty - y - elastic_.z_p(r));
+    sum.AddGradient(kPenalty + y - elastic_.z_n(r));
+    sum.AddBound(elastic_.p(r), elastic_.z_p(r));
+    sum.AddBound(elastic_.n(r), elastic_.z_n(r));
   }
-  const double sum_y = multipliers_.y.lpNorm<1>();
-  const double dual_scale = std::max(kSMax, (sum_y + sum_z) / std::max(1, barrier_.rows() + bounds)) / kSMax;
-  const double bound_scale = std::max(kSMax, sum_z / std::max(1, bounds)) / kSMax;
-  error.scaled = std::max({error.primal, error.dual / dual_scale, error.complementarity / bound_scale});
-  return error;
+  return sum.With(primal, multipliers_.y);
 }
 
 bool Restoration::ComputeStep() {
@@ -173,9 +187,8 @@ bool Restoration::ComputeStep() {
     compliance_(r) = soft_p + soft_n;
     effective_.c(r) += n - p - (y - kPenalty + mu() / p) * soft_p - (y + kPenalty - mu() / n) * soft_n;
   }
-  newton_.SetElastic(curvature_, compliance_);
-  lagrangian_ = gradient_;
-  lagrangian_.head(barrier_.variables()) += eta() * proximity_;
+  newton_.SetElastic(&curvature_, &compliance_);
+  FillLagrangian();
   if (!newton_.Compute(effective_, multipliers_, lagrangian_, mu(), &step_)) return false;
   // Of p and n the larger would be a difference of numbers of the size of ρ over a curvature of μ/p²: rounding. It
   // follows from the smaller one and the row.
@@ -194,8 +207,8 @@ bool Restoration::ComputeStep() {
       elastic_step_.p(r) = (y - kPenalty + mu() / p) * p / z_p;
       elastic_step_.n(r) = elastic_step_.p(r) - difference;
     }
-    elastic_step_.z_p(r) = mu() / p - z_p - z_p / p * elastic_step_.p(r);
-    elastic_step_.z_n(r) = mu() / n - z_n - z_n / n * elastic_step_.n(r);
+    elastic_step_.z_p(r) = MultiplierStep(p, z_p, elastic_step_.p(r), mu());
+    elastic_step_.z_n(r) = MultiplierStep(n, z_n, elastic_step_.n(r), mu());
   }
   return true;
 }
@@ -218,33 +231,22 @@ void Restoration::LinearChange() {
   }
 }
 
-double Restoration::MaxStep(const VectorX& value, const VectorX& step, double tau) const {
-  double alpha = 1;
-  for (int r = 0; r < value.size(); ++r) {
-    if (step(r) < 0) alpha = std::min(alpha, tau * value(r) / -step(r));
-  }
-  return alpha;
-}
-
 // θ and φ of the problem of restoration.
-LinePoint Restoration::At(const Point& point, const Elastic& elastic) const {
-  VectorX residual;
-  Residual(point, elastic, &residual);
-  Point without = point;
-  const VectorX moved = point.w.head(barrier_.variables()) - reference_;
-  without.f = kPenalty * (elastic.p.sum() + elastic.n.sum()) + 0.5 * eta() * moved.dot(scale_.cwiseProduct(moved));
-  double logarithms = 0;
+LinePoint Restoration::At(const Point& point, const ElasticVariables& elastic) const {
+  const auto moved = point.w.head(barrier_.variables()) - reference_;
+  double objective = 0.5 * eta() * moved.cwiseAbs2().cwiseProduct(scale_).sum(), logarithms = 0;
+  objective += kPenalty * (elastic.p.sum() + elastic.n.sum());
   for (int r = 0; r < barrier_.rows(); ++r) {
     if (is_elastic(r)) logarithms += std::log(elastic.p(r)) + std::log(elastic.n(r));
   }
-  return {residual.lpNorm<1>(), barrier_.Barrier(without, mu()) - mu() * logarithms, 0};
+  return {(point.c - elastic.p + elastic.n).lpNorm<1>(), barrier_.Barrier(objective, point.w, mu()) - mu() * logarithms,
+          0};
 }
 
-double Restoration::Slope() const {
-  VectorX base = VectorX::Zero(barrier_.unknowns()), gradient;
-  base.head(barrier_.variables()) = eta() * proximity_;
-  barrier_.AddBarrierGradient(point_, mu(), base, &gradient);
-  double slope = gradient.dot(step_.w);
+double Restoration::Slope() {
+  objective_gradient_.head(barrier_.variables()) = eta() * proximity_;
+  barrier_.AddBarrierGradient(point_, mu(), objective_gradient_, &barrier_gradient_);
+  double slope = barrier_gradient_.dot(step_.w);
   for (int r = 0; r < barrier_.rows(); ++r) {
     if (!is_elastic(r)) continue;
     slope += (kPenalty - mu() / elastic_.p(r)) * elastic_step_.p(r);
@@ -257,17 +259,16 @@ bool Restoration::LineSearch() {
   LinePoint from = At(point_, elastic_);
   from.slope = Slope();
   double alpha = std::min({MaxPrimalStep(barrier_, point_, step_.w, parameter_.tau()),
-                           MaxStep(elastic_.p, elastic_step_.p, parameter_.tau()),
-                           MaxStep(elastic_.n, elastic_step_.n, parameter_.tau())});
+                           MaxPositiveStep(elastic_.p, elastic_step_.p, parameter_.tau()),
+                           MaxPositiveStep(elastic_.n, elastic_step_.n, parameter_.tau())});
   dual_step_ = std::min({MaxDualStep(multipliers_, step_.multipliers, parameter_.tau()),
-                         MaxStep(elastic_.z_p, elastic_step_.z_p, parameter_.tau()),
-                         MaxStep(elastic_.z_n, elastic_step_.z_n, parameter_.tau())});
+                         MaxPositiveStep(elastic_.z_p, elastic_step_.z_p, parameter_.tau()),
+                         MaxPositiveStep(elastic_.z_n, elastic_step_.z_n, parameter_.tau())});
   const double least = acceptance_.SmallestStep(from);
   trials_ = 0;
   for (bool first = true; first || alpha > least; first = false, alpha *= 0.5) {
     ++trials_;
     trial_.w = point_.w + alpha * step_.w;
-    trial_.c.resize(barrier_.rows());
     if (!barrier_.Evaluate(&trial_)) continue;
     trial_elastic_.p = elastic_.p + alpha * elastic_step_.p;
     trial_elastic_.n = elastic_.n + alpha * elastic_step_.n;
@@ -289,11 +290,8 @@ void Restoration::Accept(double alpha) {
   multipliers_.upper += dual_step_ * step_.multipliers.upper;
   for (int r = 0; r < barrier_.rows(); ++r) {
     if (!is_elastic(r)) continue;
-    const auto central = [this](double z, double distance) {
-      return std::clamp(z, mu() / (kElasticKappaSigma * distance), kElasticKappaSigma * mu() / distance);
-    };
-    elastic_.z_p(r) = central(elastic_.z_p(r) + dual_step_ * elastic_step_.z_p(r), elastic_.p(r));
-    elastic_.z_n(r) = central(elastic_.z_n(r) + dual_step_ * elastic_step_.z_n(r), elastic_.n(r));
+    elastic_.z_p(r) = NearCentralPath(elastic_.p(r), elastic_.z_p(r) + dual_step_ * elastic_step_.z_p(r), mu());
+    elastic_.z_n(r) = NearCentralPath(elastic_.n(r), elastic_.z_n(r) + dual_step_ * elastic_step_.z_n(r), mu());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "core/nlp/barrier_parameter.h"
 #include "core/nlp/newton_step.h"
 #include "core/nlp/optimality.h"
+#include "core/nlp/restoration_state.h"
 #include "core/nlp/step_acceptance.h"
 
 namespace rollgait {
@@ -29,14 +30,26 @@ class Restoration {
     kFailed,
   };
 
-  // Both outlive this object; what `newton` has learnt is as before when Run returns, its matrices are not.
+  // How the solve watches its iterates.
+  struct Watch {
+    std::function<bool(const Point&)> is_acceptable;  // asked for every iterate
+    std::function<bool()> goes_on;                    // asked for every iterate that is not acceptable; false: kStopped
+  };
+
+  // Both outlive this object; what `newton` has learnt is as before when Run or Resume returns, its matrices are not.
   Restoration(BarrierProblem& barrier, NewtonSystem& newton, const NlpOptions& options);
 
-  // The barrier parameter is that of the solve, `mu`, or the largest violation, if that is larger. is_acceptable: asked
-  // for every iterate. goes_on: called for every iterate that is not acceptable; false: kStopped.
-  End Run(const Point& from, const Multipliers& multipliers, double mu,
-          const std::function<bool(const Point&)>& is_acceptable, const std::function<bool()>& goes_on);
+  // The barrier parameter is that of the solve, `mu`, or the largest violation, if that is larger.
+  End Run(const Point& from, const Multipliers& multipliers, double mu, const Watch& watch);
+  // Goes on from a state of a phase that began at the same point, after goes_on has been asked for it. It takes the
+  // steps of a phase that was not interrupted. Contract: the sizes fit, and w is within the bounds.
+  End Resume(const Point& from, const RestorationState& state, const Watch& watch);
+  // From which Resume goes on. Contract: goes_on is being asked.
+  RestorationState State() const;
+  // What the Newton system had learnt where the phase began, which it will know again where it ends.
+  const NewtonSystem::Memory& newton_before() const { return newton_before_; }
 
+  // Of the present iterate.
   const Point& point() const { return point_; }
   const OptimalityError& error() const { return error_; }  // of the problem of restoration
   double mu() const { return parameter_.mu(); }
@@ -46,22 +59,22 @@ class Restoration {
   int trials() const { return trials_; }
 
  private:
-  struct Elastic {
-    VectorX p, n, z_p, z_n;  // rows(); 0 in rows without bounds, multipliers 1 there
-  };
-
-  bool Begin(const Point& from, const Multipliers& multipliers, double mu);
+  bool Begin(const Multipliers& multipliers, double mu);
+  bool Restore(const RestorationState& state);
+  End Iterate(const Watch& watch, bool is_first);
+  End Finish(End end);
+  void SetReference(const Point& from);
   void MinimiseElastic();
+  // All that depends on the point and the multipliers, the error among it. To be called whenever one of them changes.
   bool Linearise();
-  OptimalityError ErrorAt(double mu) const;
+  void FillLagrangian();
+  OptimalityError ErrorAt(double mu);
   bool ComputeStep();
   bool ComputeStepWithoutCurvature();
   void LinearChange();
   bool LineSearch();
-  double MaxStep(const VectorX& value, const VectorX& step, double tau) const;
-  void Residual(const Point& point, const Elastic& elastic, VectorX* residual) const;
-  LinePoint At(const Point& point, const Elastic& elastic) const;
-  double Slope() const;
+  LinePoint At(const Point& point, const ElasticVariables& elastic) const;
+  double Slope();
   void Accept(double alpha);
   double eta() const;
   bool is_elastic(int row) const { return is_elastic_(row) != 0; }
@@ -73,14 +86,16 @@ class Restoration {
   VectorX is_elastic_;               // rows(): 1, or 0 in rows without bounds
   VectorX reference_, scale_;        // x_R and D² (variables())
   Point point_, trial_, effective_;  // effective_: c as it stands in the Newton system
-  Elastic elastic_, trial_elastic_, elastic_step_;
+  ElasticVariables elastic_, trial_elastic_, elastic_step_;
   Multipliers multipliers_;
   NewtonStep step_;
   StepAcceptance acceptance_;
   OptimalityError error_;
   VectorX proximity_;   // its gradient by x
   VectorX lagrangian_;  // by w, without the multipliers of bounds
-  VectorX residual_, change_, gradient_, curvature_, compliance_;
+  VectorX gradient_;    // Aᵀ y by w
+  VectorX change_, curvature_, compliance_, objective_gradient_, barrier_gradient_;
+  NewtonSystem::Memory newton_before_;
   double primal_step_ = 0, dual_step_ = 0, step_norm_ = 0;
   int trials_ = 0;
 };

@@ -20,19 +20,20 @@ enum class Termination {
   kCancelled,
 };
 
-// One iteration in Ipopt's terms; see rollgait.v1.Iteration.
+// One iteration in Ipopt's terms; see rollgait.v1.Iteration. Of one program each index is reported once, 0, 1, 2 …,
+// whichever solver an iteration is of.
 struct IterationInfo {
   int index = 0;
   double objective = 0;
   double primal_infeasibility = 0;
-  double dual_infeasibility = 0;
-  double barrier_parameter = 0;
+  double dual_infeasibility = 0;  // of this point; within restoration, of the problem of restoration
+  double barrier_parameter = 0;   // with which the step to this point was computed
   double step_norm = 0;
   double regularization = 0;
   double primal_step = 0;
   double dual_step = 0;
   int line_search_trials = 0;
-  bool restoration = false;
+  bool restoration = false;  // of a restoration phase, or of Ipopt where it has taken over
   double elapsed_s = 0;
   int mesh = 0;
   // The point of the iteration, scaled as the NLP is, for as long as the observer runs; null in Ipopt's iterations.

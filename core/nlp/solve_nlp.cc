@@ -18,7 +18,7 @@ NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptio
   SolveControl numbered = control;
   if (control.observer) {
     numbered.observer = [&](IterationInfo info) {
-      if (info.index == 0) return;  // the point that has been reported already
+      if (info.index == 0) return;  // the point where our solver found no step, which has been reported
       info.index += first.result.iterations;
       info.elapsed_s += first.result.wall_time_s;
       info.restoration = true;

@@ -26,13 +26,17 @@ bool IsTiny(const VectorX& step, const BarrierProblem::Point& point) {
   return point.theta < 1e-4;
 }
 
-double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau) {
+double MaxPositiveStep(const VectorX& value, const VectorX& step, double tau) {
   double alpha = 1;
-  for (int i = 0; i < step.lower.size(); ++i) {
-    if (step.lower(i) < 0) alpha = std::min(alpha, tau * multipliers.lower(i) / -step.lower(i));
-    if (step.upper(i) < 0) alpha = std::min(alpha, tau * multipliers.upper(i) / -step.upper(i));
+  for (int i = 0; i < step.size(); ++i) {
+    if (step(i) < 0) alpha = std::min(alpha, tau * value(i) / -step(i));
   }
   return alpha;
+}
+
+double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau) {
+  return std::min(MaxPositiveStep(multipliers.lower, step.lower, tau),
+                  MaxPositiveStep(multipliers.upper, step.upper, tau));
 }
 
 }  // namespace rollgait

@@ -11,7 +11,9 @@ double MaxPrimalStep(const BarrierProblem& barrier, const BarrierProblem::Point&
                      double tau);
 // Whether a step from a point that is nearly feasible is lost in the rounding of w.
 bool IsTiny(const VectorX& step, const BarrierProblem::Point& point);
-// The largest step for the multipliers of bounds, likewise.
+// The largest step after which positive numbers are at least 1 − τ of what they were.
+double MaxPositiveStep(const VectorX& value, const VectorX& step, double tau);
+// The same for the multipliers of bounds.
 double MaxDualStep(const Multipliers& multipliers, const Multipliers& step, double tau);
 
 }  // namespace rollgait

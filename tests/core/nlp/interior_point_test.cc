@@ -28,6 +28,7 @@ TEST(InteriorPoint, TakesTheIterationsOfIpopt) {
   for (size_t i = 0; i < ours.size(); ++i) {
     EXPECT_NEAR(ours[i].objective, ipopt[i].objective, 1e-6) << i;
     EXPECT_NEAR(ours[i].primal_step, ipopt[i].primal_step, 1e-5) << i;
+    EXPECT_NEAR(ours[i].barrier_parameter, ipopt[i].barrier_parameter, 1e-9) << i;
     EXPECT_NEAR(ours[i].primal_infeasibility, ipopt[i].primal_infeasibility,
                 1e-6 + 1e-5 * ipopt[i].primal_infeasibility);
   }

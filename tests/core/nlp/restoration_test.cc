@@ -1,4 +1,5 @@
-// The restoration phase of the interior point method. What it does on many programs: suite/suite_test.cc.
+// The restoration phase by itself, and what the solve does with it: restored_solve_test.cc. What it does on many
+// programs: suite/suite_test.cc.
 #include "core/nlp/restoration.h"
 
 #include <gtest/gtest.h>
@@ -6,11 +7,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/nlp/bound_multipliers.h"
 #include "core/nlp/interior_point.h"
 #include "core/nlp/ipopt_solver.h"
+#include "core/nlp/solve_nlp.h"
 #include "tests/core/nlp/hs071.h"
 #include "tests/core/nlp/suite/chain_program.h"
 #include "tests/core/nlp/suite/measure.h"
+#include "tests/support/allocation_counter.h"
 
 namespace rollgait {
 namespace {
@@ -97,85 +101,128 @@ TEST(Restoration, EndsInTheMinimumOfTheSumOfViolations) {
   }
 }
 
-// Problem 65 of Hock and Schittkowski goes through restoration and ends at its solution.
-class Restored : public ::testing::Test {
- protected:
-  static suite::SuiteRow Row() {
-    for (const suite::SuiteRow& row : suite::HockSchittkowskiLarge()) {
-      if (row.name == "HS65") return row;
-    }
-    return {};
+// A phase by itself, of problem 71 of Hock and Schittkowski or one like it.
+struct Phase {
+  explicit Phase(NlpProblem& program) : barrier(program, options.BoundRelaxation()), newton(barrier, options) {
+    EXPECT_TRUE(barrier.MakeInterior(Hs071::Start(), 0.01, &from));
+    StartBoundMultipliers(barrier, from, options.initial_barrier, {}, false, &multipliers);
   }
-  InteriorPointResult Solve(const NlpOptions& options, const SolveControl& control,
-                            const Resumption& resumption = {}) const {
-    const auto program = Row().make();
-    return SolveWithInteriorPoint(*program, suite::StartOf(Row()), options, control, resumption);
+  Restoration::End Run(const std::function<bool()>& goes_on) {
+    const auto never = [](const BarrierProblem::Point&) { return false; };
+    return restoration.Run(from, multipliers, options.initial_barrier, {never, goes_on});
   }
+  NlpOptions options = suite::SuiteOptions();
+  BarrierProblem barrier;
+  NewtonSystem newton;
+  Restoration restoration{barrier, newton, options};
+  BarrierProblem::Point from;
+  Multipliers multipliers;
 };
 
-TEST_F(Restored, IterationsAreNumberedThroughAndMarked) {
+// Squares of numbers above 1 do not add up to 3. The error that is seen is that of the point that is seen: at the last
+// one it is what ends the phase.
+TEST(RestorationPhase, ErrorIsThatOfThePresentIterate) {
+  Hs071 program(3);
+  Phase phase(program);
+  std::vector<double> errors;
+  const auto end = phase.Run([&] {
+    errors.push_back(phase.restoration.error().scaled);
+    return true;
+  });
+  EXPECT_EQ(end, Restoration::End::kInfeasible);
+  ASSERT_GT(errors.size(), 3u);
+  for (size_t i = 0; i < errors.size(); ++i)
+    EXPECT_EQ(errors[i] <= phase.options.tolerance, i + 1 == errors.size()) << i;
+}
+
+TEST(RestorationPhase, IterationsAllocateNothing) {
+  Hs071 program(3);
+  Phase phase(program);
+  std::vector<long> counts;
+  counts.reserve(1000);
+  phase.Run([&] {
+    counts.push_back(Allocations());
+    return counts.size() < 1000;
+  });
+  ASSERT_GT(counts.size(), 3u);
+  for (size_t i = 1; i < counts.size(); ++i) EXPECT_EQ(counts[i], counts[i - 1]) << i;
+}
+
+TEST(RestorationPhase, NorDoTheOtherIterationsOfASolve) {
+  Hs071 program;
+  std::vector<long> counts;
+  counts.reserve(1000);
+  SolveControl control;
+  control.observer = [&](const IterationInfo&) { counts.push_back(Allocations()); };
+  SolveWithInteriorPoint(program, {Hs071::Start(), {}, {}, {}}, suite::SuiteOptions(), control);
+  ASSERT_GT(counts.size(), 5u);
+  for (size_t i = 2; i < counts.size(); ++i) EXPECT_EQ(counts[i], counts[i - 1]) << i;
+}
+
+// Has no values from when it is told so until its derivatives are asked for.
+class Interrupted : public Hs071 {
+ public:
+  Interrupted() : Hs071(3) {}
+  bool Constraints(const double* x, double* g) override { return has_values && Hs071::Constraints(x, g); }
+  bool Derivatives(const double* x, double sigma, const double* lambda, double* jacobian, double* hessian) override {
+    has_values = true;
+    points.push_back(Eigen::Map<const VectorX>(x, 4));
+    multipliers.push_back(Eigen::Map<const VectorX>(lambda, 2));
+    return Hs071::Derivatives(x, sigma, lambda, jacobian, hessian);
+  }
+  bool has_values = true;
+  std::vector<VectorX> points, multipliers;  // of derivatives
+};
+
+// Where the line search fails, elastic variables and multipliers are set anew; the derivatives are those of the new
+// multipliers, at the same point.
+TEST(RestorationPhase, DerivativesFollowTheMultipliersThatAreSetAnew) {
+  Interrupted program;
+  Phase phase(program);
+  int seen = 0;
+  size_t before = 0;
+  const auto end = phase.Run([&] {
+    if (++seen == 2) {
+      program.has_values = false;
+      before = program.points.size();
+    }
+    return true;
+  });
+  EXPECT_EQ(end, Restoration::End::kInfeasible);
+  ASSERT_GT(before, 0u);
+  ASSERT_GT(program.points.size(), before + 1);
+  EXPECT_EQ(program.points[before], program.points[before - 1]);
+  EXPECT_NE(program.multipliers[before], program.multipliers[before - 1]);
+}
+
+// Its derivatives are refused to our solver after an iteration of restoration; Ipopt asks for them one by one.
+class Refused : public Hs071 {
+ public:
+  Refused() : Hs071(3) {}
+  bool Derivatives(const double* x, double sigma, const double* lambda, double* jacobian, double* hessian) override {
+    return (sigma > 0 || ++asked_ <= 2) && Hs071::Derivatives(x, sigma, lambda, jacobian, hessian);
+  }
+
+ private:
+  int asked_ = 0;
+};
+
+// Ipopt takes over, iterations are numbered through, and its first point is not reported again.
+TEST(RestorationPhase, IpoptTakesOverWhereItFails) {
   std::vector<IterationInfo> seen;
   SolveControl control;
   control.observer = [&](const IterationInfo& info) { seen.push_back(info); };
-  const InteriorPointResult out = Solve(suite::SuiteOptions(), control);
-  ASSERT_EQ(out.result.termination, Termination::kOptimal) << out.result.message;
-  ASSERT_EQ(static_cast<int>(seen.size()), out.result.iterations + 1);
+  Refused program;
+  const NlpResult result = SolveNlp(program, {Hs071::Start(), {}, {}, {}}, suite::SuiteOptions(), control);
+  EXPECT_EQ(result.termination, Termination::kInfeasible) << result.message;
   int restored = 0;
+  ASSERT_EQ(seen.size(), static_cast<size_t>(result.iterations) + 1);
   for (size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(seen[i].index, static_cast<int>(i));
-    if (!seen[i].restoration) continue;
-    ++restored;
-    ASSERT_GT(i, 0u);
-    EXPECT_LT(seen[i].primal_infeasibility, seen[i - 1].primal_infeasibility);
+    EXPECT_EQ(seen[i].x == nullptr, seen[i].index > result.restored_from) << i;
+    restored += seen[i].restoration && seen[i].index <= result.restored_from ? 1 : 0;
   }
-  EXPECT_GT(restored, 0);
-}
-
-TEST_F(Restored, IsStoppedWithinIt) {
-  StopFlag stop;
-  SolveControl control;
-  control.stop = &stop;
-  int last = -1;
-  control.observer = [&](const IterationInfo& info) {
-    last = info.index;
-    if (info.restoration) stop.Request();
-  };
-  const InteriorPointResult out = Solve(suite::SuiteOptions(), control);
-  EXPECT_EQ(out.result.termination, Termination::kCancelled);
-  EXPECT_FALSE(out.needs_restoration);
-  EXPECT_EQ(out.result.iterations, last);
-}
-
-TEST_F(Restored, IsSubjectToTheIterationLimit) {
-  int first = -1;
-  SolveControl control;
-  control.observer = [&](const IterationInfo& info) {
-    if (info.restoration && first < 0) first = info.index;
-  };
-  Solve(suite::SuiteOptions(), control);
-  ASSERT_GT(first, 0);
-  NlpOptions options = suite::SuiteOptions();
-  options.max_iterations = first;
-  const InteriorPointResult out = Solve(options, {});
-  EXPECT_EQ(out.result.termination, Termination::kIterationLimit);
-  EXPECT_EQ(out.result.iterations, first);
-  EXPECT_FALSE(out.needs_restoration);
-}
-
-// A state from before it and one from after it lead to the same end, to the last bit.
-TEST_F(Restored, GoesOnFromAnyState) {
-  struct AllStates : StateKeeper {
-    bool IsDue(int) override { return true; }
-    void Keep(const InteriorPointState& state) override { states.push_back(state); }
-    std::vector<InteriorPointState> states;
-  } keeper;
-  const InteriorPointResult whole = Solve(suite::SuiteOptions(), {}, {nullptr, &keeper});
-  ASSERT_GT(keeper.states.size(), 3u);
-  for (const InteriorPointState& state : keeper.states) {
-    const InteriorPointResult rest = Solve(suite::SuiteOptions(), {}, {&state, nullptr});
-    EXPECT_EQ(rest.result.x, whole.result.x) << state.iteration;
-    EXPECT_EQ(rest.result.iterations, whole.result.iterations) << state.iteration;
-  }
+  EXPECT_EQ(restored, 1);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::vector<SuiteRow> ChainRows() {
   // The controls are too weak to bring the state so far.
   Answer out_of_reach;
   out_of_reach.ours = out_of_reach.ipopt = Termination::kInfeasible;
-  out_of_reach.restores = true;
+  out_of_reach.restores = Restores::kYes;
   return {
       Chain("chain 1", {1, 10}, alike),
       Chain("chain 2, final state", {2, 20, 0, 0.1, true, 0}, alike),

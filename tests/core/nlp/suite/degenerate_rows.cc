@@ -5,9 +5,12 @@
 namespace rollgait::suite {
 
 std::vector<SuiteRow> DegenerateRows() {
-  const Answer local{
-      {1.5}, 1e-6, "a local minimum of the sum of violations", Termination::kInfeasible, Termination::kInfeasible,
-      true};
+  const Answer local{{1.5},
+                     1e-6,
+                     "a local minimum of the sum of violations",
+                     Termination::kInfeasible,
+                     Termination::kInfeasible,
+                     Restores::kYes};
   return {
       // Hock and Schittkowski: no multipliers at (1, 0), where the gradient of the row is that of a bound.
       Row("HS13", {-2, -2}, Each(2, kPositive), {kPositive}, Written([](const auto* x, auto* y) {

@@ -149,7 +149,7 @@ std::vector<SuiteRow> HockSchittkowskiSmall() {
             y[0] = 0.01 * Square(x[0] - 1) + Square(x[1] - x[0] * x[0]);
             y[1] = x[0] + x[2] * x[2];
           }),
-          {.values = {0.04}, .restores = true}),
+          {.values = {0.04}, .restores = Restores::kYes}),
       Row("HS28", {-4, 1, 1}, Each(3, kFree), {{1, 1}}, Written([](const auto* x, auto* y) {
             y[0] = Square(x[0] + x[1]) + Square(x[1] + x[2]);
             y[1] = x[0] + 2 * x[1] + 3 * x[2];

@@ -14,7 +14,7 @@ Answer Infeasible(double least_violation) {
   answer.tolerance = 1e-5;
   answer.why = "restoration minimises the sum with a barrier";
   answer.ours = answer.ipopt = Termination::kInfeasible;
-  answer.restores = true;
+  answer.restores = Restores::kYes;
   return answer;
 }
 

@@ -11,6 +11,10 @@
 
 namespace rollgait::suite {
 
+// Whether SolveNlp enters its restoration phase. kByRounding: it depends on the compiler and its options, the row says
+// which.
+enum class Restores { kNo, kYes, kByRounding };
+
 // How the solvers are expected to end on a program, and where. What a solver cannot do stands here.
 struct Answer {
   // The published optimal value, and what else is a local minimum (why says so). Of an infeasible program: the sum of
@@ -22,8 +26,8 @@ struct Answer {
   std::string why = "";
   Termination ours = Termination::kOptimal;   // of SolveNlp
   Termination ipopt = Termination::kOptimal;  // of Ipopt alone
-  bool restores = false;                      // SolveNlp enters its restoration phase
-  bool is_taken_over = false;                 // SolveNlp ends by Ipopt
+  Restores restores = Restores::kNo;
+  bool is_taken_over = false;  // SolveNlp ends by Ipopt
 };
 
 struct SuiteRow {
