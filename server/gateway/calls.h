@@ -15,7 +15,7 @@
 
 namespace rollgait::server {
 
-// What is longer is turned into JSON, or from it, in a thread of its own.
+// What is longer is turned into JSON, or from it, in threads for that alone.
 inline constexpr size_t kLongText = 64 << 10;
 
 // What all answers of a gateway share. Calls that end late keep it alive; whoever ends the gateway waits for `calls`.
@@ -30,7 +30,7 @@ struct CallContext {
   bool behind_door;     // the door is told of refusals
   std::shared_ptr<HttpAnswer> answer;
   std::shared_ptr<GatewayUse> use;
-  Executor* conversions;  // of long texts, so that they take no thread of gRPC; outlives the calls
+  Executor* conversions;  // of long answers, so that they take no thread of gRPC; outlives the calls
   Place stream;           // until it is over
   Place body;             // of a long body, until rollgaitd answers
 };

@@ -65,16 +65,18 @@ Gateway::Gateway(const GatewayOptions& options)
           options.streams_per_peer > 0 ? options.streams_per_peer : std::max(1, options.streams / 2))),
       long_bodies_(std::make_shared<Places>("long bodies", options.long_bodies, options.long_bodies_per_peer)),
       executor_(kThreads, kWaiting),
-      conversions_(1, kWaiting) {}
+      bodies_(1, kWaiting),
+      answers_(1, kWaiting) {}
 
 Gateway::~Gateway() {
   executor_.Stop();
+  bodies_.Stop();
   for (int calls = 0; (calls = use_->calls.load()) > 0;) use_->calls.wait(calls);
 }
 
 void Gateway::Handle(HttpRequest request, std::shared_ptr<HttpAnswer> answer) {
   const HttpHeaders headers = HeadersFor(request);
-  Executor& executor = request.body.size() > kLongText ? conversions_ : executor_;
+  Executor& executor = request.body.size() > kLongText ? bodies_ : executor_;
   const auto shared = std::make_shared<HttpRequest>(std::move(request));
   if (executor.TryPost([this, shared, answer] { Answer(std::move(*shared), answer); })) return;
   SendProblem(MakeProblem(503, grpc::StatusCode::UNAVAILABLE, "too many requests wait; try again", 1), headers,
@@ -96,7 +98,7 @@ void Gateway::Admit(const HttpRequest& head, std::shared_ptr<HttpAnswer> answer)
   UpstreamCall::Request call = MakeCall(route, head, "");
   call.method = "/" + route.method->service()->full_name() + "/GetServerInfo";
   call.deadline = options_.call_time;
-  AskForBody({&route, std::move(target->headers), options_.behind_door, std::move(answer), use_, &conversions_, nullptr,
+  AskForBody({&route, std::move(target->headers), options_.behind_door, std::move(answer), use_, &answers_, nullptr,
               std::move(place).value()},
              upstream_.channel(), std::move(call));
 }
@@ -210,8 +212,8 @@ UpstreamCall::Request Gateway::MakeCall(const ResolvedRoute& route, const HttpRe
 void Gateway::Begin(const Target& target, HttpRequest request, std::string message,
                     const std::shared_ptr<HttpAnswer>& answer) {
   const ResolvedRoute& route = *target.match.route;
-  CallContext context{&route,        target.headers, options_.behind_door,    answer, use_,
-                      &conversions_, nullptr,        std::move(request.place)};
+  CallContext context{&route,    target.headers, options_.behind_door,    answer, use_,
+                      &answers_, nullptr,        std::move(request.place)};
   UpstreamCall::Request call = MakeCall(route, request, std::move(message));
   if (!route.streams()) {
     return AnswerOnce(std::move(context), upstream_.channel(), std::move(call), options_.answer_bytes);

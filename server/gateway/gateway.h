@@ -67,8 +67,10 @@ class Gateway final : public HttpService {
   const Upstream upstream_;
   const std::shared_ptr<GatewayUse> use_ = std::make_shared<GatewayUse>();
   const std::shared_ptr<Places> streams_, long_bodies_;
-  Executor executor_;     // of short requests
-  Executor conversions_;  // of long texts: one thread, so that one at a time takes memory
+  Executor executor_;  // of short requests
+  // Of long texts, one thread each, so that one at a time takes memory; who sends bodies that are slow to convert holds
+  // up no answers.
+  Executor bodies_, answers_;
 };
 
 // What GET /v1/openapi.json answers with.

@@ -119,6 +119,19 @@ TEST(RequestMessage, BodiesThatAreNoSuchMessageAreRefused) {
   EXPECT_THAT(create(deep), StartsWith("the body is not"));
 }
 
+// docs/how-to/http.md says what is taken besides JSON.
+TEST(RequestMessage, TheParserIsAsLenientAsIsSaid) {
+  for (const char* body : {"{'requestId':'b'}", R"({requestId:"b"})", R"({"requestId":"b",})", R"({"request_id":"b"})",
+                           R"({"requestId":"a","requestId":"b"})", R"({"requestId":"b","spec":null})",
+                           R"({"requestId":"b","spec":{"slopeRad":"0.5"}})"}) {
+    EXPECT_EQ(Read<v1::CreateSolveRequest>(Make("POST", "/v1/solves", "", body)).request_id(), "b") << body;
+  }
+  for (const char* body :
+       {R"({"labels":{"a":"1","a":"2"}})", R"({"requestId":"a" /* b */})", "{}x", R"({"nothing":1})"}) {
+    EXPECT_THAT(Refusal(Make("POST", "/v1/solves", "", body)), StartsWith("the body is not")) << body;
+  }
+}
+
 TEST(RequestMessage, EventsAreThoseOfTheStandard) {
   const RouteMatch watch = Table().Match("GET", "/v1/solves/a:watch"), run = Table().Match("POST", "/v1/solves:run");
   v1::SolveEvent event;
