@@ -120,15 +120,15 @@ TEST_F(HttpServerTest, AClientThatLeavesIsNoticedBeforeAnythingIsWritten) {
     auto client = std::make_unique<Client>(path_);
     client->Write(kGet);
     const auto asked = service_.Next();
-    std::promise<void> closed;
-    ASSERT_TRUE(asked.answer->Listen({{}, {}, {}, {}, [&] { closed.set_value(); }}));
+    const auto closed = std::make_shared<std::promise<void>>();  // also for a call that comes too late
+    ASSERT_TRUE(asked.answer->Listen({{}, {}, {}, {}, [closed] { closed->set_value(); }}));
     if (streams) {
       asked.answer->Begin({});
       asked.answer->Push(": here\n\n");
       EXPECT_THAT(client->Read(": here"), HasSubstr("text/event-stream"));
     }
     client.reset();
-    EXPECT_EQ(closed.get_future().wait_for(kLong), std::future_status::ready) << "streams: " << streams;
+    EXPECT_EQ(closed->get_future().wait_for(kLong), std::future_status::ready) << "streams: " << streams;
   }
 }
 
