@@ -1,6 +1,7 @@
 #include "server/base/listen_address.h"
 
 #include <arpa/inet.h>
+#include <strings.h>
 
 namespace rollgait::server {
 
@@ -15,7 +16,7 @@ std::string HostOf(const std::string& address) {
 bool IsLoopbackHost(const std::string& host) {
   in_addr v4{};
   if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24) == 127;
-  return host == "::1" || host == "localhost";
+  return host == "::1" || strcasecmp(host.c_str(), "localhost") == 0;
 }
 
 bool IsLoopback(const std::string& address) {

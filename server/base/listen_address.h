@@ -8,8 +8,8 @@ namespace rollgait::server {
 // HOST of "HOST:PORT" or of HOST alone, without the brackets of an IPv6 address.
 std::string HostOf(const std::string& address);
 
-// True if every address that a host stands for is a loopback address: 127.0.0.0/8, ::1, localhost. By name alone: no
-// name is looked up.
+// True if every address that a host stands for is a loopback address: 127.0.0.0/8, ::1, localhost in any case of
+// letters. By name alone: no name is looked up.
 bool IsLoopbackHost(const std::string& host);
 
 // The same of "HOST:PORT"; and of "unix:PATH", which no other machine reaches either.

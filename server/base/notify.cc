@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace rollgait::server {
@@ -38,26 +38,26 @@ Outcome<NotifyReceiver> NotifyReceiver::Create(const std::string& directory, con
   const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   unlink(path.c_str());
   const sockaddr_un address = AddressIn(directory_fd, name);
-  struct stat info {};
-  if (fd < 0 || bind(fd, Generic(address), sizeof(address)) != 0 || stat(path.c_str(), &info) != 0) {
+  const bool bound = fd >= 0 && bind(fd, Generic(address), sizeof(address)) == 0;
+  std::optional<SocketFile> file = bound ? SocketFile::At(path) : std::nullopt;
+  if (!file.has_value()) {
     const Error error = Unavailable("cannot listen on the socket " + path);
     if (fd >= 0) close(fd);
     close(directory_fd);
     return error;
   }
   close(directory_fd);
-  return NotifyReceiver(fd, path, info.st_ino);
+  return NotifyReceiver(fd, *std::move(file));
 }
 
 NotifyReceiver::NotifyReceiver(NotifyReceiver&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), inode_(other.inode_) {}
+    : fd_(std::exchange(other.fd_, -1)), file_(std::move(other.file_)) {}
 
 NotifyReceiver& NotifyReceiver::operator=(NotifyReceiver&& other) noexcept {
   if (this != &other) {
     Close();
     fd_ = std::exchange(other.fd_, -1);
-    path_ = std::move(other.path_);
-    inode_ = other.inode_;
+    file_ = std::move(other.file_);
   }
   return *this;
 }
@@ -66,8 +66,7 @@ NotifyReceiver::~NotifyReceiver() { Close(); }
 
 void NotifyReceiver::Close() {
   if (fd_ < 0) return;
-  struct stat info {};
-  if (stat(path_.c_str(), &info) == 0 && info.st_ino == inode_) unlink(path_.c_str());
+  file_.Remove();
   close(fd_);
   fd_ = -1;
 }

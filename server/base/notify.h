@@ -10,6 +10,7 @@
 
 #include "server/base/hint_channel.h"
 #include "server/base/outcome.h"
+#include "server/base/socket_file.h"
 
 namespace rollgait::server {
 
@@ -37,12 +38,11 @@ class NotifyReceiver {
   std::vector<std::string> Drain();
 
  private:
-  NotifyReceiver(int fd, std::string path, unsigned long inode) : fd_(fd), path_(std::move(path)), inode_(inode) {}
+  NotifyReceiver(int fd, SocketFile file) : fd_(fd), file_(std::move(file)) {}
   void Close();
 
   int fd_ = -1;
-  std::string path_;
-  unsigned long inode_ = 0;
+  SocketFile file_;
 };
 
 // Sending end. Any number of threads may share it. Immutable.

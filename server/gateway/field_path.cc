@@ -61,6 +61,25 @@ std::string JsonValue(const FieldDescriptor& field, const std::string& value) {
                                                                                              : JsonString(value);
 }
 
+// Why FindField finds nothing at `path`: the first name that does not exist, or the message where a query's paths end.
+std::string WhyNotFound(const Descriptor& type, std::string_view path) {
+  const Descriptor* owner = &type;
+  while (true) {
+    const size_t dot = path.find('.');
+    const std::string name(path.substr(0, dot));
+    const FieldDescriptor* field = Child(*owner, name);
+    if (field == nullptr) return owner->name() + " has no field " + name;
+    if (dot == std::string_view::npos) {
+      return "cannot be set in a query, whose paths go through one message at most; requests with a body can have it";
+    }
+    if (field->is_repeated() || field->type() != FieldDescriptor::TYPE_MESSAGE || IsTime(*field)) {
+      return name + " has no fields that a query can set";
+    }
+    owner = field->message_type();
+    path.remove_prefix(dot + 1);
+  }
+}
+
 }  // namespace
 
 const FieldDescriptor* FindField(const Descriptor& type, std::string_view path) {
@@ -94,7 +113,7 @@ std::string SetQueryField(Message& message, std::string_view path, const std::st
   const std::string shown(path);
   const SplitPath split = Split(*message.GetDescriptor(), path);
   const FieldDescriptor* field = FindField(*message.GetDescriptor(), split.path);
-  if (field == nullptr) return shown + ": " + message.GetDescriptor()->name() + " has no such field";
+  if (field == nullptr) return shown + ": " + WhyNotFound(*message.GetDescriptor(), split.path);
   if (!IsQueryField(*field) || field->is_map() != split.has_key) {
     return shown + ": cannot be set in a query; " +
            (field->is_map() ? "of a map one entry is, " + split.path + "[KEY]=VALUE" : "it is no single value");
@@ -119,7 +138,9 @@ std::string SetQueryField(Message& message, std::string_view path, const std::st
   const auto status =
       google::protobuf::util::JsonStringToMessage("{" + JsonString(field->json_name()) + ":" + json + "}", read.get());
   if (!status.ok()) return shown + "=" + value + ": " + PlainText(status.message().ToString());
+  const int entries = field->is_map() ? reflection.FieldSize(*owner, field) : 0;
   owner->MergeFrom(*read);
+  if (field->is_map() && reflection.FieldSize(*owner, field) == entries) return shown + ": is given twice";
   return "";
 }
 

@@ -27,7 +27,8 @@ std::vector<QueryField> QueryFields(const google::protobuf::Descriptor& type);
 
 // Sets the field that `path` names to `value`, valid UTF-8 that is read as proto3 JSON reads the string. A field that
 // is repeated gets one more value; "labels.KEY" and "labels[KEY]" set one entry of a map. Returns what is wrong, empty:
-// nothing. A field that is not repeated is set once: a second time is refused, as is a field that a query cannot set.
+// nothing. A field that is not repeated and an entry of a map are set once: a second time is refused, as is a field
+// that a query cannot set.
 std::string SetQueryField(google::protobuf::Message& message, std::string_view path, const std::string& value);
 
 }  // namespace rollgait::server

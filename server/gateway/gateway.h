@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "server/base/executor.h"
 #include "server/gateway/calls.h"
 #include "server/gateway/http_exchange.h"
+#include "server/gateway/places.h"
 #include "server/gateway/problem.h"
 #include "server/gateway/routes.h"
 #include "server/gateway/upstream.h"
@@ -22,31 +24,53 @@ struct GatewayOptions {
   std::vector<std::string> origins;  // pages of these may ask from a browser; others are refused
   std::chrono::milliseconds call_time{60'000};
   std::chrono::milliseconds stream_time{3'600'000};
-  int streams = 64;  // that are open at once
+  int streams = 64;          // that are open at once
+  int streams_per_peer = 0;  // 0: half of them, so that no one keeps all others out
+  int long_bodies = 12;      // on their way or not answered yet; a long one is HttpLimits::short_body_bytes
+  int long_bodies_per_peer = 4;
   int64_t answer_bytes =
       int64_t{128} << 20;  // of answers that clients have not taken; beyond, one is refused unless it is alone
 };
 
 // Requests of HTTP as calls of rollgaitd. It decides nothing that rollgaitd decides: who calls, what a request may ask
 // for.
-class Gateway {
+class Gateway final : public HttpService {
  public:
   explicit Gateway(const GatewayOptions& options);
-  // Answers in its own time; never blocks. The gateway outlives the server that calls it.
-  void Handle(HttpRequest request, std::shared_ptr<HttpAnswer> answer);
+  // The server that calls it is gone, with all its answers.
+  ~Gateway() override;
+  // Of CORS.
+  HttpHeaders HeadersFor(const HttpRequest& head) const override;
+  // Lets a long body come when rollgaitd knows who calls, and there is a place for it.
+  void Admit(const HttpRequest& head, std::shared_ptr<HttpAnswer> answer) override;
+  void Handle(HttpRequest request, std::shared_ptr<HttpAnswer> answer) override;
 
  private:
-  void Answer(const HttpRequest& request, const std::shared_ptr<HttpAnswer>& answer);
-  void Begin(const RouteMatch& match, const HttpRequest& request, std::string message, HttpHeaders headers,
-             const std::shared_ptr<HttpAnswer>& answer);
+  // A request that names a call.
+  struct Target {
+    RouteMatch match;
+    std::string query;
+    HttpHeaders headers;  // of the answer
+  };
+  // Null: there is nothing to call, and `answer` has it.
+  std::unique_ptr<Target> Find(const HttpRequest& request, HttpAnswer& answer) const;
+  // Why a browser may not ask so.
+  std::optional<Problem> OriginProblem(const HttpRequest& request) const;
+  void Answer(HttpRequest request, const std::shared_ptr<HttpAnswer>& answer);
+  void Begin(const Target& target, HttpRequest request, std::string message, const std::shared_ptr<HttpAnswer>& answer);
   bool IsAllowedOrigin(const std::string& origin) const;
+  std::string SourceOf(const HttpRequest& request) const;
   UpstreamCall::Request MakeCall(const ResolvedRoute& route, const HttpRequest& request, std::string message) const;
 
   const GatewayOptions options_;
   const RouteTable routes_;
   const Upstream upstream_;
   const std::shared_ptr<GatewayUse> use_ = std::make_shared<GatewayUse>();
-  Executor executor_;
+  const std::shared_ptr<Places> streams_, long_bodies_;
+  Executor executor_;  // of short requests
+  // Of long texts, one thread each, so that one at a time takes memory; who sends bodies that are slow to convert holds
+  // up no answers.
+  Executor bodies_, answers_;
 };
 
 // What GET /v1/openapi.json answers with.

@@ -1,18 +1,22 @@
 #include "server/gateway/http_server.h"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "server/base/listen_socket.h"
+#include "server/base/socket_file.h"
 #include "server/gateway/mhd_exchange.h"
+#include "server/gateway/problem.h"
 
 namespace rollgait::server {
 namespace {
@@ -21,20 +25,31 @@ using std::chrono::milliseconds;
 using Clock = MhdExchange::Clock;
 
 constexpr milliseconds kTick{250};
+constexpr milliseconds kLastWords{300};  // for answers that say that the server stops
 
 // A connection, with the request that is under way on it.
 struct Peer {
   int fd = -1;
+  std::string key;
   Clock::time_point deadline;  // of the next request
   std::shared_ptr<MhdExchange> exchange;
 };
 
+// The other side has closed, or will send nothing more, which counts as that. The library looks at no connection that
+// is suspended.
+bool HasLeft(int fd) {
+  pollfd entry{fd, POLLRDHUP, 0};
+  return poll(&entry, 1, 0) > 0;
+}
+
+bool IsIdle(const Peer& peer) { return peer.exchange == nullptr || !peer.exchange->IsUnderWay(); }
+
 class MhdServer final : public HttpServer {
  public:
-  MhdServer(const HttpLimits& limits, HttpHandler handler) : limits_(limits), handler_(std::move(handler)) {}
+  MhdServer(const HttpLimits& limits, HttpService& service) : limits_(limits), service_(service) {}
 
   Outcome<Done> Open(const std::string& listen) {
-    const Outcome<int> fd = OpenListener(listen, &address_);
+    const Outcome<int> fd = Bind(listen);
     if (!fd.ok()) return fd.error();
     daemon_ = MHD_start_daemon(MHD_USE_POLL | MHD_USE_INTERNAL_POLLING_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ITC,
                                0, nullptr, nullptr, &OnData, this, MHD_OPTION_LISTEN_SOCKET, fd.value(),
@@ -57,13 +72,15 @@ class MhdServer final : public HttpServer {
 
   void Stop(milliseconds grace) override {
     if (daemon_ == nullptr) return;
+    // While the socket still listens its file cannot be a successor's.
+    if (file_.has_value()) file_->Remove();
     const int listener = MHD_quiesce_daemon(daemon_);
     if (listener >= 0) close(listener);
-    Close([](const Peer& peer) { return peer.exchange == nullptr || !peer.exchange->IsUnderWay(); });
-    for (const auto& exchange : Exchanges()) exchange->OnStop();
-    for (const auto end = Clock::now() + grace; Clock::now() < end && !Exchanges().empty();) {
-      std::this_thread::sleep_for(milliseconds(10));
+    WaitForAnswers(grace);
+    for (const auto& exchange : Exchanges()) {
+      exchange->SendProblem(503, grpc::StatusCode::UNAVAILABLE, "the gateway stops; ask again", 1);
     }
+    WaitForAnswers(std::min(grace, kLastWords));
     // The library must not be stopped while connections are suspended.
     while (!Exchanges().empty()) {
       Close([](const Peer&) { return true; });
@@ -76,15 +93,37 @@ class MhdServer final : public HttpServer {
     wake_.notify_all();
     ticker_.join();
     MHD_stop_daemon(std::exchange(daemon_, nullptr));
-    if (address_.rfind("unix:", 0) == 0) unlink(address_.c_str() + 5);
   }
 
  private:
+  Outcome<int> Bind(const std::string& listen) {
+    address_ = listen;
+    if (listen.rfind("unix:", 0) == 0) {
+      const std::string path = listen.substr(5);
+      Outcome<int> fd = ListenOnUnix(path);
+      if (fd.ok()) file_ = SocketFile::At(path);
+      return fd;
+    }
+    Outcome<TcpListeners> listeners = ListenOnTcp(listen, 1);
+    if (!listeners.ok()) return listeners.error();
+    address_ = BoundAddress(listeners.value().fds[0]);
+    return listeners.value().fds[0];
+  }
+
+  // At most so long. Whoever has no request on its way, or half of one, is closed.
+  void WaitForAnswers(milliseconds at_most) {
+    for (const auto end = Clock::now() + at_most; Clock::now() < end; std::this_thread::sleep_for(milliseconds(10))) {
+      for (const auto& exchange : Exchanges()) exchange->OnStop();
+      Close(IsIdle);
+      if (Exchanges().empty()) return;
+    }
+  }
+
   static MHD_Result OnData(void* server, MHD_Connection* connection, const char*, const char* verb, const char*,
                            const char* data, size_t* size, void** exchange) {
     if (*exchange == nullptr) return MHD_NO;
     return static_cast<MhdExchange*>(*exchange)->OnData(connection, verb, data, size,
-                                                        static_cast<MhdServer*>(server)->handler_);
+                                                        static_cast<MhdServer*>(server)->service_);
   }
 
   // The first line of a request is here. What is returned comes back as `exchange`; the peer keeps it alive.
@@ -92,7 +131,7 @@ class MhdServer final : public HttpServer {
     auto& self = *static_cast<MhdServer*>(server);
     Peer* const peer = PeerOf(connection);
     if (peer == nullptr) return nullptr;
-    auto exchange = std::make_shared<MhdExchange>(self.limits_, self.long_bodies_, uri);
+    auto exchange = std::make_shared<MhdExchange>(self.limits_, uri, peer->key);
     const std::lock_guard<std::mutex> lock(self.mutex_);
     peer->exchange = std::move(exchange);
     return peer->exchange.get();
@@ -119,6 +158,9 @@ class MhdServer final : public HttpServer {
       const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
       auto peer = std::make_unique<Peer>();
       peer->fd = info == nullptr ? -1 : info->connect_fd;
+      sockaddr_storage address{};
+      socklen_t size = sizeof address;
+      if (getpeername(peer->fd, reinterpret_cast<sockaddr*>(&address), &size) == 0) peer->key = PeerKey(address);
       peer->deadline = Clock::now() + self.limits_.head_time;
       *context = peer.get();
       self.peers_.insert(std::move(peer));
@@ -143,7 +185,8 @@ class MhdServer final : public HttpServer {
     return exchanges;
   }
 
-  // Closes connections that take too long: libmicrohttpd's own timeouts begin anew with every byte.
+  // Closes connections that take too long, because libmicrohttpd's own timeouts begin anew with every byte, and those
+  // whose answer nobody waits for any more.
   void Tick() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (!wake_.wait_for(lock, kTick, [this] { return stopping_; })) {
@@ -153,8 +196,9 @@ class MhdServer final : public HttpServer {
         if (exchange->OnTick(Clock::now())) late.push_back(exchange);
       }
       Close([&](const Peer& peer) {
-        return peer.exchange == nullptr ? Clock::now() > peer.deadline
-                                        : std::find(late.begin(), late.end(), peer.exchange) != late.end();
+        if (peer.exchange == nullptr) return Clock::now() > peer.deadline;
+        return std::find(late.begin(), late.end(), peer.exchange) != late.end() ||
+               (peer.exchange->IsSuspended() && HasLeft(peer.fd));
       });
       lock.lock();
     }
@@ -171,9 +215,9 @@ class MhdServer final : public HttpServer {
   }
 
   const HttpLimits limits_;
-  const HttpHandler handler_;
+  HttpService& service_;
   std::string address_;
-  const std::shared_ptr<std::atomic<int>> long_bodies_ = std::make_shared<std::atomic<int>>(0);
+  std::optional<SocketFile> file_;
   MHD_Daemon* daemon_ = nullptr;
   std::mutex mutex_;  // protects what follows
   std::condition_variable wake_;
@@ -185,8 +229,8 @@ class MhdServer final : public HttpServer {
 }  // namespace
 
 Outcome<std::unique_ptr<HttpServer>> HttpServer::Start(const std::string& listen, const HttpLimits& limits,
-                                                       HttpHandler handler) {
-  auto server = std::make_unique<MhdServer>(limits, std::move(handler));
+                                                       HttpService& service) {
+  auto server = std::make_unique<MhdServer>(limits, service);
   if (const Outcome<Done> opened = server->Open(listen); !opened.ok()) return opened.error();
   return std::unique_ptr<HttpServer>(std::move(server));
 }

@@ -12,6 +12,7 @@
 #include "server/base/memory_return.h"
 #include "server/base/solver_build.h"
 #include "server/gateway/gateway.h"
+#include "server/gateway/health.h"
 #include "server/gateway/http_server.h"
 
 namespace rollgait::server {
@@ -24,7 +25,7 @@ struct Flags {
   GatewayOptions gateway;
   double call_time_s = 60, stream_time_s = 3600, read_time_s = 30;
   LogFlags log;
-  bool openapi = false;
+  bool openapi = false, health = false;
 };
 
 void AddFlags(CLI::App& app, Flags& flags) {
@@ -53,6 +54,12 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--max-streams", flags.gateway.streams, "Streams of events that are open at once")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
+  app.add_option("--max-streams-per-peer", flags.gateway.streams_per_peer,
+                 "Of them those of one address; 0: half of them")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str();
+  app.add_flag("--health", flags.health,
+               "Ask the gateway that listens at --listen whether it answers, and stop; exit code 0: it does");
   app.add_flag("--openapi", flags.openapi, "Print the OpenAPI document, which /v1/openapi.json is too, and stop");
   AddLogFlags(app, flags.log);
   app.set_version_flag("--version", RollgaitVersion());
@@ -94,9 +101,7 @@ int Serve(const Flags& flags, const sigset_t& end_signals) {
   HttpLimits limits;
   limits.read_time = std::chrono::milliseconds(static_cast<int64_t>(1000 * flags.read_time_s));
   Gateway gateway(options);
-  auto server = HttpServer::Start(flags.listen, limits, [&](HttpRequest request, std::shared_ptr<HttpAnswer> answer) {
-    gateway.Handle(std::move(request), std::move(answer));
-  });
+  auto server = HttpServer::Start(flags.listen, limits, gateway);
   if (!server.ok()) {
     spdlog::critical("{}", server.error().message);
     return 1;
@@ -122,6 +127,11 @@ int Main(int argc, char** argv) {
   if (flags.openapi) {
     std::fputs(OpenApiDocument().c_str(), stdout);
     return 0;
+  }
+  if (flags.health) {
+    const Outcome<Done> health = AskForHealth(flags.listen);
+    if (!health.ok()) std::fprintf(stderr, "%s\n", health.error().message.c_str());
+    return health.ok() ? 0 : 1;
   }
   const sigset_t end_signals = BlockEndSignals();
   StartLogging(flags.log.Of("rollgait-gateway"));

@@ -42,24 +42,32 @@ MHD_Result ReadHeader(void* cls, MHD_ValueKind, const char* name, const char* va
 
 }  // namespace
 
-MhdExchange::MhdExchange(const HttpLimits& limits, std::shared_ptr<std::atomic<int>> long_bodies, std::string uri)
-    : limits_(limits), long_bodies_(std::move(long_bodies)), deadline_(Clock::now() + limits.head_time) {
+MhdExchange::MhdExchange(const HttpLimits& limits, std::string uri, std::string peer)
+    : limits_(limits), deadline_(Clock::now() + limits.head_time) {
   request_.uri = std::move(uri);
-}
-
-MhdExchange::~MhdExchange() {
-  if (is_long_) --*long_bodies_;
+  request_.peer = std::move(peer);
 }
 
 MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size,
-                               const HttpHandler& handler) {
+                               HttpService& service) {
   std::unique_lock<std::mutex> lock(mutex_);
   switch (state_) {
-    case State::kHead:
-      return OnHead(connection, verb);
+    case State::kHead: {
+      const MHD_Result result = OnHead(connection, verb, service);
+      const bool asks = state_ == State::kAsking;
+      lock.unlock();
+      // Nobody but this thread writes the request before the body is let in.
+      if (asks) service.Admit(request_, shared_from_this());
+      return result;
+    }
+    case State::kAdmitted:
+      AwaitBody();
+      return MHD_YES;
     case State::kBody:
       if (*size > 0) {
         request_.body.append(data, *size);
+        deadline_ =
+            body_since_ + limits_.body_time + milliseconds(1000 * request_.body.size() / limits_.body_bytes_per_s);
         *size = 0;
         return MHD_YES;
       }
@@ -69,13 +77,14 @@ MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, con
       suspended_ = true;
       MHD_suspend_connection(connection);
       lock.unlock();
-      handler(std::move(request_), shared_from_this());
+      service.Handle(std::move(request_), shared_from_this());
       return MHD_YES;
     case State::kAnswered:
       return QueueAnswer(connection);
     case State::kSent:
       *size = 0;  // the rest of a body that was refused
       return MHD_YES;
+    case State::kAsking:
     case State::kWorking:
     case State::kAborted:
       return MHD_NO;
@@ -83,11 +92,12 @@ MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, con
   return MHD_NO;
 }
 
-MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb) {
+MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb, HttpService& service) {
   connection_ = connection;
   request_.verb = verb;
   HeadersRead read{request_.headers};
   MHD_get_connection_values(connection, MHD_HEADER_KIND, ReadHeader, &read);
+  own_headers_ = service.HeadersFor(request_);
   if (!read.twice.empty()) return Refuse(connection, 400, "the header " + read.twice + " is given twice");
   if (request_.headers.count("transfer-encoding") > 0) {
     return Refuse(connection, 411, "a body must come with Content-Length, not with Transfer-Encoding");
@@ -103,26 +113,30 @@ MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb) {
                   "the body has " + length + " bytes, the limit is " + std::to_string(limits_.body_bytes));
   }
   if (bytes > limits_.short_body_bytes) {
-    is_long_ = true;
-    if (++*long_bodies_ > limits_.long_bodies) {
-      return Refuse(connection, 503,
-                    std::to_string(limits_.long_bodies) + " long bodies are under way already; try again", 1);
-    }
+    state_ = State::kAsking;
+    deadline_ = Clock::time_point::max();
+    suspended_ = true;
+    MHD_suspend_connection(connection);
+    return MHD_YES;
   }
-  state_ = State::kBody;
-  deadline_ = Clock::now() + limits_.body_time;
+  AwaitBody();
   return MHD_YES;
 }
 
-MHD_Result MhdExchange::Refuse(MHD_Connection* connection, int status, const std::string& message, int retry_after_s) {
-  const auto code = status == 503 ? grpc::StatusCode::UNAVAILABLE : grpc::StatusCode::INVALID_ARGUMENT;
-  response_.status = status;
-  response_.content_type = "application/json";
-  if (retry_after_s > 0) response_.headers.emplace_back("Retry-After", std::to_string(retry_after_s));
-  // What is left of the body is not read.
-  response_.headers.emplace_back("Connection", "close");
-  response_.body = std::make_shared<const std::string>(MakeProblem(status, code, message).json + "\n");
+void MhdExchange::AwaitBody() {
+  state_ = State::kBody;
+  body_since_ = Clock::now();
+  deadline_ = body_since_ + limits_.body_time;
+}
+
+MHD_Result MhdExchange::Refuse(MHD_Connection* connection, int status, const std::string& message) {
+  response_ = ProblemResponse(MakeProblem(status, grpc::StatusCode::INVALID_ARGUMENT, message), own_headers_);
+  closes_ = true;  // what is left of the body is not read
   return QueueAnswer(connection);
+}
+
+void MhdExchange::SendProblem(int status, grpc::StatusCode code, const std::string& message, int retry_after_s) {
+  Send(ProblemResponse(MakeProblem(status, code, message, retry_after_s), own_headers_));
 }
 
 MHD_Result MhdExchange::QueueAnswer(MHD_Connection* connection) {
@@ -147,6 +161,7 @@ MHD_Result MhdExchange::Queue(MHD_Connection* connection, int status, const Http
   if (!response_.content_type.empty()) {
     MHD_add_response_header(response, "Content-Type", response_.content_type.c_str());
   }
+  if (closes_) MHD_add_response_header(response, "Connection", "close");
   MHD_add_response_header(response, "Cache-Control", "no-store");
   MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
   for (const auto& [name, value] : headers) MHD_add_response_header(response, name.c_str(), value.c_str());
@@ -197,7 +212,8 @@ bool MhdExchange::OnTick(Clock::time_point now) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (now > deadline_) return true;
-    if (state_ == State::kWorking && !told_wait_ && now > working_since_ + limits_.patience) {
+    // Who has not begun to listen yet is told later.
+    if (state_ == State::kWorking && !told_wait_ && listener_.on_wait && now > working_since_ + limits_.patience) {
       told_wait_ = true;
       tell = listener_.on_wait;
     }
@@ -221,7 +237,23 @@ bool MhdExchange::IsUnderWay() {
   return state_ == State::kWorking || state_ == State::kAnswered || state_ == State::kSent;
 }
 
-void MhdExchange::OnStop() { NotifyClosed(); }
+bool MhdExchange::IsSuspended() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return suspended_;
+}
+
+void MhdExchange::OnStop() {
+  std::function<void()> tell;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    closes_ = true;
+    if (!told_stop_ && listener_.on_stop) {
+      told_stop_ = true;
+      tell = listener_.on_stop;
+    }
+  }
+  if (tell) tell();
+}
 
 void MhdExchange::Abort() {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -237,9 +269,18 @@ bool MhdExchange::Listen(Listener listener) {
   return true;
 }
 
+void MhdExchange::TakeBody(Place place) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ != State::kAsking) return;
+  request_.place = std::move(place);
+  state_ = State::kAdmitted;
+  Resume();
+}
+
 void MhdExchange::Send(HttpResponse response) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (state_ != State::kWorking) return;
+  if (state_ != State::kWorking && state_ != State::kAsking) return;
+  closes_ = closes_ || state_ == State::kAsking;  // the body is not read
   response_ = std::move(response);
   state_ = State::kAnswered;
   Resume();

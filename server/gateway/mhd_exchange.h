@@ -1,9 +1,9 @@
 #ifndef ROLLGAIT_SERVER_GATEWAY_MHD_EXCHANGE_H_
 #define ROLLGAIT_SERVER_GATEWAY_MHD_EXCHANGE_H_
 
+#include <grpcpp/support/status.h>
 #include <microhttpd.h>
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -20,14 +20,12 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `long_bodies` counts those of all requests; an answer may outlive its server.
-  MhdExchange(const HttpLimits& limits, std::shared_ptr<std::atomic<int>> long_bodies, std::string uri);
-  ~MhdExchange() override;
+  // An answer may outlive its server.
+  MhdExchange(const HttpLimits& limits, std::string uri, std::string peer);
 
   // Whatever libmicrohttpd has to say of the request: headers (first call), a piece of its body, its end, and that it
   // goes on.
-  MHD_Result OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size,
-                    const HttpHandler& handler);
+  MHD_Result OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size, HttpService& service);
   // The request is over, whatever came of it.
   void OnCompleted();
   // What stands in for it in the content reader of libmicrohttpd.
@@ -37,45 +35,51 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
   bool OnTick(Clock::time_point now);
   // Its request is here and its answer is not sent yet.
   bool IsUnderWay();
-  // on_closed, so that the answer ends soon.
+  // The library looks at neither reading nor writing.
+  bool IsSuspended();
+  // on_stop, when there is a listener; its connection has no further request.
   void OnStop();
+  // Of the server itself, instead of an answer.
+  void SendProblem(int status, grpc::StatusCode code, const std::string& message, int retry_after_s);
   // Ends the connection at the next opportunity, without an answer.
   void Abort();
 
   bool Listen(Listener listener) override;
+  void TakeBody(Place place) override;
   void Send(HttpResponse response) override;
   void Begin(HttpHeaders headers) override;
   void Push(std::string text) override;
   void End(std::string text) override;
 
  private:
-  enum class State { kHead, kBody, kWorking, kAnswered, kSent, kAborted };
+  enum class State { kHead, kAsking, kAdmitted, kBody, kWorking, kAnswered, kSent, kAborted };
 
-  MHD_Result OnHead(MHD_Connection* connection, const char* verb);
+  MHD_Result OnHead(MHD_Connection* connection, const char* verb, HttpService& service);
+  void AwaitBody();  // mutex_ is held
   MHD_Result Queue(MHD_Connection* connection, int status, const HttpHeaders& headers, MHD_Response* response);
   MHD_Result QueueAnswer(MHD_Connection* connection);
-  MHD_Result Refuse(MHD_Connection* connection, int status, const std::string& message, int retry_after_s = 0);
+  MHD_Result Refuse(MHD_Connection* connection, int status, const std::string& message);
   void Resume();        // mutex_ is held
   void NotifyClosed();  // mutex_ is not held
   std::chrono::milliseconds TimeToTake(size_t bytes) const;
 
   const HttpLimits limits_;
-  const std::shared_ptr<std::atomic<int>> long_bodies_;
 
   std::mutex mutex_;  // protects what follows
   State state_ = State::kHead;
-  MHD_Connection* connection_ = nullptr;  // null before the head is here and after the end
-  bool suspended_ = false, is_long_ = false;
+  MHD_Connection* connection_ = nullptr;     // null before the head is here and after the end
+  bool suspended_ = false, closes_ = false;  // closes_: after this answer
   HttpRequest request_;
+  HttpHeaders own_headers_;  // of answers of the server itself
   Listener listener_;
   Clock::time_point deadline_;
   // The answer: `response_`, or a stream of texts.
   HttpResponse response_;
-  bool streams_ = false, ended_ = false, told_slow_ = false, told_wait_ = false,
+  bool streams_ = false, ended_ = false, told_slow_ = false, told_wait_ = false, told_stop_ = false,
        owned_ = false;  // owned_: who reads the text tells the owner
   std::string text_;
   size_t taken_ = 0;
-  Clock::time_point working_since_, pushed_, sent_;
+  Clock::time_point body_since_, working_since_, pushed_, sent_;
 };
 
 }  // namespace rollgait::server

@@ -2,6 +2,9 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include <memory>
+#include <utility>
+
 #include "google/rpc/code.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -74,6 +77,15 @@ Problem ProblemOf(const grpc::Status& status) {
   }
   problem.json = ErrorJson(problem.http_status, status.error_code(), PlainText(message), details);
   return problem;
+}
+
+HttpResponse ProblemResponse(const Problem& problem, HttpHeaders headers) {
+  if (problem.retry_after_s > 0) headers.emplace_back("Retry-After", std::to_string(problem.retry_after_s));
+  if (!problem.allow.empty()) headers.emplace_back("Allow", problem.allow);
+  if (problem.http_status == 401) headers.emplace_back("WWW-Authenticate", "Bearer");
+  if (problem.refused_at_door) headers.emplace_back(kDoorRefused, "unauthenticated");
+  return {problem.http_status, std::move(headers), "application/json",
+          std::make_shared<const std::string>(problem.json + "\n")};
 }
 
 Problem MakeProblem(int http_status, grpc::StatusCode code, const std::string& message, int retry_after_s) {

@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "server/gateway/http_exchange.h"
+
 namespace rollgait::server {
 
 // Why a request was not answered with what it asked for.
@@ -24,6 +26,9 @@ int HttpStatusOf(grpc::StatusCode code);
 
 // Of the gateway itself. `message` is valid UTF-8, one sentence.
 Problem MakeProblem(int http_status, grpc::StatusCode code, const std::string& message, int retry_after_s = 0);
+
+// Its answer: status, JSON and the headers that go with it, besides `headers`.
+HttpResponse ProblemResponse(const Problem& problem, HttpHeaders headers);
 
 }  // namespace rollgait::server
 

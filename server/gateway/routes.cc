@@ -102,12 +102,15 @@ RouteMatch RouteTable::Match(std::string_view verb, std::string_view path) const
     std::string decoded;
     if (!FindId(route, path, &id) || !DecodePercent(id, false, &decoded)) continue;
     if (decoded == "." || decoded == ".." || decoded.find('/') != std::string::npos) continue;
-    if (verb == route.route->verb) {
+    const std::string_view own = route.route->verb;
+    const bool answers_head = own == "GET" && !route.streams();
+    if (verb == own || (verb == "HEAD" && answers_head)) {
       match.route = &route;
       match.id = std::move(decoded);
       return match;
     }
-    match.allowed += (match.allowed.empty() ? "" : ", ") + std::string(route.route->verb);
+    match.allowed += (match.allowed.empty() ? "" : ", ") + std::string(own);
+    if (answers_head) match.allowed += ", HEAD";
   }
   return match;
 }

@@ -66,7 +66,7 @@ std::vector<ResolvedRoute> ResolveRoutes(const google::protobuf::ServiceDescript
 struct RouteMatch {
   const ResolvedRoute* route = nullptr;  // null: no row has this path and verb
   std::string id;                        // percent signs decoded; the variable's value is route->collection + id
-  std::string allowed;  // without a route: verbs of the rows with this path, "GET, DELETE"; empty: none
+  std::string allowed;  // without a route: verbs of the rows with this path, "GET, HEAD, DELETE"; empty: none
 };
 
 // All rows of kRoutes. Immutable; threads may share it.
@@ -74,7 +74,8 @@ class RouteTable {
  public:
   RouteTable();
   // `path` as it came, without the query. An ID is one segment that is valid UTF-8 without control characters, and
-  // neither "." nor ".."; other paths are no row's.
+  // neither "." nor ".."; other paths are no row's. HEAD is answered by the rows of GET, but by no stream, which would
+  // begin for nothing.
   RouteMatch Match(std::string_view verb, std::string_view path) const;
   const std::vector<ResolvedRoute>& routes() const { return routes_; }
 

@@ -3,12 +3,29 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/generic/generic_stub.h>
 
+#include <algorithm>
 #include <mutex>
+
+#include "server/base/door_headers.h"
 
 namespace rollgait::server {
 namespace {
 
-constexpr char kRefusedAtDoor[] = "x-rollgait-refused";
+// gRPC ends the program at a value that its transport cannot carry. Which header has one; empty: none.
+std::string UnfitMetadata(const UpstreamCall::Request& request) {
+  const auto unfit = [](char byte) { return byte < ' ' || byte > '~'; };
+  for (const auto& [name, value] : request.metadata) {
+    if (std::any_of(value.begin(), value.end(), unfit)) return name;
+  }
+  return "";
+}
+
+// A call that was not begun.
+class NoCall final : public UpstreamCall {
+ public:
+  void ReadNext() override {}
+  void Cancel() override {}
+};
 
 std::string Text(const grpc::ByteBuffer& buffer) {
   std::vector<grpc::Slice> slices;
@@ -58,8 +75,8 @@ class Call final : public UpstreamCall, public grpc::ClientBidiReactor<grpc::Byt
   }
 
   void OnDone(const grpc::Status& status) override {
-    CallEnd end{status, context_.GetServerInitialMetadata().count(kRefusedAtDoor) > 0 ||
-                            context_.GetServerTrailingMetadata().count(kRefusedAtDoor) > 0};
+    CallEnd end{status, context_.GetServerInitialMetadata().count(kDoorRefused) > 0 ||
+                            context_.GetServerTrailingMetadata().count(kDoorRefused) > 0};
     listener_.on_end(end);
     listener_ = {};
     const std::shared_ptr<Call> last = std::move(self_);
@@ -88,6 +105,11 @@ class Call final : public UpstreamCall, public grpc::ClientBidiReactor<grpc::Byt
 
 std::shared_ptr<UpstreamCall> UpstreamCall::Start(const std::shared_ptr<grpc::Channel>& channel, Request request,
                                                   Listener listener) {
+  if (const std::string name = UnfitMetadata(request); !name.empty()) {
+    listener.on_end({{grpc::StatusCode::INVALID_ARGUMENT,
+                      "the header " + name + " has bytes that are no printable ASCII, which calls cannot carry"}});
+    return std::make_shared<NoCall>();
+  }
   const auto call = std::make_shared<Call>(channel, std::move(request), std::move(listener));
   call->Begin(call);
   return call;

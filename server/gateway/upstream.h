@@ -16,7 +16,7 @@ namespace rollgait::server {
 // How a call ended.
 struct CallEnd {
   grpc::Status status;
-  bool refused_at_door = false;  // the answer says what the door counts: server/rpc/door.h
+  bool refused_at_door = false;  // the answer says what the door counts: server/base/door_headers.h
 };
 
 // A call with one request and any number of answers, each read when it is asked for: what is not asked for stays with
@@ -34,7 +34,8 @@ class UpstreamCall {
     std::function<void(std::string message)> on_message;  // after ReadNext()
     std::function<void(const CallEnd& end)> on_end;       // last, once
   };
-  // Begins the call and asks for the first message.
+  // Begins the call and asks for the first message. Values of metadata that are no printable ASCII end it at once, with
+  // INVALID_ARGUMENT.
   static std::shared_ptr<UpstreamCall> Start(const std::shared_ptr<grpc::Channel>& channel, Request request,
                                              Listener listener);
   virtual ~UpstreamCall() = default;

@@ -1,8 +1,6 @@
 #include "server/rpc/connection_acceptor.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -14,8 +12,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <cstdint>
 #include <utility>
+
+#include "server/base/listen_socket.h"
 
 namespace rollgait::server {
 namespace {
@@ -32,59 +32,6 @@ int DescriptorLimit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 1024;
   return static_cast<int>(std::min<rlim_t>(limit.rlim_cur, 1 << 20));
-}
-
-// Who is counted as one: an IPv4 address, an IPv6 /64.
-std::string PeerKey(const sockaddr_storage& address) {
-  char text[INET6_ADDRSTRLEN] = "";
-  if (address.ss_family == AF_INET) {
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text, sizeof(text));
-    return text;
-  }
-  in6_addr network = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
-  if (IN6_IS_ADDR_V4MAPPED(&network)) {
-    inet_ntop(AF_INET, network.s6_addr + 12, text, sizeof(text));
-    return text;
-  }
-  std::fill(network.s6_addr + 8, network.s6_addr + 16, uint8_t{0});
-  inet_ntop(AF_INET6, &network, text, sizeof(text));
-  return std::string(text) + "/64";
-}
-
-// HOST and PORT of "HOST:PORT"; brackets around an IPv6 address are taken off, "*" is every address.
-std::pair<std::string, std::string> Split(const std::string& address) {
-  const size_t colon = address.rfind(':');
-  if (colon == std::string::npos) return {address, ""};
-  std::string host = address.substr(0, colon);
-  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  return {host == "*" ? "" : host, address.substr(colon + 1)};
-}
-
-int ListenOn(const addrinfo& info, int port) {
-  sockaddr_storage address{};
-  std::memcpy(&address, info.ai_addr, info.ai_addrlen);
-  if (port != 0 && info.ai_family == AF_INET)
-    reinterpret_cast<sockaddr_in&>(address).sin_port = htons(static_cast<uint16_t>(port));
-  if (port != 0 && info.ai_family == AF_INET6)
-    reinterpret_cast<sockaddr_in6&>(address).sin6_port = htons(static_cast<uint16_t>(port));
-  const int fd = socket(info.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const int on = 1, off = 0;
-  if (fd < 0) return -1;
-  setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
-  if (info.ai_family == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof(off));
-  if (bind(fd, reinterpret_cast<sockaddr*>(&address), info.ai_addrlen) == 0 && listen(fd, kBacklog) == 0) return fd;
-  const int reason = errno;
-  close(fd);
-  errno = reason;
-  return -1;
-}
-
-int PortOf(int fd) {
-  sockaddr_storage address{};
-  socklen_t size = sizeof(address);
-  if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
-  return ntohs(address.ss_family == AF_INET ? reinterpret_cast<sockaddr_in&>(address).sin_port
-                                            : reinterpret_cast<sockaddr_in6&>(address).sin6_port);
 }
 
 int OpenReserve() { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
@@ -107,44 +54,11 @@ ConnectionAcceptor::~ConnectionAcceptor() {
 Outcome<std::unique_ptr<ConnectionAcceptor>> ConnectionAcceptor::Listen(const std::string& address,
                                                                         const ConnectionLimits& limits) {
   std::unique_ptr<ConnectionAcceptor> acceptor(new ConnectionAcceptor(limits));
-  const Outcome<Done> bound = acceptor->Bind(address);
-  if (!bound.ok()) return bound.error();
+  Outcome<TcpListeners> listeners = ListenOnTcp(address, SIZE_MAX);
+  if (!listeners.ok()) return listeners.error();
+  acceptor->listeners_ = std::move(listeners.value().fds);
+  acceptor->port_ = listeners.value().port;
   return acceptor;
-}
-
-Outcome<Done> ConnectionAcceptor::Bind(const std::string& address) {
-  const auto refuse = [&](const std::string& reason) {
-    return Error{ErrorCode::kUnavailable, "cannot listen on " + address + ": " + reason};
-  };
-  const auto [host, port] = Split(address);
-  addrinfo hints{}, *found = nullptr;
-  hints.ai_socktype = SOCK_STREAM;
-  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
-  const int code =
-      port.empty() ? EAI_NONAME : getaddrinfo(host.empty() ? nullptr : host.c_str(), port.c_str(), &hints, &found);
-  if (code != 0) return refuse(port.empty() ? "it is not HOST:PORT" : gai_strerror(code));
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> list(found, freeaddrinfo);
-  std::string reason = "no address";
-  // An IPv6 wildcard takes IPv4 along, so it goes first and the IPv4 wildcard may then be taken.
-  std::vector<const addrinfo*> order;
-  for (const addrinfo* info = found; info != nullptr; info = info->ai_next) order.push_back(info);
-  if (host.empty()) {
-    std::stable_sort(order.begin(), order.end(),
-                     [](auto* a, auto* b) { return a->ai_family == AF_INET6 && b->ai_family != AF_INET6; });
-  }
-  for (const addrinfo* info : order) {
-    const int fd = ListenOn(*info, port_);
-    if (fd < 0) {
-      reason = std::strerror(errno);
-      // A machine without IPv6 still has "localhost" twice; but an address in use is never passed over.
-      if (errno == EADDRINUSE && !(host.empty() && !listeners_.empty())) return refuse(reason);
-      continue;
-    }
-    listeners_.push_back(fd);
-    port_ = PortOf(fd);
-  }
-  if (listeners_.empty()) return refuse(reason);
-  return Done{};
 }
 
 void ConnectionAcceptor::Start(std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> grpc) {

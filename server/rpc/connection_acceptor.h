@@ -51,7 +51,6 @@ class ConnectionAcceptor {
   };
 
   explicit ConnectionAcceptor(const ConnectionLimits& limits);
-  Outcome<Done> Bind(const std::string& address);
   void Loop();
   // False: nothing waits on this listener.
   bool AcceptOne(int listener);

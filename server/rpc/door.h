@@ -6,19 +6,15 @@
 #include <map>
 #include <string>
 
+#include "server/base/door_headers.h"
 #include "server/base/outcome.h"
 #include "server/rpc/call_identity.h"
 
 namespace rollgait::server {
 
 // The door is the proxy that ends TLS and HTTP/2 for a server: docs/explanation/door.md. Over a unix socket it tells
-// the server, in metadata, what it knows of a client, and removes whatever the client itself sends under these names. A
-// server without a door does not read them.
-inline constexpr char kDoorPeer[] = "x-rollgait-peer";                       // "ipv4:192.0.2.1:4711"
-inline constexpr char kDoorCertificate[] = "x-rollgait-client-certificate";  // verified; DER in base64; absent: none
-// In an answer to the door, which counts it and takes it off: the caller showed nothing that the server knows.
-inline constexpr char kDoorRefused[] = "x-rollgait-refused";
-
+// the server, in the metadata of server/base/door_headers.h, what it knows of a client. A server without a door does
+// not read them.
 using CallMetadata = std::multimap<grpc::string_ref, grpc::string_ref>;
 
 // The client's address as the door states it. kFailedPrecondition unless it is stated exactly once, in at most 128

@@ -9,11 +9,9 @@
 
 #include "core/base/result.h"
 #include "server/base/outcome.h"
+#include "server/base/request_limit.h"
 
 namespace rollgait::server {
-
-// Largest request in bytes that is looked at.
-inline constexpr int64_t kMaxRequestBytes = 4 << 20;
 
 // What no message of any type may hold: numbers that are not finite (but infinite limits of a Joint), enum values and
 // fields that this server does not know (a request is never understood in part). `prefix` is put before every path:

@@ -20,6 +20,8 @@ import openapi_check
 from gateway_service import SOURCE, Events, Service, memory
 
 MOST_MIB = 256
+MOST_BODY = 4 << 20
+TRACE = "4bf92f3577b34da6a3ce929d0e0e4736"
 
 
 def token(service, *scopes):
@@ -34,6 +36,14 @@ def until(holds):
             return
         time.sleep(0.05)
     raise AssertionError("this has not come to be within 30 s")
+
+
+def open_sockets(process):
+    """Connections of HTTP that a process has accepted."""
+    with open(f"/proc/{process.pid}/net/tcp", encoding="ascii") as table:
+        inodes = {line.split()[9] for line in table.read().splitlines()[1:] if line.split()[3] == "01"}
+    links = (os.path.join(f"/proc/{process.pid}/fd", fd) for fd in os.listdir(f"/proc/{process.pid}/fd"))
+    return sum(os.readlink(link)[8:-1] in inodes for link in links)
 
 
 class WithService(unittest.TestCase):
@@ -156,10 +166,29 @@ class Calls(WithService):
         self.assertEqual(ask("POST", "/v1/solves", {"spec": spec, "requestId": "r"}).status, 200)
         self.refused(ask("POST", "/v1/solves", {"spec": dict(spec, slopeRad=0.1), "requestId": "r"}), 409, "ALREADY_EXISTS")
         self.refused(ask("POST", "/v1/solves", b"{}", {"Content-Type": "text/plain"}), 415, "INVALID_ARGUMENT", "application/json")
-        answer = ask("PUT", "/v1/solves")
-        self.refused(answer, 405, "UNIMPLEMENTED", "POST, GET")
-        self.assertEqual(answer.headers["Allow"], "POST, GET")
+        for verb, path, allowed in (("PUT", "/v1/solves", "POST, GET, HEAD"), ("POST", "/v1/openapi.json", "GET, HEAD"),
+                                    ("DELETE", "/v1/solves:run", "POST")):
+            answer = ask(verb, path)
+            self.refused(answer, 405, "UNIMPLEMENTED", allowed)
+            self.assertEqual(answer.headers["Allow"], allowed)
+        self.assertEqual(ask("HEAD", "/v1/solves/a:watch").status, 405)
         self.refused(ask("GET", "/v1/nothing"), 404, "NOT_FOUND", "openapi.json")
+
+    def test_head(self):
+        for path in ("/v1/serverInfo", "/v1/openapi.json"):
+            answer = self.service.ask("HEAD", path)
+            whole = self.service.ask("GET", path)
+            self.assertEqual((answer.status, answer.text, answer.headers["Content-Length"]), (200, "", str(len(whole.text.encode()))))
+
+    def test_a_trace_goes_on(self):
+        # Of refused calls the log tells at its usual level.
+        self.assertEqual(self.service.ask("GET", "/v1/solves/none", headers={"traceparent": f"00-{TRACE}-00f067aa0ba902b7-01"}).status, 404)
+        until(lambda: TRACE in self.service.logged())
+
+    def test_health(self):
+        command = [os.environ["ROLLGAIT_GATEWAY"], "--health", "--listen"]
+        self.assertEqual(subprocess.run([*command, "%s:%d" % self.service.address], timeout=60).returncode, 0)
+        self.assertEqual(subprocess.run([*command, "unix:/nowhere"], stderr=subprocess.DEVNULL, timeout=60).returncode, 1)
 
     def test_document(self):
         answer = self.service.ask("GET", "/v1/openapi.json")
@@ -184,12 +213,13 @@ class Calls(WithService):
         self.refused(ask("OPTIONS", "/v1/solves", headers={"Origin": "https://evil.example"}), 403, "PERMISSION_DENIED")
         own = ask("GET", "/v1/solves", headers={"Origin": f"http://{host}:{port}"})
         self.assertEqual((own.status, "Access-Control-Allow-Origin" in own.headers), (200, False))
+        self.assertEqual(ask("GET", "/v1/solves", headers={"Host": f"LocalHost:{port}"}).status, 200)
 
 
 class Limited(WithService):
     """Who calls is asked, a page of another site may ask, one solve may wait, few streams, short calls."""
     flags = ("--require-token", "--max-queued", "1", "--tenant-max-queued", "1")
-    gateway_flags = ("--allow-origin", "https://lab.example", "--max-streams", "2", "--call-time", "1")
+    gateway_flags = ("--allow-origin", "https://lab.example", "--max-streams", "3", "--max-streams-per-peer", "2", "--call-time", "1")
 
     def test_tokens(self):
         refused = self.service.ask("GET", "/v1/solves")
@@ -209,8 +239,30 @@ class Limited(WithService):
         answer = self.service.ask("GET", "/v1/solves", headers=reader)
         self.assertEqual((answer.status, answer.headers["Access-Control-Allow-Origin"]), (200, "https://lab.example"))
         asked_first = self.service.ask("OPTIONS", "/v1/solves/a", headers={"Origin": "https://lab.example"})
-        self.assertEqual((asked_first.status, asked_first.headers["Access-Control-Allow-Methods"]), (204, "GET, DELETE"))
-        self.assertIn("last-event-id", asked_first.headers["Access-Control-Allow-Headers"])
+        self.assertEqual((asked_first.status, asked_first.headers["Access-Control-Allow-Methods"]), (204, "GET, HEAD, DELETE"))
+        for name in ("last-event-id", "traceparent"):
+            self.assertIn(name, asked_first.headers["Access-Control-Allow-Headers"])
+        document = self.service.ask("OPTIONS", "/v1/openapi.json", headers={"Origin": "https://lab.example"})
+        self.assertEqual((document.status, document.headers["Access-Control-Allow-Methods"]), (204, "GET, HEAD"))
+        # A page can read refusals, too, whoever refuses.
+        for refused, status in ((self.service.ask("GET", "/v1/solves", headers={"Origin": "https://lab.example"}), 401),
+                                (self.service.ask("POST", "/v1/solves", b"", {**reader, "Content-Length": str(MOST_BODY + 1)}), 413)):
+            self.assertEqual(refused.status, status)
+            self.assertEqual(refused.headers["Access-Control-Allow-Origin"], "https://lab.example")
+            self.assertIn("Retry-After", refused.headers["Access-Control-Expose-Headers"])
+
+    def test_long_bodies_are_asked_for_after_the_caller(self):
+        def head(bytes, *headers):
+            return "\r\n".join(["POST /v1/solves HTTP/1.1", "Host: localhost", "Content-Type: application/json", f"Content-Length: {bytes}",
+                                *headers, "", ""]).encode()
+        for headers in ((), ("Authorization: Bearer rgt_no",)):
+            with socket.create_connection(self.service.address, timeout=60) as peer:
+                peer.sendall(head(1_000_000, *headers))  # and nothing more
+                self.assertIn(b" 401 ", peer.recv(4096).split(b"\r\n")[0])
+        body = json.dumps({"spec": {}}).encode() + b" " * 1_000_000
+        solver, reader = token(self.service, "solve"), token(self.service, "read")
+        self.refused(self.service.ask("POST", "/v1/solves", body, {"Authorization": "Bearer " + solver}), 400, "INVALID_ARGUMENT")
+        self.refused(self.service.ask("POST", "/v1/solves", body, {"Authorization": "Bearer " + reader}), 403, "PERMISSION_DENIED")
 
     def test_full_and_too_late(self):
         caller = {"Authorization": "Bearer " + token(self.service, "read", "solve")}
@@ -227,7 +279,7 @@ class Limited(WithService):
         # Of two streams there is no third, and the place of one that went is free again.
         streams = [Events(self.service, f"/v1/{names[0]}:watch", headers=caller) for _ in range(2)]
         self.assertEqual([stream.status for stream in streams], [200, 200])
-        self.refused(self.service.ask("GET", f"/v1/{names[0]}:watch", headers=caller), 503, "UNAVAILABLE", "2 streams")
+        self.refused(self.service.ask("GET", f"/v1/{names[0]}:watch", headers=caller), 503, "UNAVAILABLE", "2 streams of your address")
         streams[0].close()
         until(lambda: self.service.ask("GET", f"/v1/{names[0]}:watch?afterSequence=9999999", headers=caller).status != 503)
         streams[1].close()
@@ -269,6 +321,31 @@ class Stopped(unittest.TestCase):
                 service.stop()
             events.close()
 
+    def test_the_gateway_stops(self):
+        """Calls are answered, streams are told, and who gets no answer is told that, too."""
+        for continues in (True, False):
+            with tempfile.TemporaryDirectory() as place:
+                service = Service(place + "/service")
+                events = Events(service, f"/v1/{service.create(iterations=3000)}:watch")
+                iterator = iter(events)
+                next(iterator)
+                service.rollgaitd.send_signal(signal.SIGSTOP)
+                answers = []
+                asks = threading.Thread(target=lambda: answers.append(service.ask("GET", "/v1/serverInfo")))
+                asks.start()
+                until(lambda: open_sockets(service.gateway) >= 2)
+                service.gateway.send_signal(signal.SIGTERM)
+                last = list(iterator)[-1]
+                events.close()
+                self.assertEqual((last["event"], last["data"]["error"]["code"]), ("end", 503))
+                self.assertIn("the gateway stops", last["data"]["error"]["message"])
+                if continues:
+                    service.rollgaitd.send_signal(signal.SIGCONT)
+                asks.join()
+                service.rollgaitd.send_signal(signal.SIGCONT)
+                self.assertEqual(answers[0].status, 200 if continues else 503, answers[0].text)
+                service.stop()
+
     def test_flags_that_would_open_it(self):
         for flags, word in ((["--listen", "0.0.0.0:0"], "loopback"), (["--server", "gait.example:50051"], "plain text"),
                             (["--listen", "127.evil.example:0"], "loopback"),
@@ -280,6 +357,7 @@ class Stopped(unittest.TestCase):
 
 class Harm(WithService):
     def tearDown(self):
+        self.assertIsNone(self.service.gateway.poll(), self.service.logged()[-3000:])
         self.assertEqual(self.service.ask("GET", "/v1/serverInfo").status, 200)
         self.assertLess(memory(self.service.gateway), MOST_MIB)
 
@@ -294,41 +372,72 @@ class Harm(WithService):
                     answer += piece
             return answer
 
+    def status(self, data):
+        """Of the one answer to it; 0: it is closed without one."""
+        answer = self.raw(data)
+        self.assertTrue(answer == b"" or answer.startswith(b"HTTP/1.1 "), answer[:200])
+        return int(answer.split()[1]) if answer else 0
+
+    def test_bytes_that_no_call_can_carry(self):
+        for value in (b"Bearer \xe9", b"Bearer \xff\xfe", b"a\x01b", b"a\x7fb", b"a\tb", "Bearer é".encode()):
+            head = b"GET /v1/serverInfo HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: " + value + b"\r\n"
+            self.assertEqual(self.status(head + b"\r\n"), 400, value)
+            self.assertEqual(self.status(head.replace(b"GET", b"POST").replace(b"serverInfo", b"solves") +
+                                         b"Content-Type: application/json\r\nContent-Length: 100000\r\n\r\n"), 400, value)
+        trace = b"GET /v1/serverInfo HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\ntraceparent: \xe9\r\nx-rollgait-peer: \xe9\r\n\r\n"
+        self.assertEqual(self.status(trace), 200)
+
     def test_bodies(self):
         head = "POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/json\r\n"
-        self.assertIn(b" 413 ", self.raw((head + "Content-Length: 16777217\r\n\r\n").encode()))
-        self.assertIn(b" 411 ", self.raw((head + "Transfer-Encoding: chunked\r\n\r\n5\r\n{}\r\n0\r\n\r\n").encode()))
-        self.assertNotIn(b" 200 ", self.raw((head + "Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}").encode()))
-        self.assertNotIn(b" 200 ", self.raw((head + "Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n{}").encode()))
-        self.assertNotIn(b" 200 ", self.raw((head + "Content-Length: -2\r\n\r\n{}").encode()))
-        self.assertNotIn(b" 200 ", self.raw((head + "Content-Length: 99999999999999999999\r\n\r\n{}").encode()))
-        for body in (b'{"spec":' + b"[" * (16 << 20), b'{"spec":' * 2_000_000, b'{"requestId":"' + b"\xff" * 1000 + b'"}',
-                     b'{"labels":{' + b",".join(b'"a%d":"b"' % i for i in range(500_000)) + b"}}",
-                     b'{"spec":{"phases":[' + b"{}," * 5_000_000 + b"{}]}}", b"\0" * 100_000, b'"' + b"\\u0000" * 2_000_000):
-            answer = self.service.ask("POST", "/v1/solves", body[:16 << 20])
+        for rest, status in ((f"Content-Length: {MOST_BODY + 1}\r\n\r\n", 413),
+                             ("Transfer-Encoding: chunked\r\n\r\n5\r\n{}\r\n0\r\n\r\n", 411),
+                             ("Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", 400),
+                             ("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n{}", 411),
+                             ("Content-Length: -2\r\n\r\n{}", 400),
+                             ("Content-Length: 99999999999999999999\r\n\r\n{}", 413)):
+            self.assertEqual(self.status((head + rest).encode()), status, rest)
+
+        def filled(begin, entry, end):
+            """As many entries as fit."""
+            count = (MOST_BODY - len(begin) - len(end)) // (len(entry % 0xFFFFFF) + 1)
+            return begin + b",".join(entry % i for i in range(count)) + end
+        for body in (b'{"spec":' + b"[" * MOST_BODY, b'{"spec":' * 2_000_000, b'{"requestId":"' + b"\xff" * 1000 + b'"}',
+                     filled(b'{"labels":{', b'"%x":""', b"}}"), filled(b'{"spec":{"model":{"segmentLengthsM":{', b'"%x":1', b"}}}}"),
+                     b'{"spec":{"model":{"loads":[' + b"{}," * (MOST_BODY // 3 - 20) + b"{}]}}}",
+                     b'{"spec":{"phases":[' + b"{}," * (MOST_BODY // 3 - 10) + b"{}]}}", b"\0" * 100_000, b'"' + b"\\u0000" * 2_000_000):
+            answer = self.service.ask("POST", "/v1/solves", body[:MOST_BODY])
             self.assertIn(answer.status, (400, 413), answer.text)
             self.assertLess(len(answer.text), 10_000)
+            self.assertLess(memory(self.service.gateway), MOST_MIB, body[:100])
 
     def test_long_bodies_are_few_at_a_time(self):
-        peers = []
-        for _ in range(4):
+        def stall():
             peer = socket.create_connection(self.service.address)
-            peer.sendall(b"POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 16777216\r\n\r\n"
-                         + b" " * 1_000_000)
-            peers.append(peer)
+            peer.sendall(b"POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n" % MOST_BODY
+                         + b" " * 10_000)
+            return peer
+        peers = [stall() for _ in range(4)]
         # Once the last of the four is read.
         until(lambda: self.service.ask("POST", "/v1/solves", b" " * 100_000).status == 503)
-        self.refused(self.service.ask("POST", "/v1/solves", b" " * 100_000), 503, "UNAVAILABLE", "long bodies")
+        answer = self.service.ask("POST", "/v1/solves", b" " * 100_000)
+        self.refused(answer, 503, "UNAVAILABLE", "4 long bodies of your address")
+        self.assertEqual(answer.headers["Retry-After"], "1")
         self.assertEqual(self.service.ask("POST", "/v1/solves", b" " * 10_000).status, 400)
-        for peer in peers:
+        # Two go; two stand still, and are closed.
+        for peer in peers[:2]:
             peer.close()
         until(lambda: self.service.ask("POST", "/v1/solves", b" " * 100_000).status == 400)
+        for peer in peers[2:]:
+            peer.settimeout(60)
+            with contextlib.suppress(ConnectionError):
+                self.assertEqual(peer.recv(1), b"")
+            peer.close()
 
     def test_heads(self):
         many = "".join(f"x-{i}: {i}\r\n" for i in range(10_000))
-        self.assertIn(b" 431 ", self.raw(f"GET /v1/solves HTTP/1.1\r\nHost: localhost\r\n{many}\r\n".encode()))
-        self.assertNotIn(b" 200 ", self.raw(b"GET /v1/solves HTTP/1.1\r\nHost: localhost\r\nx: " + b"y" * 10_000_000 + b"\r\n\r\n"))
-        self.assertNotIn(b" 200 ", self.raw(b"GET /" + b"v" * 10_000_000 + b" HTTP/1.1\r\n\r\n"))
+        self.assertEqual(self.status(f"GET /v1/solves HTTP/1.1\r\nHost: localhost\r\n{many}\r\n".encode()), 431)
+        self.assertIn(self.status(b"GET /v1/solves HTTP/1.1\r\nHost: localhost\r\nx: " + b"y" * 10_000_000 + b"\r\n\r\n"), (0, 431))
+        self.assertIn(self.status(b"GET /" + b"v" * 10_000_000 + b" HTTP/1.1\r\n\r\n"), (0, 414))
         twice = b"GET /v1/solves HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: a\r\nAuthorization: b\r\n\r\n"
         self.assertIn(b"authorization is given twice", self.raw(twice))
         query = "&".join("filter.states=1" for _ in range(300))
@@ -337,7 +446,7 @@ class Harm(WithService):
     def test_paths(self):
         for path in ("/../etc/passwd", "/v1/../../etc/passwd", "/v1/solves/%2e%2e", "/v1/solves/..%2f..%2fetc", "/v1/solves/a%00b", "/v1/%",
                      "//etc/passwd", "/v1/solves/%ff", "*", "http://127.0.0.1/etc/passwd"):
-            self.assertIn(b" 404 ", self.raw(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode()), path)
+            self.assertEqual(self.status(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode()), 404, path)
         for name in ("a" * 8000, "a%27%3B--", "%C3%A9", "-"):
             self.assertIn(self.service.ask("GET", "/v1/solves/" + name).status, (400, 404))
 

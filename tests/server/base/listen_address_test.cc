@@ -26,7 +26,9 @@ TEST(ListenAddress, KnowsLoopbackAddresses) {
 
 TEST(ListenAddress, NoHostIsASocketOfTheFileSystem) {
   EXPECT_TRUE(IsLoopbackHost("localhost"));
+  EXPECT_TRUE(IsLoopbackHost("LocalHost"));
   EXPECT_TRUE(IsLoopbackHost("::1"));
+  EXPECT_FALSE(IsLoopbackHost("LocalHosts"));
   EXPECT_FALSE(IsLoopbackHost("unix"));
   EXPECT_FALSE(IsLoopbackHost("unix:/tmp/socket"));
 }

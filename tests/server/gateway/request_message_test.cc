@@ -77,11 +77,18 @@ TEST(RequestMessage, LastEventIdWinsOverTheQuery) {
 
 TEST(RequestMessage, WhatIsWrongIsNamed) {
   const auto list = [](std::string_view query) { return Refusal(Make("GET", "/v1/solves", query)); };
-  EXPECT_THAT(list("pagesize=1"), HasSubstr("pagesize: ListSolvesRequest has no such field"));
+  EXPECT_THAT(list("pagesize=1"), HasSubstr("pagesize: ListSolvesRequest has no field pagesize"));
   EXPECT_THAT(list("filter=1"), HasSubstr("cannot be set in a query"));
   EXPECT_THAT(list("filter.labels=1"), HasSubstr("filter.labels[KEY]=VALUE"));
-  EXPECT_THAT(list("filter.states.a=1"), HasSubstr("no such field"));
-  EXPECT_THAT(list("filter.createTimeFrom.seconds=1"), HasSubstr("no such field"));
+  EXPECT_THAT(list("filter.nothing=1"), HasSubstr("SolveFilter has no field nothing"));
+  EXPECT_THAT(list("filter.states.a=1"), HasSubstr("states has no fields that a query can set"));
+  EXPECT_THAT(list("filter.createTimeFrom.seconds=1"), HasSubstr("createTimeFrom has no fields"));
+  // What exists is not said to be missing.
+  const auto model = [](std::string_view query) { return Refusal(Make("GET", "/v1/models:get", query)); };
+  EXPECT_THAT(model("model.own=1"), HasSubstr("model.own: cannot be set in a query; it is no single value"));
+  EXPECT_THAT(model("model.own.summary=1"), HasSubstr("go through one message at most"));
+  EXPECT_THAT(model("model.own.nothing=1"), HasSubstr("Model has no field nothing"));
+  EXPECT_THAT(list("filter.labels.a=1&filter.labels%5Ba%5D=2"), HasSubstr("filter.labels[a]: is given twice"));
   EXPECT_THAT(list("pageSize=1&page_size=2"), HasSubstr("given twice"));
   EXPECT_THAT(list("pageSize=1.5"), HasSubstr("pageSize=1.5"));
   EXPECT_THAT(list("state=NO_STATE"), HasSubstr("state=NO_STATE"));
@@ -90,7 +97,7 @@ TEST(RequestMessage, WhatIsWrongIsNamed) {
   EXPECT_THAT(list("pageToken=\"%22}"), testing::Eq("it is taken"));  // quotes do not end the text
   std::string many = "a=b";
   for (size_t i = 0; i < kMostQueryFields; ++i) many += "&filter.states=1";
-  EXPECT_THAT(list(many), HasSubstr("no such field"));
+  EXPECT_THAT(list(many), HasSubstr("no field a"));
   EXPECT_THAT(list(many.substr(4) + "&filter.states=1"), HasSubstr("more than 256 fields"));
   EXPECT_THAT(Refusal(Make("GET", "/v1/solves/a", "name=solves/b")), HasSubstr("stands in the path"));
   EXPECT_THAT(Refusal(Make("POST", "/v1/solves", "validateOnly=true")), HasSubstr("not in the query"));
@@ -110,6 +117,19 @@ TEST(RequestMessage, BodiesThatAreNoSuchMessageAreRefused) {
   std::string deep = "{\"spec\":";
   for (int i = 0; i < 100'000; ++i) deep += "[";
   EXPECT_THAT(create(deep), StartsWith("the body is not"));
+}
+
+// docs/how-to/http.md says what is taken besides JSON.
+TEST(RequestMessage, TheParserIsAsLenientAsIsSaid) {
+  for (const char* body : {"{'requestId':'b'}", R"({requestId:"b"})", R"({"requestId":"b",})", R"({"request_id":"b"})",
+                           R"({"requestId":"a","requestId":"b"})", R"({"requestId":"b","spec":null})",
+                           R"({"requestId":"b","spec":{"slopeRad":"0.5"}})"}) {
+    EXPECT_EQ(Read<v1::CreateSolveRequest>(Make("POST", "/v1/solves", "", body)).request_id(), "b") << body;
+  }
+  for (const char* body :
+       {R"({"labels":{"a":"1","a":"2"}})", R"({"requestId":"a" /* b */})", "{}x", R"({"nothing":1})"}) {
+    EXPECT_THAT(Refusal(Make("POST", "/v1/solves", "", body)), StartsWith("the body is not")) << body;
+  }
 }
 
 TEST(RequestMessage, EventsAreThoseOfTheStandard) {

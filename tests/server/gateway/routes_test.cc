@@ -106,7 +106,15 @@ TEST(Routes, AnotherVerbIsToldWhichThereAre) {
   const RouteTable table;
   const RouteMatch match = table.Match("PUT", "/v1/solves/abc");
   EXPECT_EQ(match.route, nullptr);
-  EXPECT_EQ(match.allowed, "GET, DELETE");
+  EXPECT_EQ(match.allowed, "GET, HEAD, DELETE");
+  EXPECT_EQ(table.Match("PUT", "/v1/solves/abc:watch").allowed, "GET");
+}
+
+TEST(Routes, HeadIsAnsweredWhereGetIsButByNoStream) {
+  const RouteTable table;
+  EXPECT_STREQ(table.Match("HEAD", "/v1/solves/abc").route->route->method, "GetSolve");
+  EXPECT_EQ(table.Match("HEAD", "/v1/solves/abc:watch").route, nullptr);
+  EXPECT_EQ(table.Match("HEAD", "/v1/solves:run").route, nullptr);
 }
 
 TEST(Routes, PercentSignsAreDecodedOnce) {
