@@ -8,7 +8,7 @@
 
 #include "client/failure.h"
 #include "client/json.h"
-#include "client/suggestion.h"
+#include "core/base/nearest_word.h"
 #include "client/text.h"
 
 namespace rollgait::client {
