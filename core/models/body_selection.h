@@ -49,6 +49,7 @@ struct JointSpring {
   double stiffness = 0;  // N m/rad, [0, 1e5]
   double rest = 0;       // rad, [-π, π]
   double damping = 0;    // N m s/rad, [0, 1e4]
+  bool operator==(const JointSpring&) const = default;
 };
 
 // What makes a human one of a kind. Left and right may differ; nothing of it: the human of the tables.

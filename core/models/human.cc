@@ -250,8 +250,13 @@ HumanBody Human(const SegmentTable& left, const SegmentTable& right, const Human
   return HumanBuilder(left, right, options).Build();
 }
 
-std::vector<std::string> HumanSources() {
+std::vector<std::string> HumanSources(bool symmetric) {
   std::vector<std::string> sources = SegmentTable::Sources();
+  sources.push_back(
+      symmetric
+          ? "Left segments mirror the right ones; head, torso and pelvis are made symmetric about the sagittal plane."
+          : "Left segments mirror the right ones but for what the request changes: left and right of this body "
+            "differ. Head, torso and pelvis are those of the table, made symmetric about the sagittal plane.");
   for (const std::vector<std::string>& more :
        {FootSources(), LimbBodySources(), JointLimitSources(), PassiveTorqueSources()}) {
     sources.insert(sources.end(), more.begin(), more.end());

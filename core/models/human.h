@@ -47,8 +47,8 @@ HumanBody Human(const SegmentTable& table, const HumanOptions& options);
 // sides were alike. Contract: tables of one person that differ in the scales of paired segments alone.
 HumanBody Human(const SegmentTable& left, const SegmentTable& right, const HumanOptions& options);
 
-// Where the numbers of the body come from.
-std::vector<std::string> HumanSources();
+// Where the numbers of the body come from. `symmetric`: left and right are mirror images.
+std::vector<std::string> HumanSources(bool symmetric);
 
 }  // namespace rollgait
 

@@ -8,6 +8,7 @@
 #include "core/base/check.h"
 #include "core/models/human.h"
 #include "core/models/reduction.h"
+#include "core/models/sidedness.h"
 #include "core/models/subject_changes.h"
 
 namespace rollgait {
@@ -53,7 +54,11 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
     const std::string field = Keyed("locked_joints_rad", name);
     const int joint = model.Find(name);
     if (joint < 0) {
-      violations->push_back({field, "the human has no joint of that name; see GetModel of \"human29\" for its joints"});
+      std::vector<std::string> known;
+      for (const Joint& each : model.joints()) {
+        if (!IsBase(each) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
+      }
+      violations->push_back({field, NoSuchJoint(name, known)});
       continue;
     }
     const std::string problem = LockProblem(model.joint(joint), angle, selection);
@@ -111,7 +116,7 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .model = reduction.value().model,
       .contacts = std::move(contacts),
       .leg_length = std::max(tables.left.LegLength(), tables.right.LegLength()),
-      .sources = HumanSources(),
+      .sources = HumanSources(mirrored && reduction.value().symmetric),
       .symmetric = mirrored && reduction.value().symmetric,
       .bodies = std::move(bodies),
       .pairs = std::move(pairs),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/nearest_word.h"
 #include "core/models/rigid_body.h"
 
 namespace rollgait {
@@ -51,14 +52,44 @@ std::optional<SidedSegment> FindSegment(const std::string& name) {
 }
 
 // The names of segments, the paired ones without and with their sides as asked.
-std::string SegmentNames(bool sided) {
-  std::string names;
+std::vector<std::string> SegmentNames(bool sided) {
+  std::vector<std::string> names;
   for (int s = 0; s < kSegments; ++s) {
     const std::string name = SegmentName(static_cast<Segment>(s));
-    const bool both = sided && IsPaired(static_cast<Segment>(s));
-    names += (s == 0 ? " " : ", ") + (both ? name + "_l, " + name + "_r" : name);
+    if (sided && IsPaired(static_cast<Segment>(s))) {
+      names.push_back(name + "_l");
+      names.push_back(name + "_r");
+    } else {
+      names.push_back(name);
+    }
   }
   return names;
+}
+
+// "thigh", "thigh_l" and "thigh_r": every name that FindSegment knows.
+std::vector<std::string> AllSegmentNames() {
+  std::vector<std::string> names = SegmentNames(false);
+  for (const std::string& name : SegmentNames(true)) names.push_back(name);
+  return names;
+}
+
+// "a, b, c".
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// What is wrong with the segment of a load, which has to be on one side; empty if nothing is.
+std::string SegmentProblem(const std::string& name) {
+  const auto at = FindSegment(name);
+  if (at && IsPaired(at->segment) && at->side == BodySide::kMidline) {
+    return Text("\"", name, "\" is on both sides; choose ", name, "_l or ", name, "_r");
+  }
+  if (at) return "";
+  const std::vector<std::string> known = SegmentNames(true);
+  return Text("\"", name.substr(0, 40), "\" is no segment", DidYouMean(name.substr(0, 40), known), "; choose from ",
+              Listed(known));
 }
 
 // Where a segment is on the human: the joint whose link carries it, and its proximal joint centre on that link.
@@ -100,12 +131,10 @@ bool IsWithin(double value, double min, double max) { return value >= min && val
 // What is wrong with a load, if anything.
 bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* violations) {
   const size_t before = violations->size();
-  const auto at = FindSegment(load.segment);
-  if (!at || (IsPaired(at->segment) && at->side == BodySide::kMidline)) {
-    violations->push_back({path + ".segment", Text("\"", load.segment.substr(0, 40),
-                                                   "\" is no segment of one side; choose from", SegmentNames(true))});
-  }
-  if (!(load.mass > 0 && load.mass <= kHeaviest)) {
+  const std::string problem = SegmentProblem(load.segment);
+  if (!problem.empty()) violations->push_back({path + ".segment", problem});
+  const bool has_mass = load.mass > 0 && load.mass <= kHeaviest;
+  if (!has_mass) {
     violations->push_back(
         {path + ".mass_kg", Text("is ", load.mass, " kg; must be more than 0 and at most ", kHeaviest, " kg")});
   }
@@ -115,7 +144,7 @@ bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* vio
   }
   const Vector3& m = load.moments;
   const bool is_body = m.allFinite() && m.minCoeff() >= 0 && 2 * m.maxCoeff() <= m.sum() * (1 + 1e-9);
-  if (!is_body || m.maxCoeff() > load.mass * kFurthest * kFurthest) {
+  if (!is_body || (has_mass && m.maxCoeff() > load.mass * kFurthest * kFurthest)) {
     violations->push_back({path + ".moments_kg_m2",
                            Text("are (", m.transpose(), ") kg m²; each must be at least 0 and at most mass_kg times ",
                                 kFurthest, " m², and the sum of any two at least the third")});
@@ -140,11 +169,14 @@ void AddLoad(const SegmentLoad& load, const Model& human, const SidedTables& tab
 Joint* FindMuscled(const std::string& name, const std::string& field, const Model& human,
                    const std::map<std::string, double>& fixed, std::vector<Joint>* joints, Violations* violations) {
   const int joint = human.Find(name);
+  std::vector<std::string> known;  // those that may be named
+  for (const Joint& each : human.joints()) {
+    if (each.actuated && fixed.count(each.name) == 0) known.push_back(each.name);
+  }
   if (joint < 0) {
-    violations->push_back({field, "the human has no joint of that name; see GetModel of \"human29\" for its joints"});
+    violations->push_back({field, NoSuchJoint(name, known)});
   } else if (!human.joint(joint).actuated) {
-    violations->push_back(
-        {field, "belongs to the floating base, which has no muscles; name a joint of trunk or limbs"});
+    violations->push_back({field, "belongs to the floating base, which has no muscles; choose from " + Listed(known)});
   } else if (fixed.count(name) > 0) {
     violations->push_back({field,
                            "is of a joint that is fixed (locked_joints_rad, sagittal, drop_arms, rigid_trunk or "
@@ -157,21 +189,27 @@ Joint* FindMuscled(const std::string& name, const std::string& field, const Mode
 
 bool CheckSpring(const JointSpring& spring, const std::string& path, Violations* violations) {
   const size_t before = violations->size();
-  const auto check = [&](const char* field, const char* unit, double value, double min, double max) {
+  // In the unit of the field, and in degrees, in which people think of joints.
+  const auto check = [&](const char* field, const char* unit, double value, double min, double max,
+                         const char* unit_of_degrees, double per_degree) {
     if (IsWithin(value, min, max)) return;
-    violations->push_back({path + field, Text("is ", value, unit, "; must be between ", min, " and ", max, unit)});
+    violations->push_back({path + field, Text("is ", value, " ", unit, " (", value * per_degree, " ", unit_of_degrees,
+                                              "); must be between ", min, " and ", max, " ", unit, " (",
+                                              min * per_degree, " and ", max * per_degree, " ", unit_of_degrees, ")")});
   };
-  check(".stiffness_n_m_rad", " N m/rad", spring.stiffness, 0, kStiffest);
-  check(".rest_rad", " rad", spring.rest, -std::numbers::pi, std::numbers::pi);
-  check(".damping_n_m_s_rad", " N m s/rad", spring.damping, 0, kThickest);
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  check(".stiffness_n_m_rad", "N m/rad", spring.stiffness, 0, kStiffest, "N m/deg", 1 / kDegrees);
+  check(".rest_rad", "rad", spring.rest, -std::numbers::pi, std::numbers::pi, "deg", kDegrees);
+  check(".damping_n_m_s_rad", "N m s/rad", spring.damping, 0, kThickest, "N m s/deg", 1 / kDegrees);
   return violations->size() == before;
 }
 
-bool AreClose(double a, double b) { return std::abs(a - b) <= 1e-9 * (1 + std::abs(a)); }
-
-Vector3 Flipped(const Vector3& vector) { return Vector3(vector.x(), -vector.y(), vector.z()); }
-
 }  // namespace
+
+std::string NoSuchJoint(const std::string& name, const std::vector<std::string>& known) {
+  const std::string shown = name.substr(0, 40);
+  return "the human has no joint of that name" + DidYouMean(shown, known) + "; choose from " + Listed(known);
+}
 
 SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
   const SegmentTable table(selection.sex, selection.stature, selection.mass);
@@ -181,8 +219,8 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
     const std::string field = KeyOf("segment_lengths_m", name);
     const auto found = FindSegment(name);
     if (!found) {
-      violations->push_back(
-          {field, "is not a segment; choose from" + SegmentNames(false) + "; with _l or _r a limb's of one side"});
+      violations->push_back({field, "is not a segment" + DidYouMean(name, AllSegmentNames()) + "; choose from " +
+                                        Listed(SegmentNames(false)) + "; with _l or _r a limb's of one side"});
       continue;
     }
     const Segment kind = found->segment;
@@ -240,54 +278,6 @@ std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, 
     violations->push_back({"joint_strengths", "leave no joint that a muscle could move; leave at least one above 0"});
   }
   return joints;
-}
-
-bool MayBeOneSided(const BodySelection& selection) {
-  for (const auto& [name, length] : selection.segment_lengths) {
-    if (name.ends_with("_l") || name.ends_with("_r")) return true;
-  }
-  const SubjectChanges& changes = selection.changes;
-  return !changes.loads.empty() || !changes.strengths.empty() || !changes.springs.empty();
-}
-
-BodyRequest WithSidesAlike(BodyRequest request) {
-  request.changes = {};
-  std::erase_if(request.segment_lengths,
-                [](const auto& named) { return named.first.ends_with("_l") || named.first.ends_with("_r"); });
-  const std::map<std::string, double> locked = request.locked_joints;
-  std::erase_if(request.locked_joints, [&](const auto& named) {
-    std::string image = named.first;
-    if (!image.ends_with("_l") && !image.ends_with("_r")) return image.starts_with("trunk_") && named.second != 0;
-    image.back() = image.back() == 'l' ? 'r' : 'l';
-    const auto other = locked.find(image);
-    return other == locked.end() || other->second != named.second;
-  });
-  return request;
-}
-
-bool AreMirrored(const std::vector<Joint>& joints) {
-  for (const Joint& joint : joints) {
-    const Joint& image = joints[static_cast<size_t>(joint.mirror_joint)];
-    const double sign = joint.mirror_sign;
-    const Matrix3 flip = Vector3(1, -1, 1).asDiagonal();
-    const double size = joint.inertia.norm();
-    const bool same_link = (joint.p_PJ - Flipped(image.p_PJ)).norm() <= 1e-9 && AreClose(joint.mass, image.mass) &&
-                           (joint.center_of_mass - Flipped(image.center_of_mass)).norm() <= 1e-9 &&
-                           (joint.inertia - flip * image.inertia * flip).norm() <= 1e-9 * size;
-    const bool same_effort = sign > 0 ? joint.effort_min == image.effort_min && joint.effort_max == image.effort_max
-                                      : joint.effort_min == -image.effort_max && joint.effort_max == -image.effort_min;
-    const bool same_spring = joint.stiffness == image.stiffness && joint.damping == image.damping &&
-                             (joint.stiffness == 0 || joint.rest_position == sign * image.rest_position);
-    if (!same_link || !same_effort || !same_spring || joint.actuated != image.actuated) return false;
-  }
-  return true;
-}
-
-void ForgetMirror(std::vector<Joint>* joints) {
-  for (size_t i = 0; i < joints->size(); ++i) {
-    (*joints)[i].mirror_joint = static_cast<int>(i);
-    (*joints)[i].mirror_sign = 1;
-  }
 }
 
 }  // namespace rollgait

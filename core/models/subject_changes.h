@@ -28,19 +28,8 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations);
 std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,
                                  const std::map<std::string, double>& fixed, Violations* violations);
 
-// Whether the selection asks for anything that could make left and right differ, locked joints apart.
-bool MayBeOneSided(const BodySelection& selection);
-
-// The request without what may make left and right differ: loads, strengths, springs, lengths of one side, and locked
-// joints whose mirror image is not locked alike.
-BodyRequest WithSidesAlike(BodyRequest request);
-
-// Whether the mirror image of the joints is themselves: links, limits and springs, to 1e-9 of masses, lengths in m and
-// inertias. Contract: joint frames have the axes of their parents, as those of the human have.
-bool AreMirrored(const std::vector<Joint>& joints);
-
-// The joints as those of a body whose left and right differ: every one is its own mirror image, with sign 1.
-void ForgetMirror(std::vector<Joint>* joints);
+// "the human has no joint of that name", the one of `known` that may have been meant, and all of them.
+std::string NoSuchJoint(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace rollgait
 
