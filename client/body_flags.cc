@@ -60,6 +60,10 @@ void ApplyChanges(const SpecFlags& flags, v1::ModelSelection& selection) {
     if (numbers.size() > 1) spring.set_rest_rad(numbers[1] * kPi / 180.0);
     if (numbers.size() > 2) spring.set_damping_n_m_s_rad(numbers[2]);
   }
+  for (const std::string& text : flags.foot_axes) {
+    const auto [surface, numbers] = ParseNamedNumbers("--foot", text, "SURFACE=A,B,C in m", {3});
+    SetVector(numbers, 0, (*selection.mutable_foot_semi_axes_m())[surface]);
+  }
 }
 
 }  // namespace
@@ -68,7 +72,7 @@ bool HasBodyFlags(const SpecFlags& flags) {
   return flags.model || !flags.side_file.empty() || flags.sex || flags.stature_m || flags.mass_kg || flags.feet ||
          flags.ranges || flags.toes || flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes ||
          !flags.locks.empty() || !flags.segments.empty() || !flags.loads.empty() || !flags.strengths.empty() ||
-         !flags.springs.empty();
+         !flags.springs.empty() || !flags.foot_axes.empty();
 }
 
 void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
@@ -85,6 +89,11 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
                   "SEGMENT=LENGTH in m, for example thigh=0.45, of one side thigh_l=0.42", "segment")
       ->group("Body");
   command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
+  AddRepeatedFlag(command, "--foot", flags.foot_axes,
+                  "SURFACE=A,B,C: semi-axes of an ellipsoid of the feet in m, forward, left, up; foot, or heel and "
+                  "forefoot, of one side heel_l",
+                  "surface")
+      ->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
   command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
   command.add_flag("--sagittal", flags.sagittal, "Fix everything that moves sideways")->group("Body");

@@ -71,6 +71,11 @@ Rows ChangeRows(const v1::ModelSelection& selection) {
   for (const auto& [segment, length] : InOrder(selection.segment_lengths_m())) {
     rows.push_back({"length of " + segment, FormatNumber(length) + " m", ""});
   }
+  const std::map<std::string, v1::Vector3> feet(selection.foot_semi_axes_m().begin(),
+                                                selection.foot_semi_axes_m().end());
+  for (const auto& [surface, axes] : feet) {
+    rows.push_back({"semi-axes of " + surface, Vector(axes) + " m", "forward, left, up"});
+  }
   for (const auto& [joint, angle] : InOrder(selection.locked_joints_rad())) {
     rows.push_back({"locked " + joint, FormatVisible(angle * 180 / kPi, 1e-9) + "°", ""});
   }

@@ -170,7 +170,8 @@ class HumanBuilder {
     } else {
       SetLink(foot, "foot" + suffix, table.Body(Segment::kFoot, side));
     }
-    for (const FootSurface& surface : FootSurfaces(table, options_.feet)) {
+    for (const FootSurface& surface :
+         FootSurfaces(table, options_.feet, side == BodySide::kRight ? options_.right_foot : options_.left_foot)) {
       const bool on_toes = surface.on_toes && options_.toes;
       ContactSurface contact;
       contact.name = Sided(side, surface.name);

@@ -88,13 +88,15 @@ Result<Scene> HumanScene(const BodySelection& selection) {
                           "unset or set it to FEET_TWO_ELLIPSOIDS"});
   }
   const SidedTables tables = TablesOf(selection, &violations);
+  const SidedFeet feet = FeetOf(selection, tables, &violations);
   const HumanBody human =
-      Human(tables.left, tables.right, {selection.feet, selection.ranges, selection.toes && violations.empty()});
+      Human(tables.left, tables.right,
+            {selection.feet, selection.ranges, selection.toes && violations.empty(), feet.left, feet.right});
   const std::map<std::string, double> locked = CheckLocks(human.model, selection, &violations);
   std::vector<Joint> joints = ChangedJoints(human.model, tables, selection, locked, &violations);
   if (!violations.empty()) return violations;
 
-  const bool mirrored = !MayBeOneSided(selection) || AreMirrored(joints);
+  const bool mirrored = feet.left == feet.right && (!MayBeOneSided(selection) || AreMirrored(joints));
   if (!mirrored) ForgetMirror(&joints);
   const Result<Model> changed = Model::Create(std::move(joints));
   if (!changed.ok()) return changed.violations();

@@ -53,6 +53,7 @@ std::vector<std::string> OneSidedFields(const BodyRequest& request) {
   const SubjectChanges& changes = request.changes;
   add("segment_lengths_m", request.segment_lengths, always);
   add("locked_joints_rad", request.locked_joints, at_zero);
+  add("foot_semi_axes_m", changes.foot_semi_axes, always);
   add("joint_strengths", changes.strengths, always);
   add("joint_springs", changes.springs, [&](const std::string& name, const JointSpring& spring) {
     return spring.stiffness == 0 || at_zero(name, spring.rest);
@@ -65,9 +66,12 @@ std::vector<std::string> OneSidedFields(const BodyRequest& request) {
 }
 
 BodyRequest WithSidesAlike(BodyRequest request) {
+  const auto of_one_side = [](const auto& named) { return ImageName(named.first) != named.first; };
+  std::map<std::string, Vector3> feet = std::move(request.changes.foot_semi_axes);
+  std::erase_if(feet, of_one_side);
   request.changes = {};
-  std::erase_if(request.segment_lengths,
-                [](const auto& named) { return named.first.ends_with("_l") || named.first.ends_with("_r"); });
+  request.changes.foot_semi_axes = std::move(feet);
+  std::erase_if(request.segment_lengths, of_one_side);
   const std::map<std::string, double> locked = request.locked_joints;
   std::erase_if(request.locked_joints, [&](const auto& named) {
     const std::string image = ImageName(named.first);

@@ -13,11 +13,11 @@ namespace rollgait {
 // the same of both sides.
 std::vector<std::string> OneSidedFields(const BodyRequest& request);
 
-// Whether the selection asks for anything that could make left and right differ, locked joints apart.
+// Whether the selection asks for anything that could make left and right differ, locked joints and feet apart.
 bool MayBeOneSided(const BodySelection& selection);
 
-// The request without what may make left and right differ: loads, strengths, springs, lengths of one side, and locked
-// joints whose mirror image is not locked alike.
+// The request without what may make left and right differ: loads, strengths, springs, lengths and feet of one side, and
+// locked joints whose mirror image is not locked alike.
 BodyRequest WithSidesAlike(BodyRequest request);
 
 // Whether the mirror image of the joints is themselves: links, limits and springs, to 1e-9 of masses, lengths in m and

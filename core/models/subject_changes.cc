@@ -16,6 +16,9 @@ namespace {
 
 // A segment may be this much shorter or longer than the table has it.
 constexpr double kShortest = 0.7, kLongest = 1.4;
+// Semi-axes of a foot's surface, times the usual ones: length and breadth, and height. Wider ones would overlap those
+// of the other foot in the standing body.
+constexpr double kNarrowest = 0.5, kWidest = 1.5, kFlattest = 0.25, kHighest = 2;
 constexpr size_t kMostLoads = 16;
 constexpr double kHeaviest = 100;                   // kg
 constexpr double kFurthest = 1;                     // m
@@ -236,6 +239,42 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
   }
   return {SegmentTable(selection.sex, selection.stature, selection.mass, left),
           SegmentTable(selection.sex, selection.stature, selection.mass, right)};
+}
+
+SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Violations* violations) {
+  const Vector3 least(kNarrowest, kNarrowest, kFlattest), most(kWidest, kWidest, kHighest);
+  SidedFeet feet;
+  // In the order of names: of a surface both sides before one of them.
+  for (const auto& [name, axes] : selection.changes.foot_semi_axes) {
+    const std::string field = KeyOf("foot_semi_axes_m", name);
+    const bool left = !name.ends_with("_r"), right = !name.ends_with("_l");
+    const std::string part = left && right ? name : name.substr(0, name.size() - 2);
+    std::vector<std::string> known;
+    for (const bool on_left : {true, false}) {
+      if (on_left ? !left : !right) continue;
+      known.clear();
+      for (const FootSurface& surface : FootSurfaces(on_left ? tables.left : tables.right, selection.feet)) {
+        known.push_back(surface.name);
+        if (surface.name != part) continue;
+        const Vector3 usual = surface.surface.semi_axes(), low = usual.cwiseProduct(least),
+                      high = usual.cwiseProduct(most);
+        const bool inside = (axes.array() >= low.array()).all() && (axes.array() <= high.array()).all();
+        if (inside) {
+          (on_left ? feet.left : feet.right)[part] = axes;
+        } else if (!left || !right || on_left) {
+          violations->push_back(
+              {field, Text("are (", axes.transpose(), ") m; must be between (", low.transpose(), ") and (",
+                           high.transpose(), ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest,
+                           " to ", kHighest, " times what the lengths of foot and leg give")});
+        }
+      }
+    }
+    if (std::find(known.begin(), known.end(), part) == known.end()) {
+      violations->push_back({field, "is no surface of these feet" + DidYouMean(part, known) + "; choose from " +
+                                        Listed(known) + " (see `feet`), with _l or _r that of one side"});
+    }
+  }
+  return feet;
 }
 
 std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,

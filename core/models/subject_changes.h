@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/models/body_selection.h"
+#include "core/models/foot.h"
 #include "core/models/segment_table.h"
 #include "core/multibody/model.h"
 
@@ -21,6 +22,13 @@ struct SidedTables {
 // The tables with the lengths of the selection. Violations name segment_lengths_m["NAME"]: no such segment, a length
 // out of range.
 SidedTables TablesOf(const BodySelection& selection, Violations* violations);
+
+// The semi-axes of the feet's surfaces on each side. Violations name foot_semi_axes_m["NAME"]: no surface of such feet,
+// a semi-axis out of range. Contract: the tables are those of the selection.
+struct SidedFeet {
+  FootAxes left, right;
+};
+SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Violations* violations);
 
 // The joints of the whole human with the changes of the selection: loads are lumped with the links, efforts weakened,
 // springs added. Violations name loads[i].field, joint_strengths["NAME"] and joint_springs["NAME"].field. Contract:

@@ -89,7 +89,8 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
                                       "--model human29 --segment thigh=0.45 --segment foot=0.3 --feet two --ranges "
                                       "walking --toes --sagittal --drop-arms --rigid-trunk "
                                       "--lock knee_l=20 --lock elbow_r=-1.5 --load hand_l=10 --load torso=5,0.1,-0.2,0 "
-                                      "--strength hip_l=0.3 --spring ankle_l=340 --spring ankle_r=300,18,2")
+                                      "--strength hip_l=0.3 --spring ankle_l=340 --spring ankle_r=300,18,2 "
+                                      "--foot heel_l=0.03,0.02,0.025")
                                       .model();
   EXPECT_EQ(body.segment_lengths_m().at("thigh"), 0.45);
   EXPECT_EQ(body.segment_lengths_m().at("foot"), 0.3);
@@ -105,13 +106,15 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
   EXPECT_EQ(body.loads(1).position_m().x(), 0.1);
   EXPECT_EQ(body.loads(1).position_m().y(), -0.2);
   EXPECT_EQ(body.joint_strengths().at("hip_l"), 0.3);
+  EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").x(), 0.03);
+  EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").z(), 0.025);
   EXPECT_EQ(body.joint_springs().at("ankle_l").stiffness_n_m_rad(), 340);
   EXPECT_NEAR(body.joint_springs().at("ankle_r").rest_rad(), M_PI / 10, 1e-15);
   EXPECT_EQ(body.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);
   EXPECT_FALSE(Parse("--drop-arms").model().toes());
-  for (const char* line :
-       {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg", "--segment thigh=", "--load hand_l",
-        "--load hand_l=1,2", "--load =3", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
+  for (const char* line : {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg",
+                           "--segment thigh=", "--load hand_l", "--load hand_l=1,2", "--load =3", "--foot heel=1,2",
+                           "--foot heel", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
     EXPECT_THROW(Parse(line), Failure) << line;
   }
 }
