@@ -1,8 +1,10 @@
 // Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.
 //   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [CASE...]
+//   one_sided --help   the cases and what they change
 
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 struct Subject {
   const char* name;
+  const char* what;
   void (*change)(GaitRequest* request);
 };
 
@@ -30,16 +33,19 @@ void PutProsthesis(GaitRequest* request) {
 }
 
 constexpr Subject kSubjects[] = {
-    {"half", [](GaitRequest* request) { request->cycle = Cycle::kHalf; }},
-    {"full", [](GaitRequest* request) { request->cycle = Cycle::kFull; }},
-    {"locked-ankle", [](GaitRequest* request) { request->body.locked_joints["ankle_l"] = 0; }},
-    {"short-thigh", [](GaitRequest* request) { request->body.segment_lengths["thigh_l"] = 0.402; }},
-    {"load",
+    {"half", "the body as it is, half cycle", [](GaitRequest* request) { request->cycle = Cycle::kHalf; }},
+    {"full", "the body as it is, full cycle", [](GaitRequest* request) { request->cycle = Cycle::kFull; }},
+    {"locked-ankle", "left ankle fixed at 0 degrees",
+     [](GaitRequest* request) { request->body.locked_joints["ankle_l"] = 0; }},
+    {"short-thigh", "left thigh of 0.402 m",
+     [](GaitRequest* request) { request->body.segment_lengths["thigh_l"] = 0.402; }},
+    {"load", "10 kg in the left hand",
      [](GaitRequest* request) {
        request->body.changes.loads.push_back({.segment = "hand_l", .mass = 10, .position = {}});
      }},
-    {"weak-knee", [](GaitRequest* request) { request->body.changes.strengths["knee_l"] = 0.3; }},
-    {"prosthesis", PutProsthesis},
+    {"weak-knee", "left knee with 0.3 of its strength",
+     [](GaitRequest* request) { request->body.changes.strengths["knee_l"] = 0.3; }},
+    {"prosthesis", "left ankle a spring of 6 N m/deg without muscles, left foot of 0.245 m", PutProsthesis},
 };
 
 void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& measured) {
@@ -62,6 +68,20 @@ void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& me
   std::fflush(stdout);
 }
 
+int Help() {
+  std::printf(
+      "Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.\n"
+      "  one_sided [--model human29] [--preset human|transport|torque] [--draft | --fine] [--slope DEGREES] [CASE...]\n"
+      "Cases, all of them by default:\n");
+  for (const Subject& subject : kSubjects) std::printf("  %-13s %s\n", subject.name, subject.what);
+  return 0;
+}
+
+bool IsCase(const std::string& name) {
+  return std::any_of(std::begin(kSubjects), std::end(kSubjects),
+                     [&](const Subject& subject) { return name == subject.name; });
+}
+
 int Main(int argc, char** argv) {
   GaitRequest request;
   request.body.model = "human29";
@@ -70,7 +90,9 @@ int Main(int argc, char** argv) {
   std::vector<std::string> chosen;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
-    if (flag == "--fine") {
+    if (flag == "--help" || flag == "-h") {
+      return Help();
+    } else if (flag == "--fine") {
       request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
     } else if (flag == "--draft") {
       request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
@@ -81,8 +103,12 @@ int Main(int argc, char** argv) {
     } else if (flag == "--preset" && i + 1 < argc) {
       const std::string name = argv[++i];
       request.preset = name == "torque" ? Preset::kTorque : name == "transport" ? Preset::kTransport : Preset::kHuman;
-    } else {
+    } else if (IsCase(flag)) {
       chosen.push_back(flag);
+    } else {
+      std::fprintf(stderr, "one_sided: %s: no such flag or case, or its value is missing; see one_sided --help\n",
+                   flag.c_str());
+      return 2;
     }
   }
   std::printf("%-13s %-5s %-10s %7s %5s %10s %6s %6s %6s %6s %6s %6s\n", "subject", "cycle", "verdict", "cpu s", "iter",

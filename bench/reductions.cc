@@ -52,7 +52,8 @@ std::optional<Angles> LegAngles(const Scene& scene, const Trajectory& trajectory
   for (int i = 0; i < kSamples; ++i) {
     const MotionSample sample = cycle->At(100.0 * i / (kSamples - 1));
     for (size_t j = 0; j < kJoints.size(); ++j) {
-      angles[j].push_back(sample.position[RightJoint(scene.model, kJoints[j])] * 180 / std::numbers::pi);
+      angles[j].push_back(sample.position[LegJoint(scene.model, kJoints[j], BodySide::kRight)] * 180 /
+                          std::numbers::pi);
     }
   }
   return angles;

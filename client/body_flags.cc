@@ -1,9 +1,11 @@
 // The flags of the model selection.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "client/failure.h"
 #include "client/flag_values.h"
 #include "client/import/model_file.h"
+#include "client/repeated_flags.h"
 #include "client/spec_flags.h"
 #include "client/spec_words.h"
 #include "client/text.h"
@@ -26,12 +28,21 @@ std::pair<std::string, std::vector<double>> ParseNamedNumbers(const std::string&
     throw Failure(ExitCode::kUsage, flag + " " + text + ": must be " + form);
   }
   const std::string name = text.substr(0, equals);
-  return {name, ParseNumbers(flag + " " + name, text.substr(equals + 1), form, counts)};
+  return {name, ParseNumbers(flag + " " + name + "=", text.substr(equals + 1), form, counts)};
+}
+
+// Those of the file: what the command line says of a segment replaces them.
+void RemoveLoads(const std::string& segment, v1::ModelSelection& selection) {
+  auto& loads = *selection.mutable_loads();
+  loads.erase(std::remove_if(loads.begin(), loads.end(),
+                             [&](const v1::ModelSelection::Load& load) { return load.segment() == segment; }),
+              loads.end());
 }
 
 void ApplyChanges(const SpecFlags& flags, v1::ModelSelection& selection) {
   for (const std::string& text : flags.loads) {
     const auto [segment, numbers] = ParseNamedNumbers("--load", text, "SEGMENT=KG or SEGMENT=KG,X,Y,Z", {1, 4});
+    RemoveLoads(segment, selection);
     v1::ModelSelection::Load& load = *selection.add_loads();
     load.set_segment(segment);
     load.set_mass_kg(numbers[0]);
@@ -44,9 +55,14 @@ void ApplyChanges(const SpecFlags& flags, v1::ModelSelection& selection) {
   for (const std::string& text : flags.springs) {
     const auto [joint, numbers] = ParseNamedNumbers("--spring", text, "JOINT=STIFFNESS[,REST[,DAMPING]]", {1, 2, 3});
     v1::ModelSelection::JointSpring& spring = (*selection.mutable_joint_springs())[joint];
+    spring.Clear();
     spring.set_stiffness_n_m_rad(numbers[0]);
     if (numbers.size() > 1) spring.set_rest_rad(numbers[1] * kPi / 180.0);
     if (numbers.size() > 2) spring.set_damping_n_m_s_rad(numbers[2]);
+  }
+  for (const std::string& text : flags.foot_axes) {
+    const auto [surface, numbers] = ParseNamedNumbers("--foot", text, "SURFACE=A,B,C in m", {3});
+    SetVector(numbers, 0, (*selection.mutable_foot_semi_axes_m())[surface]);
   }
 }
 
@@ -56,7 +72,7 @@ bool HasBodyFlags(const SpecFlags& flags) {
   return flags.model || !flags.side_file.empty() || flags.sex || flags.stature_m || flags.mass_kg || flags.feet ||
          flags.ranges || flags.toes || flags.sagittal || flags.drop_arms || flags.rigid_trunk || flags.semi_axes ||
          !flags.locks.empty() || !flags.segments.empty() || !flags.loads.empty() || !flags.strengths.empty() ||
-         !flags.springs.empty();
+         !flags.springs.empty() || !flags.foot_axes.empty();
 }
 
 void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
@@ -69,38 +85,34 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--mass", flags.mass_kg, "Body mass in kg, [20, 250]; of the ball [0.001, 1e6]")->group("Body");
   command.add_option("--semi-axes", flags.semi_axes, "Of the ball: A,B,C in m, for example 0.15,0.1,0.1")
       ->group("Body");
-  command
-      .add_option("--segment", flags.segments,
-                  "SEGMENT=LENGTH in m, for example thigh=0.45, of one side thigh_l=0.42; may be repeated")
-      ->group("Body")
-      ->take_all();
+  AddRepeatedFlag(command, "--segment", flags.segments,
+                  "SEGMENT=LENGTH in m, for example thigh=0.45, of one side thigh_l=0.42", "segment")
+      ->group("Body");
   command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
+  AddRepeatedFlag(command, "--foot", flags.foot_axes,
+                  "SURFACE=A,B,C: semi-axes of an ellipsoid of the feet in m, forward, left, up; foot, or heel and "
+                  "forefoot, of one side heel_l",
+                  "surface")
+      ->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");
   command.add_flag("--toes", flags.toes, "Toe joints; feet of two ellipsoids")->group("Body");
   command.add_flag("--sagittal", flags.sagittal, "Fix everything that moves sideways")->group("Body");
   command.add_flag("--drop-arms", flags.drop_arms, "Fix shoulders and elbows, arms hanging")->group("Body");
   command.add_flag("--rigid-trunk", flags.rigid_trunk, "Fix the trunk joints")->group("Body");
-  command.add_option("--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20; may be repeated")
-      ->group("Body")
-      ->take_all();
-  command
-      .add_option("--load", flags.loads,
+  AddRepeatedFlag(command, "--lock", flags.locks, "JOINT=DEGREES: fix a joint, for example knee_l=20", "joint")
+      ->group("Body");
+  AddRepeatedFlag(command, "--load", flags.loads,
                   "SEGMENT=KG or SEGMENT=KG,X,Y,Z: a mass that hangs on a segment, for example hand_l=10; X forward, Y "
-                  "up, Z right from its upper joint in m; may be repeated")
-      ->group("Body")
-      ->take_all();
-  command
-      .add_option("--strength", flags.strengths,
-                  "JOINT=SHARE: weaken a joint, for example knee_l=0.3; 0 leaves no muscles; may be repeated")
-      ->group("Body")
-      ->take_all();
-  command
-      .add_option(
-          "--spring", flags.springs,
-          "JOINT=STIFFNESS[,REST[,DAMPING]] in N m/rad, degrees, N m s/rad: a spring beside the muscles; may be "
-          "repeated")
-      ->group("Body")
-      ->take_all();
+                  "up, Z right from its upper joint in m",
+                  "segment")
+      ->group("Body");
+  AddRepeatedFlag(command, "--strength", flags.strengths,
+                  "JOINT=SHARE: weaken a joint, for example knee_l=0.3; 0 leaves no muscles", "joint")
+      ->group("Body");
+  AddRepeatedFlag(command, "--spring", flags.springs,
+                  "JOINT=STIFFNESS[,REST[,DAMPING]] in N m/rad, degrees, N m s/rad: a spring beside the muscles",
+                  "joint")
+      ->group("Body");
 }
 
 std::string ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {

@@ -5,6 +5,7 @@
 
 #include "client/completion_scripts.h"
 #include "client/formats/format_table.h"
+#include "client/repeated_flags.h"
 #include "client/sweep/grid.h"
 
 namespace rollgait::client {
@@ -34,7 +35,8 @@ void AddGlobal(CLI::App& app, GlobalOptions& global) {
   app.set_version_flag("--version", "rollgait " ROLLGAIT_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "`rollgait help TOPIC` has more: a command, exit-codes, settings (environment, configuration file), formats.");
+      "`rollgait help TOPIC` has more: a command, exit-codes, settings (environment, configuration file), formats, "
+      "repeated-flags.");
   // --server and its like may stand before or behind the command.
   app.fallthrough();
 }
@@ -51,10 +53,8 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
   solve->add_option("-o,--output", arguments.solve.output, kOutputHelp);
   solve->add_option("--request-id", arguments.solve.request_id,
                     "The same id and request attach to the solve made before");
-  solve
-      ->add_option("--label", arguments.solve.labels,
-                   "KEY=VALUE: what `list --label` finds the solve by; may be repeated, up to 16")
-      ->take_all();
+  AddRepeatedFlag(*solve, "--label", arguments.solve.labels,
+                  "KEY=VALUE: what `list --label` finds the solve by, up to 16", "key");
   CLI::Option* const validate = solve->add_flag("--validate-only", arguments.solve.validate_only,
                                                 "Let the server check the request; solve nothing");
   solve->add_flag("--detach", arguments.solve.detach, "Print the name of the new solve and leave it running")
@@ -97,8 +97,7 @@ void AddSweep(CLI::App& app, SweepOptions& options) {
 }
 
 void AddListFilters(CLI::App& command, ListFilter& filter) {
-  command.add_option("--state", filter.states, "Only queued, running, succeeded, failed or cancelled; may be repeated")
-      ->take_all();
+  AddRepeatedFlag(command, "--state", filter.states, "Only queued, running, succeeded, failed or cancelled", "state");
   CLI::Option* const tenant =
       command.add_option("--tenant", filter.tenant, "Only of this tenant; another than your own takes the scope admin");
   command
@@ -109,9 +108,7 @@ void AddListFilters(CLI::App& command, ListFilter& filter) {
   command.add_option("--termination", filter.termination,
                      "Only solves that ended so, for example optimal; none: not yet");
   command.add_option("--model", filter.model, "Only of this model; own: of one that the request carries");
-  command
-      .add_option("--label", filter.labels, "KEY=VALUE: only solves that carry this label; may be repeated, up to 4")
-      ->take_all();
+  AddRepeatedFlag(command, "--label", filter.labels, "KEY=VALUE: only solves that carry this label, up to 4", "key");
   command.add_option("--name", filter.name_prefix, "Only solves whose ID begins with this");
   command.add_option(
       "--since", filter.since,
@@ -200,9 +197,7 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const remove = app.add_subcommand("delete", "Delete finished solves");
   for (auto [command, chosen] : {std::pair(cancel, &arguments.cancel), {remove, &arguments.remove}}) {
     command->add_option("SOLVE", chosen->names, "solves/ID or ID");
-    command
-        ->add_option("--label", chosen->labels, "KEY=VALUE: also those of yours that carry this label; may be repeated")
-        ->take_all();
+    AddRepeatedFlag(*command, "--label", chosen->labels, "KEY=VALUE: also those of yours that carry this label", "key");
   }
 
   AddModels(app, arguments);
@@ -232,7 +227,7 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
   app.add_subcommand("doctor", "Check the way to the server, its certificate, clock, version and disk")
       ->footer("Each line says ok, warn or FAIL and what to do. Exit code: 0, or 3 if a line says FAIL.");
   app.add_subcommand("help", "Print this, or the help of a command or topic")
-      ->add_option("TOPIC", arguments.help_topic, "A command, or exit-codes, settings, formats");
+      ->add_option("TOPIC", arguments.help_topic, "A command, or exit-codes, settings, formats, repeated-flags");
   app.add_subcommand("completion", "Print a script that completes command lines")
       ->add_option("SHELL", arguments.shell, "bash, fish or zsh")
       ->required();

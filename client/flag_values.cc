@@ -43,7 +43,7 @@ std::vector<double> ParseNumbers(const std::string& flag, const std::string& tex
   for (const size_t count : counts) {
     if (good && numbers.size() == count && text.back() != ',') return numbers;
   }
-  throw Failure(ExitCode::kUsage, flag + " " + text + ": must be " + form);
+  throw Failure(ExitCode::kUsage, flag + (flag.back() == '=' ? "" : " ") + text + ": must be " + form);
 }
 
 }  // namespace rollgait::client

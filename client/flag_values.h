@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "client/failure.h"
-#include "client/suggestion.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 
@@ -35,6 +35,7 @@ std::pair<std::string, std::string> ParseLabel(const std::string& text);
 
 // Of "1,-2.5": numbers separated by commas, as many as one of `counts`. Throws Failure(kUsage), which says that the
 // text must be `form`.
+//   flag  "--from", or with the name before the numbers "--spring ankle_l="
 std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,
                                  const std::vector<size_t>& counts);
 

@@ -40,6 +40,7 @@ std::vector<std::vector<std::string>> GaitEventRows(const v1::GaitEvents& events
   std::vector<std::vector<std::string>> rows;
   if (events.feet_size() == 0) return rows;
   const auto share = [](double fraction) { return FormatNumber(100 * fraction, 3) + " %"; };
+  const auto visible = [](double fraction) { return FormatVisible(100 * fraction, 1e-9, 3) + " %"; };
   rows.push_back({"  stride", FormatNumber(events.duration_s()) + " s", FormatNumber(events.displacement_m()) + " m"});
   for (const v1::FootOnGround& foot : events.feet()) {
     std::string when;
@@ -57,9 +58,9 @@ std::vector<std::vector<std::string>> GaitEventRows(const v1::GaitEvents& events
   }
   if (std::abs(events.step_length_asymmetry()) > kVisible || std::abs(events.step_duration_asymmetry()) > kVisible ||
       std::abs(events.stance_asymmetry()) > kVisible) {
-    rows.push_back({"  asymmetry, right less left", share(events.step_length_asymmetry()),
-                    "of step length, " + share(events.step_duration_asymmetry()) + " of step duration, " +
-                        share(events.stance_asymmetry()) + " of stance"});
+    rows.push_back({"  asymmetry, right less left", visible(events.step_length_asymmetry()),
+                    "of step length, " + visible(events.step_duration_asymmetry()) + " of step duration, " +
+                        visible(events.stance_asymmetry()) + " of stance"});
   }
   rows.push_back({"  double support", share(events.double_support_fraction())});
   if (events.flight_fraction() > 0) rows.push_back({"  flight", share(events.flight_fraction())});

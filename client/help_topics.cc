@@ -1,6 +1,7 @@
 #include "client/help_topics.h"
 
 #include "client/formats/format_table.h"
+#include "client/repeated_flags.h"
 
 namespace rollgait::client {
 namespace {
@@ -51,6 +52,7 @@ const std::vector<HelpTopic>& HelpTopics() {
       {"exit-codes", "what the exit code says", kExitCodes},
       {"settings", "environment variables and the configuration file", kSettings},
       {"formats", "formats of export and --output", FormatLines()},
+      {"repeated-flags", "flags that may be repeated, and what they do to a file", kRepeatedFlagsRule},
   };
   return topics;
 }

@@ -9,8 +9,8 @@
 
 namespace rollgait::client {
 
-// Rows of cells: the cycle, joints at an end of their range for half of stance or longer, then the angles and moments
-// of each data set. Empty for an unset comparison.
+// Rows of cells for one leg: the cycle, joints at an end of their range for half of stance or longer, then the angles
+// and moments of each data set. Empty for an unset comparison.
 std::vector<std::vector<std::string>> NormativeRows(const v1::NormativeComparison& people);
 
 // "110 / 72 / 108 %", a dash for what is not there.

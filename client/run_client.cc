@@ -11,8 +11,8 @@
 #include "client/help_topics.h"
 #include "client/man_page.h"
 #include "client/settings.h"
-#include "client/suggestion.h"
 #include "client/usage_error.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "client/failure.h"
-#include "client/suggestion.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 namespace {

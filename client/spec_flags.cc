@@ -7,6 +7,7 @@
 #include "client/failure.h"
 #include "client/flag_values.h"
 #include "client/json.h"
+#include "client/repeated_flags.h"
 #include "client/spec_words.h"
 #include "client/text.h"
 
@@ -34,6 +35,26 @@ v1::CostTerm ParseCost(const std::string& cost) {
   v1::CostTerm term = Lookup("--cost", cost.substr(0, colon), CostWords());
   if (colon != std::string::npos) term.set_weight(ParseWeight(cost, cost.substr(colon + 1)));
   return term;
+}
+
+// Another weight for the file's term of that kind, or one more term.
+void ApplyCost(const std::string& cost, v1::SolveSpec& spec) {
+  const v1::CostTerm term = ParseCost(cost);
+  v1::CostTerm* same = nullptr;
+  for (v1::CostTerm& given : *spec.mutable_costs()) {
+    if (given.term_case() != term.term_case()) continue;
+    if (same != nullptr) {
+      throw Failure(ExitCode::kUsage, "--cost " + cost +
+                                          ": the file has two terms of this kind, so that it is not clear which is "
+                                          "meant; change the file");
+    }
+    same = &given;
+  }
+  if (same == nullptr) {
+    *spec.add_costs() = term;
+  } else if (term.has_weight()) {
+    same->set_weight(term.weight());
+  }
 }
 
 // "A" or "A,B": one value or the range between two.
@@ -124,8 +145,8 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
 
 void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   command.add_option("--spec", flags.file,
-                     "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it; "
-                     "`rollgait spec` writes it");
+                     "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it, those "
+                     "that may be repeated name by name (`rollgait help repeated-flags`); `rollgait spec` writes it");
   command
       .add_option(
           "--model", flags.model,
@@ -157,10 +178,12 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--to", flags.to, "Manoeuvre", "Where it is to come to rest, likewise; X,Y alone leaves the orientation free");
   add("--duration", flags.duration_s, "Manoeuvre", "Duration in s, [0.01, 100]");
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
-  add("--cost", flags.costs, "Cost",
-      "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with [:WEIGHT]; "
-      "with a preset: added to it, or another weight for its term; may be repeated")
-      ->take_all();
+  AddRepeatedFlag(
+      command, "--cost", flags.costs,
+      "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with "
+      "[:WEIGHT]; added to those of preset and file, or another weight for their term",
+      "cost")
+      ->group("Cost");
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
   add("--warm-start", flags.warm_start, "Numerics",
@@ -169,16 +192,18 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
   add("--accuracy", flags.accuracy, "Numerics", "draft, standard or fine");
-  add("--bound", flags.bounds, "Numerics",
-      "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for example "
-      "max_pull_bw=1e-4; may be repeated")
-      ->take_all();
+  AddRepeatedFlag(command, "--bound", flags.bounds,
+                  "NAME=NUMBER: largest admissible measure of the trajectory, a field of rollgait.v1.Accuracy, for "
+                  "example max_pull_bw=1e-4",
+                  "measure")
+      ->group("Numerics");
   command.add_flag("--errors", flags.estimate_errors, "Estimate the errors of objective, angles, torques and forces")
       ->group("Numerics");
-  add("--max-error", flags.max_errors, "Numerics",
-      "NAME=NUMBER: refine until this estimated error is reached: angle in degrees, torque in N m, contact-force in N, "
-      "objective as a share; may be repeated")
-      ->take_all();
+  AddRepeatedFlag(command, "--max-error", flags.max_errors,
+                  "NAME=NUMBER: refine until this estimated error is reached: angle in degrees, torque in N m, "
+                  "contact-force in N, objective as a share",
+                  "error")
+      ->group("Numerics");
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 20]");
   add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");
@@ -196,9 +221,8 @@ v1::SolveSpec BuildSpec(const SpecFlags& flags) {
     spec.set_cycle(Lookup("--cycle", *flags.cycle, CycleWords()));
   }
   ApplyGround(flags, spec);
-  // A preset is another cost than the file's; --cost alone keeps the preset of the file and changes what it costs.
-  if (!flags.costs.empty() || flags.preset) spec.clear_costs();
-  for (const std::string& cost : flags.costs) *spec.add_costs() = ParseCost(cost);
+  if (flags.preset) spec.clear_costs();  // another cost than the file's
+  for (const std::string& cost : flags.costs) ApplyCost(cost, spec);
   if (flags.preset) {
     spec.set_preset(Lookup("--preset", *flags.preset, PresetWords()));
   }

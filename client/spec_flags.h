@@ -34,6 +34,7 @@ struct SpecFlags {
        rigid_trunk = false;
   std::vector<std::string> locks, segments;            // "knee_l=20" in degrees, "thigh=0.45" in m
   std::vector<std::string> loads, strengths, springs;  // "hand_l=10", "knee_l=0.3", "ankle_l=340,0,2"
+  std::vector<std::string> foot_axes;                  // "heel_l=0.03,0.02,0.025" in m
   std::vector<std::string> costs;                      // "torque", "work:0.5" …
   std::vector<std::string> bounds;                     // "max_pull_bw=1e-4" …
   bool estimate_errors = false;

@@ -26,7 +26,8 @@ Rows GaitRows(const v1::Solve& solve) {
   const v1::Trajectory& trajectory = result.trajectory();
   Rows rows = {{"  slope", FormatNumber(solve.spec().slope_rad() * 180 / kPi), "°"},
                {"  speed", FormatNumber(result.speed_m_s()), "m/s"},
-               {"  step length", FormatNumber(result.step_length_m()), "m"}};
+               {trajectory.cycle() == v1::CYCLE_FULL ? "  step length, mean of both feet" : "  step length",
+                FormatNumber(result.step_length_m()), "m"}};
   for (const v1::TrajectoryPhase& phase : trajectory.phases()) {
     const double share = trajectory.duration_s() > 0 ? 100 * phase.duration_s() / trajectory.duration_s() : 0;
     rows.push_back({"  " + PhaseName(phase), FormatNumber(phase.duration_s()),
@@ -102,8 +103,8 @@ std::string StartNote(const v1::SolveResult& result) {
   const v1::WarmStartSource& source = result.warm_started_from();
   constexpr double kConstraintTolerance = 1e-6;  // to which the speed of a result is that of its request
   const double speed = source.speed_difference_m_s();
-  return "; started from " + source.name() + ", " + FormatNumber(source.slope_difference_rad() * 180 / kPi) + "° and " +
-         FormatNumber(std::abs(speed) < kConstraintTolerance ? 0 : speed) + " m/s away" +
+  return "; started from " + source.name() + ", " + FormatVisible(source.slope_difference_rad() * 180 / kPi, 1e-9) +
+         "° and " + FormatVisible(speed, kConstraintTolerance) + " m/s away" +
          (source.used_multipliers() ? "" : ", without its multipliers");
 }
 
@@ -152,7 +153,9 @@ std::string Summarize(const v1::Solve& solve, bool color) {
   if (result.has_accuracy()) {
     text += Section("Accuracy: " + AccuracyVerdict(solve), AccuracyRows(solve, color), "lr", color);
   }
-  text += Section("Comparison with normative gait (level ground)", NormativeRows(result.normative()), "lrrr", color);
+  text += Section("Right leg beside normative gait (level ground)", NormativeRows(result.normative()), "lrrr", color);
+  text +=
+      Section("Left leg beside normative gait (level ground)", NormativeRows(result.normative_left()), "lrrr", color);
   return text + EffortLine(solve);
 }
 

@@ -34,6 +34,10 @@ std::string FormatNumber(double value, int significant_digits) {
   return buffer;
 }
 
+std::string FormatVisible(double value, double least, int significant_digits) {
+  return FormatNumber(std::abs(value) < least ? 0 : value, significant_digits);
+}
+
 std::string FormatDuration(double seconds) {
   if (!std::isfinite(seconds)) return FormatNumber(seconds);
   if (seconds < 1e-3) return FormatNumber(seconds * 1e6, 3) + " µs";

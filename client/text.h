@@ -17,6 +17,9 @@ constexpr double kPi = 3.14159265358979323846;
 // The number with so many significant digits, without trailing zeros; "inf", "nan" as such.
 std::string FormatNumber(double value, int significant_digits = 4);
 
+// The same, but "0" for what is smaller than `least` and so a rounding error.
+std::string FormatVisible(double value, double least, int significant_digits = 4);
+
 // The length of time with a unit that suits it: "340 µs", "12.3 ms", "4.56 s", "3 min 20 s".
 std::string FormatDuration(double seconds);
 

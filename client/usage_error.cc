@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "client/suggestion.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 namespace {
@@ -35,8 +35,8 @@ std::string UsageMessage(const CLI::App& app, const CLI::Error& error) {
     std::vector<std::string> flags;
     if (!named.empty()) AddFlagNames(*named.front(), &flags);
     AddFlagNames(app, &flags);
-    return unknown + ": no such flag" + (named.empty() ? "" : " of " + named.front()->get_name()) +
-           DidYouMean(unknown, flags) + help;
+    const std::string hint = unknown == "--format" ? "; --json writes JSON" : DidYouMean(unknown, flags);
+    return unknown + ": no such flag" + (named.empty() ? "" : " of " + named.front()->get_name()) + hint + help;
   }
   if (!named.empty()) return unknown + ": " + named.front()->get_name() + " does not take this word" + help;
   std::vector<std::string> commands;

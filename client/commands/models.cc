@@ -1,15 +1,29 @@
+#include <map>
+
 #include "client/commands/commands.h"
 #include "client/import/model_file.h"
 #include "client/import/side_proposal.h"
 #include "client/json.h"
 #include "client/output.h"
+#include "client/report/sides.h"
 #include "client/text.h"
 
 namespace rollgait::client {
 namespace {
 
+// Of lengths in m and of directions: less than this is a rounding error.
+constexpr double kLeast = 1e-12;
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// The entries of a map of a message by name.
+std::map<std::string, double> InOrder(const google::protobuf::Map<std::string, double>& named) {
+  return {named.begin(), named.end()};
+}
+
 std::string Vector(const v1::Vector3& v) {
-  return "(" + FormatNumber(v.x()) + ", " + FormatNumber(v.y()) + ", " + FormatNumber(v.z()) + ")";
+  return "(" + FormatVisible(v.x(), kLeast) + ", " + FormatVisible(v.y(), kLeast) + ", " +
+         FormatVisible(v.z(), kLeast) + ")";
 }
 
 // "-30 … 120 °", or "free".
@@ -28,6 +42,47 @@ std::string EffortRange(const v1::Joint& joint) {
          (joint.type() == v1::Joint::TYPE_PRISMATIC ? " N" : " N m");
 }
 
+// Springs and dampers of joints; empty without any.
+Rows SpringRows(const v1::Model& model) {
+  Rows rows;
+  for (const v1::Joint& joint : model.joints()) {
+    if (joint.stiffness() == 0 && joint.damping() == 0) continue;
+    if (rows.empty()) rows = {{"SPRING AT", "STIFFNESS", "AT REST", "DAMPING"}};
+    const bool slides = joint.type() == v1::Joint::TYPE_PRISMATIC;
+    rows.push_back({joint.name(), FormatNumber(joint.stiffness()) + (slides ? " N/m" : " N m/rad"),
+                    slides ? FormatNumber(joint.rest_position()) + " m"
+                           : FormatVisible(joint.rest_position() * 180 / kPi, 1e-9) + "°",
+                    FormatNumber(joint.damping()) + (slides ? " N s/m" : " N m s/rad")});
+  }
+  return rows;
+}
+
+// What the request puts on the body and takes from it, beside its springs; empty without any of it.
+Rows ChangeRows(const v1::ModelSelection& selection) {
+  Rows rows;
+  for (const v1::ModelSelection::Load& load : selection.loads()) {
+    rows.push_back({"load on " + load.segment(), FormatNumber(load.mass_kg()) + " kg",
+                    load.has_position_m() ? "at " + Vector(load.position_m()) + " m from its upper joint"
+                                          : "at the centre of mass of the segment"});
+  }
+  for (const auto& [joint, share] : InOrder(selection.joint_strengths())) {
+    rows.push_back({"strength of " + joint, FormatNumber(100 * share) + " %", share == 0 ? "no muscles" : ""});
+  }
+  for (const auto& [segment, length] : InOrder(selection.segment_lengths_m())) {
+    rows.push_back({"length of " + segment, FormatNumber(length) + " m", ""});
+  }
+  const std::map<std::string, v1::Vector3> feet(selection.foot_semi_axes_m().begin(),
+                                                selection.foot_semi_axes_m().end());
+  for (const auto& [surface, axes] : feet) {
+    rows.push_back({"semi-axes of " + surface, Vector(axes) + " m", "forward, left, up"});
+  }
+  for (const auto& [joint, angle] : InOrder(selection.locked_joints_rad())) {
+    rows.push_back({"locked " + joint, FormatVisible(angle * 180 / kPi, 1e-9) + "°", ""});
+  }
+  if (!rows.empty()) rows.insert(rows.begin(), {"CHANGE", "HOW MUCH", ""});
+  return rows;
+}
+
 std::string ModelText(const v1::Model& model) {
   std::string text = model.summary().name() + ": " + model.summary().description() + "\n";
   if (model.summary().has_stored()) {
@@ -35,13 +90,17 @@ std::string ModelText(const v1::Model& model) {
     text += "stored as " + stored.name() + ", " + FormatTime(stored.create_time()) + "\n";
   }
   text += "\n";
-  text += FormatTable({{"mass", FormatNumber(model.total_mass_kg()), "kg"},
-                       {"stature", FormatNumber(model.stature_m()), "m"},
-                       {"leg length", FormatNumber(model.leg_length_m()), "m"},
-                       {"gravity", FormatNumber(model.gravity_m_s2()), "m/s²"}},
-                      "lr");
-  std::vector<std::vector<std::string>> joints = {{"JOINT", "TYPE", "PARENT", "ORIGIN m", "AXIS", "RANGE", "EFFORT",
-                                                   "LINK", "MASS kg", "CENTRE OF MASS m", "IYY kg m²"}};
+  Rows whole = {{"mass", FormatNumber(model.total_mass_kg()), "kg"}};
+  if (model.stature_m() > 0) whole.push_back({"stature", FormatNumber(model.stature_m()), "m"});
+  const char* const leg = IsOneSided(model) ? "leg length, of the longer leg" : "leg length";
+  if (!model.selection().has_rolling_body()) whole.push_back({leg, FormatNumber(model.leg_length_m()), "m"});
+  whole.push_back({"gravity", FormatNumber(model.gravity_m_s2()), "m/s²"});
+  text += FormatTable(whole, "lr");
+  for (const Rows& rows : {ChangeRows(model.selection()), SpringRows(model)}) {
+    if (!rows.empty()) text += "\n" + FormatTable(rows, "");
+  }
+  Rows joints = {{"JOINT", "TYPE", "PARENT", "ORIGIN m", "AXIS", "RANGE", "EFFORT", "LINK", "MASS kg",
+                  "CENTRE OF MASS m", "IYY kg m²"}};
   for (const v1::Joint& joint : model.joints()) {
     const bool known_parent = joint.parent() >= 0 && joint.parent() < model.joints_size();
     joints.push_back({joint.name(), joint.type() == v1::Joint::TYPE_PRISMATIC ? "prismatic" : "revolute",
@@ -51,7 +110,7 @@ std::string ModelText(const v1::Model& model) {
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
   }
   text += "\n" + FormatTable(joints, "");
-  std::vector<std::vector<std::string>> contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "CENTRE m", "MIRROR IMAGE"}};
+  Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "CENTRE m", "MIRROR IMAGE"}};
   for (const v1::ContactSurface& contact : model.contacts()) {
     const bool known = contact.joint() >= 0 && contact.joint() < model.joints_size();
     contacts.push_back({contact.name(), known ? model.joints(contact.joint()).link_name() : "?",
@@ -124,7 +183,7 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     terminal.out << (global.json ? ToJsonText(model) : ModelText(model)) << std::flush;
     return ExitCode::kSuccess;
   }
-  std::vector<std::vector<std::string>> rows = {{"NAME", "DOF", "ACTUATED", "CONTACTS", "DESCRIPTION"}};
+  Rows rows = {{"NAME", "DOF", "ACTUATED", "CONTACTS", "DESCRIPTION"}};
   for (const v1::ModelSummary& model : ListModels(connection)) {
     if (global.json) terminal.out << ToJsonLine(model) << "\n";
     std::string contacts;

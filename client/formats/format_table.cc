@@ -15,8 +15,8 @@
 #include "client/formats/urdf.h"
 #include "client/formats/urdf_side.h"
 #include "client/json.h"
-#include "client/suggestion.h"
 #include "client/text.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 namespace {
@@ -43,7 +43,7 @@ const auto kAny = [](const Format&) { return true; };
 const std::vector<Format>& Formats() {
   static const std::vector<Format> table = {
       {.name = "json", .ending = ".json", .what = "the whole Solve as proto3 JSON", .of_solve = Json},
-      {.name = "csv", .ending = ".csv", .what = "the trajectory at its collocation points", .of_solve = ToCsv},
+      {.name = "csv", .ending = ".csv", .what = "the motion at the times of its collocation points", .of_solve = ToCsv},
       {.name = "sto",
        .ending = ".sto",
        .what = "the gait cycle as OpenSim storage, the service's axes",
@@ -87,8 +87,11 @@ const Format& FindFormat(const std::string& name) {
 const Format& FindModelFormat(const std::string& name) {
   const Format& format = FindFormat(name);
   if (!format.of_model) {
-    throw Failure(ExitCode::kUsage,
-                  "--format " + name + ": needs a solve; a model alone is one of " + ModelFormatNames());
+    const bool json = name == "json";
+    throw Failure(ExitCode::kUsage, "--format " + name + ": " +
+                                        (json ? "is the flag --json for a model; other formats are "
+                                              : "needs a solve; a model alone is one of ") +
+                                        ModelFormatNames());
   }
   return format;
 }

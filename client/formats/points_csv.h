@@ -1,4 +1,4 @@
-// A trajectory at its collocation points, where the equations of motion hold.
+// A trajectory at the times of its collocation points.
 #ifndef ROLLGAIT_CLIENT_FORMATS_POINTS_CSV_H_
 #define ROLLGAIT_CLIENT_FORMATS_POINTS_CSV_H_
 
@@ -8,7 +8,9 @@
 
 namespace rollgait::client {
 
-// Comma separated, a header line with units; one row a point. Contract: the solve has a trajectory.
+// Comma separated, a header line with units; one row a point. Positions and velocities are those of the motion q(t),
+// TrajectoryPhase.point_positions; the equations of motion hold at the stage positions, which differ from them inside
+// an interval. Contract: the solve has a trajectory.
 std::string ToCsv(const v1::Solve& solve);
 
 }  // namespace rollgait::client

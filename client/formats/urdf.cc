@@ -60,6 +60,11 @@ void WriteJoint(const v1::Joint& joint, const std::string& parent, XmlWriter& xm
     limit.emplace_back("upper", Exact(Bounded(joint.position_max())));
   }
   xml.Empty("limit", limit);
+  if (joint.stiffness() != 0) {
+    xml.Comment("Spring, which URDF cannot state; the side file (urdf-side) has it: stiffness " +
+                Exact(joint.stiffness()) + (prismatic ? " N/m, at rest at " : " N m/rad, at rest at ") +
+                Exact(joint.rest_position()) + (prismatic ? " m." : " rad."));
+  }
   if (joint.damping() != 0) xml.Empty("dynamics", {{"damping", Exact(joint.damping())}});
   xml.Close();
 }

@@ -48,6 +48,10 @@ v1::ModelSideFile SideFileOfModel(const v1::Model& model) {
       to.set_effort_min(from.effort_min());
       to.set_effort_max(from.effort_max());
     }
+    if (from.stiffness() != 0) {
+      to.set_stiffness(from.stiffness());
+      to.set_rest_position(from.rest_position());
+    }
     if (from.velocity_max() > kUrdfUnlimited && std::isfinite(from.velocity_max())) {
       to.set_velocity_max(from.velocity_max());
     }

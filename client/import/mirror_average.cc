@@ -105,6 +105,14 @@ MirrorChange AverageMirrorImages(v1::Model* model) {
     cut(image.velocity_max(), velocity);
     joint.set_velocity_max(velocity);
     image.set_velocity_max(velocity);
+    const double stiffness = (joint.stiffness() + image.stiffness()) / 2;
+    const double rest = (joint.rest_position() + sign * image.rest_position()) / 2;
+    const double damping = (joint.damping() + image.damping()) / 2;
+    for (v1::Joint* one : {&joint, &image}) {
+      one->set_stiffness(stiffness);
+      one->set_rest_position(one == &joint ? rest : sign * rest);
+      one->set_damping(damping);
+    }
   }
   return change;
 }

@@ -8,8 +8,8 @@
 
 #include "client/failure.h"
 #include "client/json.h"
-#include "client/suggestion.h"
 #include "client/text.h"
+#include "core/base/nearest_word.h"
 
 namespace rollgait::client {
 namespace {
@@ -125,6 +125,15 @@ class SideCheck {
       if (joint.has_velocity_max() && !(joint.velocity_max() > 0)) {
         Refuse(At("joints", i, "velocityMax"),
                "of " + shown + "is " + FormatNumber(joint.velocity_max()) + "; must be > 0");
+      }
+      RequireFinite(At("joints", i, "restPosition"), true, joint.rest_position());
+      for (const auto& [field, value] : {std::pair("stiffness", joint.stiffness()), {"damping", joint.damping()}}) {
+        if (!(value >= 0 && std::isfinite(value))) {
+          Refuse(At("joints", i, field), "of " + shown + "is " + FormatNumber(value) + "; must be at least 0");
+        }
+      }
+      if (index < 0 && (joint.stiffness() != 0 || joint.has_damping())) {
+        Refuse(At("joints", i, "stiffness"), "or damping of " + shown + "cannot be given: the base floats");
       }
       if (joint.mirror_sign() != 0 && std::abs(joint.mirror_sign()) != 1) {
         Refuse(At("joints", i, "mirrorSign"),

@@ -61,9 +61,8 @@ class UrdfCleaner {
       document_->left_out.push_back(std::to_string(meshes_) +
                                     " collision shapes that are no box, sphere or cylinder; no mesh file is opened");
     }
-    if (dynamics_ > 0) {
-      document_->left_out.push_back("damping and friction of " + std::to_string(dynamics_) +
-                                    " joints, which a model does not have");
+    if (rubbing_ > 0) {
+      document_->left_out.push_back("friction of " + std::to_string(rubbing_) + " joints, which a model does not have");
     }
     tinyxml2::XMLPrinter printer(nullptr, true);
     out_.Print(&printer);
@@ -231,8 +230,10 @@ class UrdfCleaner {
       to->SetAttribute("joint", Name(*mimic, "joint").c_str());
     }
     if (const auto* dynamics = Only(joint, "dynamics", false)) {
-      const bool passive = dynamics->Attribute("damping") != nullptr || dynamics->Attribute("friction") != nullptr;
-      if (passive) ++dynamics_;
+      if (dynamics->Attribute("damping") != nullptr) {
+        CopyNumbers(*dynamics, "damping", 1, true, Add(copy, "dynamics"));
+      }
+      if (dynamics->Attribute("friction") != nullptr) ++rubbing_;
     }
     if (joint.FirstChildElement("safety_controller") != nullptr) others_.insert("<safety_controller>");
     if (joint.FirstChildElement("calibration") != nullptr) others_.insert("<calibration>");
@@ -286,7 +287,7 @@ class UrdfCleaner {
   std::vector<Edge> edges_;
   tinyxml2::XMLDocument out_;
   std::set<std::string> link_names_, joint_names_, others_;
-  int meshes_ = 0, dynamics_ = 0;
+  int meshes_ = 0, rubbing_ = 0;  // collision shapes and joints of which something is left out
 };
 
 }  // namespace

@@ -195,6 +195,15 @@ class ModelMaker {
     to.set_side(said.side());
     to.set_passive(said.passive());
     SetLimits(tree_, joint, side_path_, said, &to, &result_);
+    SetSpring(joint, said, &to);
+  }
+
+  static void SetSpring(const UrdfJoint& joint, const v1::SideJoint& said, v1::Joint* to) {
+    if (said.stiffness() != 0) {
+      to->set_stiffness(said.stiffness());
+      to->set_rest_position(said.rest_position() - said.reference());
+    }
+    to->set_damping(said.has_damping() ? said.damping() : joint.damping);
   }
 
   void AddMasses() {

@@ -127,6 +127,7 @@ class TreeReader {
                     0,
                     0,
                     0,
+                    0,
                     {}};
     RequireLength("joint", from.name, "<origin>", joint.origin.position);
     switch (from.type) {
@@ -152,6 +153,10 @@ class TreeReader {
     if (!(joint.axis.norm() > 1e-6)) Refuse("joint", from.name, "<axis> has length 0; give a direction");
     if (std::abs(joint.axis.norm() - 1) > 1e-15) joint.axis.normalize();
     if (from.mimic != nullptr) joint.mimics = from.mimic->joint_name;
+    if (from.dynamics != nullptr) joint.damping = from.dynamics->damping;
+    if (joint.damping < 0) {
+      Refuse("joint", from.name, "<dynamics> has damping " + FormatNumber(joint.damping) + "; must be at least 0");
+    }
     if (from.limits == nullptr) return joint;
     joint.lower = from.limits->lower;
     joint.upper = from.limits->upper;

@@ -41,6 +41,7 @@ struct UrdfJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // unit, joint frame; zero of fixed and floating joints
   double lower = 0, upper = 0;                     // rad or m, lower < upper; of revolute and prismatic joints
   double effort = 0, velocity = 0;                 // N m or N, rad/s or m/s; >= 0, 0 if the file has none
+  double damping = 0;                              // N m s/rad or N s/m; >= 0
   std::string mimics;                              // name of the joint whose position this one takes; empty: none
 };
 

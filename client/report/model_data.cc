@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/report/sides.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -33,6 +34,7 @@ nlohmann::json ModelData(const v1::Model& model) {
           {"mass", model.total_mass_kg()},
           {"stature", model.stature_m()},
           {"leg_length", model.leg_length_m()},
+          {"one_sided", IsOneSided(model)},
           {"gravity", model.gravity_m_s2()},
           {"joints", joints},
           {"contacts", contacts},

@@ -8,8 +8,8 @@
 
 namespace rollgait::client {
 
-// {name, description, mass, stature, leg_length, gravity, joints: [...], contacts: [...], sources: [...]}; angles in
-// degrees.
+// {name, description, mass, stature, leg_length, one_sided, gravity, joints: [...], contacts: [...], sources: [...]};
+// angles in degrees.
 nlohmann::json ModelData(const v1::Model& model);
 
 }  // namespace rollgait::client

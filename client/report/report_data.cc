@@ -147,9 +147,8 @@ json IterationTable(const std::vector<v1::Iteration>& iterations) {
 }
 
 // What belongs to one gait: the comparison without the data that it is compared with.
-json OwnComparison(const v1::SolveResult& result) {
-  if (!result.has_normative()) return json();
-  v1::NormativeComparison own = result.normative();
+json OwnComparison(v1::NormativeComparison own) {
+  if (own.datasets_size() == 0) return json();
   for (v1::NormativeDatasetComparison& set : *own.mutable_datasets()) {
     for (v1::NormativeCurve& curve : *set.mutable_curves()) {
       curve.clear_ours();
@@ -235,7 +234,8 @@ json SolveData(const ReportedSolve& reported, const std::string& label) {
           {"meshes", MeshTable(result)},
           {"log", IterationTable(reported.iterations)},
           {"unmet", UnmetTable(result)},
-          {"people", OwnComparison(result)},
+          {"people", OwnComparison(result.normative())},
+          {"people_left", OwnComparison(result.normative_left())},
           {"model", model},
           {"stride", json()},
           {"path", json()}};

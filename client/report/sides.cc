@@ -24,6 +24,13 @@ std::vector<Side> JointSides(const v1::Model& model) {
   return sides;
 }
 
+bool IsOneSided(const v1::Model& model) {
+  for (int i = 0; i < model.joints_size(); ++i) {
+    if (model.joints(i).mirror_joint() != i || model.joints(i).mirror_sign() < 0) return false;
+  }
+  return model.joints_size() > 0;
+}
+
 std::string WithoutSide(const std::string& name) {
   return name.size() > 2 && (name.ends_with("_r") || name.ends_with("_l")) ? name.substr(0, name.size() - 2) : name;
 }

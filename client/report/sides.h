@@ -17,6 +17,9 @@ enum class Side { kMiddle = 0, kRight = 1, kLeft = 2 };
 // of it in the zero posture.
 std::vector<Side> JointSides(const v1::Model& model);
 
+// Whether left and right differ: then every joint is its own mirror image.
+bool IsOneSided(const v1::Model& model);
+
 // "knee" of "knee_r" and "knee_l"; other names stay.
 std::string WithoutSide(const std::string& name);
 

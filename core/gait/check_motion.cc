@@ -42,8 +42,9 @@ void CheckFroude(double speed, const GaitRequest::Motion& motion, const Scene& s
   const bool derived = motion.step_length && motion.step_duration;
   check.Add(derived ? "motion" : "motion.speed_m_s",
             FormatNumber(speed) + " m/s has Froude number v²/(g L) = " + FormatNumber(froude) + " with leg length " +
-                FormatNumber(scene.leg_length) + " m; walking is impossible above 1: give at most " +
-                FormatNumber(std::sqrt(gravity * scene.leg_length)) + " m/s");
+                FormatNumber(scene.leg_length) + (scene.symmetric ? " m" : " m of the longer leg") +
+                "; walking is impossible above 1: give at most " + FormatNumber(std::sqrt(gravity * scene.leg_length)) +
+                " m/s");
 }
 
 // A step lasts as long as its phases: refuses a duration that they cannot add up to.

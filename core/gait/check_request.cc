@@ -103,6 +103,13 @@ CheckedAccuracy CheckAccuracy(const GaitRequest::Accuracy& accuracy, const Simil
           CheckMaxError(accuracy.max_error, check)};
 }
 
+// "model.joint_springs["ankle_l"], model.loads[0]": what makes left and right differ.
+std::string DifferingFields(const BodyRequest& body) {
+  std::vector<std::string> fields = OneSidedFields(body);
+  for (std::string& field : fields) field = "model." + field;  // of names that the body has
+  return ListNames(fields);
+}
+
 // The phases and the motion of a walk.
 CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double gravity, const Similarity& similarity,
                         std::vector<GaitSpec::Phase>* phases, RequestCheck& check) {
@@ -115,10 +122,9 @@ CheckedMotion CheckGait(const GaitRequest& request, const Scene* scene, double g
     check.Add("cycle", "CYCLE_ONCE is the cycle of a manoeuvre, which is not set; give CYCLE_HALF or CYCLE_FULL");
   }
   if (scene != nullptr && !scene->symmetric && request.cycle == Cycle::kHalf) {
-    check.Add("cycle",
-              "a half cycle ends in the mirror image of its start, but left and right of this body differ (by its "
-              "locked joints, segment lengths, loads, strengths or springs); give CYCLE_FULL, leave it out, or make "
-              "both sides alike");
+    check.Add("cycle", "CYCLE_HALF ends in the mirror image of its start, but left and right of this body differ by " +
+                           DifferingFields(request.body) +
+                           "; give CYCLE_FULL, leave `cycle` out, or give the same of both sides");
   }
   *phases = CheckPhases(request, scene, similarity, check);
   return CheckMotion(request, scene, gravity, similarity, *phases, check);

@@ -69,10 +69,12 @@ struct GaitSolution {
   std::optional<Trajectory> trajectory;          // present if the last iterate is finite
   std::optional<AccuracyReport> accuracy;        // present with the trajectory
   std::optional<GaitEvents> events;              // present with a trajectory of a human that walks
-  std::optional<NormativeComparison> normative;  // present with events
-  std::optional<FinerSolution> finer;            // where the request asks for errors and it was found
-  std::optional<ErrorEstimate> errors;           // present with `finer`
-  Verdict verdict;                               // of a converged solution; not judged otherwise
+  std::optional<NormativeComparison> normative;  // of the right leg; present with events
+  // Of the left leg, from its heel strike on; present where left and right of the body differ.
+  std::optional<NormativeComparison> normative_left;
+  std::optional<FinerSolution> finer;   // where the request asks for errors and it was found
+  std::optional<ErrorEstimate> errors;  // present with `finer`
+  Verdict verdict;                      // of a converged solution; not judged otherwise
   double objective = 0;
   double kkt_error = 0;
   double constraint_violation = 0;

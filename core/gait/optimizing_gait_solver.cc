@@ -242,6 +242,15 @@ GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolveBudget
   return InSi(units, spec, SearchWithErrors(WithoutRounding(InUnits(units, spec)), budget));
 }
 
+// The comparison of each leg with normative data where the two differ, else of the right one.
+void CompareLegs(const GaitSpec& spec, GaitSolution* solution) {
+  solution->normative = CompareWithPeople(spec.scene, *solution->trajectory, *solution->events);
+  if (spec.scene.symmetric) return;
+  const auto from_left = MeasureGaitEvents(spec.scene, *solution->trajectory, spec.gravity, Foot::kLeft);
+  if (!from_left) return;
+  solution->normative_left = CompareWithPeople(spec.scene, *solution->trajectory, *from_left, Foot::kLeft);
+}
+
 }  // namespace
 
 GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveControl& control) {
@@ -273,7 +282,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
   solution.message += solution.note;
   if (spec.is_full_by_body) solution.message += " Left and right of the body differ, so this is a full cycle.";
   if (solution.trajectory) solution.events = MeasureGaitEvents(spec.scene, *solution.trajectory, spec.gravity);
-  if (solution.events) solution.normative = CompareWithPeople(spec.scene, *solution.trajectory, *solution.events);
+  if (solution.events) CompareLegs(spec, &solution);
   return solution;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/base/nearest_word.h"
+
 namespace rollgait {
 namespace {
 
@@ -83,9 +85,10 @@ int RequestCheck::Joint(const std::string& field, const std::string& name, const
   for (const rollgait::Joint& joint : scene.model.joints()) {
     if (!must_be_actuated || joint.actuated) names.push_back(joint.name);
   }
-  Add(field, (index < 0 ? "no joint " + Quoted(name) + " in model " + Quoted(scene.name)
-                        : "joint " + Quoted(name) + " is not actuated") +
-                 "; choose from " + ListNames(names));
+  Add(field,
+      (index < 0 ? "no joint " + Quoted(name) + " in model " + Quoted(scene.name) + DidYouMean(Printable(name), names)
+                 : "joint " + Quoted(name) + " is not actuated") +
+          "; choose from " + ListNames(names));
   return -1;
 }
 

@@ -49,6 +49,7 @@ struct JointSpring {
   double stiffness = 0;  // N m/rad, [0, 1e5]
   double rest = 0;       // rad, [-π, π]
   double damping = 0;    // N m s/rad, [0, 1e4]
+  bool operator==(const JointSpring&) const = default;
 };
 
 // What makes a human one of a kind. Left and right may differ; nothing of it: the human of the tables.
@@ -58,6 +59,9 @@ struct SubjectChanges {
   // passive torque: what is left is its spring.
   std::map<std::string, double> strengths;
   std::map<std::string, JointSpring> springs;  // of joints by name
+  // m, of the ellipsoids of the feet: "foot", or "heel" and "forefoot"; with "_l" or "_r" of one side alone, which
+  // wins. Length and breadth 0.5 to 1.5 times, height 0.25 to 2 times what the foot's length gives.
+  std::map<std::string, Vector3> foot_semi_axes;
 };
 
 // Which body, as validated: see rollgait.v1.ModelSelection.

@@ -70,6 +70,7 @@ Violations RefuseHumanFields(const BodyRequest& request, const std::string& what
   refuse(!request.changes.loads.empty(), "loads");
   refuse(!request.changes.strengths.empty(), "joint_strengths");
   refuse(!request.changes.springs.empty(), "joint_springs");
+  refuse(!request.changes.foot_semi_axes.empty(), "foot_semi_axes_m");
   refuse(request.ranges.has_value(), "ranges");
   return violations;
 }

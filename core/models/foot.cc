@@ -19,20 +19,26 @@ double HalfHeight(double half_length, double radius) { return half_length * half
 
 }  // namespace
 
-std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape) {
+std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape, const FootAxes& axes) {
   const double length = table.FootLength(), heel = -table.HeelToAnkle(), sole = -table.AnkleHeight();
   const double radius = kRollingRadius * table.LegLength();
+  // `place`: x of the centre for a half length.
+  const auto surface = [&](const std::string& name, FootPart part, double half_length, double half_breadth,
+                           double sole_radius, auto place) {
+    const auto given = axes.find(name);
+    const Vector3 semi_axes =
+        given != axes.end() ? given->second : Vector3(half_length, half_breadth, HalfHeight(half_length, sole_radius));
+    return FootSurface{name, part, Ellipsoid(semi_axes), Vector3(place(semi_axes.x()), 0, sole + semi_axes.z()),
+                       part == FootPart::kToe};
+  };
   if (shape == FootShape::kOneEllipsoid) {
-    const double a = length / 2, c = HalfHeight(a, radius);
-    return {{"foot", FootPart::kWhole, Ellipsoid(Vector3(a, kHalfFootBreadth * length, c)),
-             Vector3(a + heel, 0, c + sole), false}};
+    return {surface("foot", FootPart::kWhole, length / 2, kHalfFootBreadth * length, radius,
+                    [&](double) { return heel + length / 2; })};
   }
-  const double a = kHeelHalfLength * length, c = HalfHeight(a, kHeelRadius * table.LegLength());
-  const double a_front = kForefootHalfLength * length, c_front = HalfHeight(a_front, radius);
-  return {{"heel", FootPart::kHeel, Ellipsoid(Vector3(a, kHeelHalfBreadth * length, c)), Vector3(heel + a, 0, sole + c),
-           false},
-          {"forefoot", FootPart::kToe, Ellipsoid(Vector3(a_front, kHalfFootBreadth * length, c_front)),
-           Vector3(heel + length - a_front, 0, sole + c_front), true}};
+  return {surface("heel", FootPart::kHeel, kHeelHalfLength * length, kHeelHalfBreadth * length,
+                  kHeelRadius * table.LegLength(), [&](double a) { return heel + a; }),
+          surface("forefoot", FootPart::kToe, kForefootHalfLength * length, kHalfFootBreadth * length, radius,
+                  [&](double a) { return heel + length - a; })};
 }
 
 FootBodies SplitFoot(const SegmentTable& table, BodySide side) {

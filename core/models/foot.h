@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_MODELS_FOOT_H_
 #define ROLLGAIT_CORE_MODELS_FOOT_H_
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,11 @@ struct FootSurface {
   Vector3 center;        // m, from the ankle joint
   bool on_toes = false;  // rides on the toes, if they are a link of their own
 };
-std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape);
+// Semi-axes of surfaces by their names, m. The others follow from the lengths of foot and leg.
+using FootAxes = std::map<std::string, Vector3>;
+// Whatever the semi-axes: a whole foot stays in the middle between heel and toes, a heel ends at the heel, a forefoot
+// at the tip of the toes. Names that the shape does not have mean nothing. Contract: each axis > 0.
+std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape, const FootAxes& axes = {});
 
 // The foot cut at the metatarsal heads. Together the two are the foot of the table.
 struct FootBodies {

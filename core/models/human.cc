@@ -174,7 +174,8 @@ class HumanBuilder {
     } else {
       SetLink(foot, "foot" + suffix, table.Body(Segment::kFoot, side));
     }
-    for (const FootSurface& surface : FootSurfaces(table, options_.feet)) {
+    for (const FootSurface& surface :
+         FootSurfaces(table, options_.feet, side == BodySide::kRight ? options_.right_foot : options_.left_foot)) {
       const bool on_toes = surface.on_toes && options_.toes;
       ContactSurface contact;
       contact.name = Sided(side, surface.name);
@@ -275,8 +276,13 @@ SegmentPlace PlaceOf(Segment segment, BodySide side, const SegmentTable& table) 
   ROLLGAIT_CHECK(false);
 }
 
-std::vector<std::string> HumanSources() {
+std::vector<std::string> HumanSources(bool symmetric) {
   std::vector<std::string> sources = SegmentTable::Sources();
+  sources.push_back(
+      symmetric
+          ? "Left segments mirror the right ones; head, torso and pelvis are made symmetric about the sagittal plane."
+          : "Left segments mirror the right ones but for what the request changes: left and right of this body "
+            "differ. Head, torso and pelvis are those of the table, made symmetric about the sagittal plane.");
   for (const std::vector<std::string>& more :
        {FootSources(), LimbBodySources(), JointLimitSources(), PassiveTorqueSources()}) {
     sources.insert(sources.end(), more.begin(), more.end());

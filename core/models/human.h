@@ -15,6 +15,7 @@ struct HumanOptions {
   FootShape feet = FootShape::kOneEllipsoid;
   JointRanges ranges = JointRanges::kAnatomical;
   bool toes = false;  // a toe joint in each foot; contract: with feet of two ellipsoids only
+  FootAxes left_foot = {}, right_foot = {};
 };
 
 struct HumanBody {
@@ -55,8 +56,8 @@ struct SegmentPlace {
 // Contract: the side that the segment has (SegmentTable::Body), and the table of that side.
 SegmentPlace PlaceOf(Segment segment, BodySide side, const SegmentTable& table);
 
-// Where the numbers of the body come from.
-std::vector<std::string> HumanSources();
+// Where the numbers of the body come from. `symmetric`: left and right are mirror images.
+std::vector<std::string> HumanSources(bool symmetric);
 
 }  // namespace rollgait
 

@@ -54,7 +54,11 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
     const std::string field = Keyed("locked_joints_rad", name);
     const int joint = model.Find(name);
     if (joint < 0) {
-      violations->push_back({field, "the human has no joint of that name; see GetModel of \"human29\" for its joints"});
+      std::vector<std::string> known;
+      for (const Joint& each : model.joints()) {
+        if (!IsBase(each) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
+      }
+      violations->push_back({field, NoSuchJoint(name, known)});
       continue;
     }
     const std::string problem = LockProblem(model.joint(joint), angle, selection);
@@ -97,13 +101,15 @@ Result<Scene> HumanScene(const BodySelection& selection) {
                           "unset or set it to FEET_TWO_ELLIPSOIDS"});
   }
   const SidedTables tables = TablesOf(selection, &violations);
+  const SidedFeet feet = FeetOf(selection, tables, &violations);
   const HumanBody human =
-      Human(tables.left, tables.right, {selection.feet, selection.ranges, selection.toes && violations.empty()});
+      Human(tables.left, tables.right,
+            {selection.feet, selection.ranges, selection.toes && violations.empty(), feet.left, feet.right});
   const std::map<std::string, double> locked = CheckLocks(human.model, selection, &violations);
   std::vector<Joint> joints = ChangedJoints(human.model, tables, selection, locked, &violations);
   if (!violations.empty()) return violations;
 
-  const bool alike = UnpairUnlike(&joints);
+  const bool alike = UnpairUnlike(&joints) && feet.left == feet.right;
   const Result<Model> changed = Model::Create(std::move(joints));
   if (!changed.ok()) return changed.violations();
   Result<ModelReduction> reduction = ReduceModel(changed.value(), locked);
@@ -127,7 +133,7 @@ Result<Scene> HumanScene(const BodySelection& selection) {
       .model = symmetric ? reduced : WithoutMirror(reduced),
       .contacts = std::move(contacts),
       .leg_length = std::max(tables.left.LegLength(), tables.right.LegLength()),
-      .sources = HumanSources(),
+      .sources = HumanSources(symmetric),
       .symmetric = symmetric,
       .bodies = std::move(bodies),
       .pairs = std::move(pairs),

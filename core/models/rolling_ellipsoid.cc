@@ -28,7 +28,8 @@ bool Within(const Vector3& values, double min, double max) {
   return values.allFinite() && values.minCoeff() >= min && values.maxCoeff() <= max;
 }
 
-Violations Check(const RollingEllipsoid& body) {
+// `has_moments`: they are given, and do not follow from mass and semi-axes.
+Violations Check(const RollingEllipsoid& body, bool has_moments) {
   Violations violations;
   if (!Within(body.semi_axes, kSizeMin, kSizeMax)) {
     Refuse("semi_axes_m", body.semi_axes.transpose(), "each must be between 0.01 and 10 m", &violations);
@@ -39,6 +40,7 @@ Violations Check(const RollingEllipsoid& body) {
     Refuse("mass_kg", body.mass, "must be between 0.001 and 1e6 kg", &violations);
   }
   const Vector3& moments = body.moments;
+  if (!has_moments) return violations;
   if (!moments.allFinite() || moments.minCoeff() <= 0) {
     Refuse("moments_kg_m2", moments.transpose(), "each must be finite and larger than 0", &violations);
   } else if (moments.sum() < 2 * moments.maxCoeff()) {
@@ -120,7 +122,7 @@ Result<Scene> RollingEllipsoidScene(const RollingEllipsoidRequest& request, cons
   body.mass = request.mass.value_or(1);
   const Vector3 squares = body.semi_axes.cwiseAbs2();
   body.moments = request.moments.value_or(body.mass / 5 * (Vector3::Constant(squares.sum()) - squares));
-  Violations violations = Check(body);
+  Violations violations = Check(body, request.moments.has_value());
   if (!violations.empty()) return violations;
   BodySelection selection;
   selection.model = "ball";

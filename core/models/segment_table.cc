@@ -172,7 +172,6 @@ std::vector<std::string> SegmentTable::Sources() {
       "2007, quoted from memory of the paper and not checked against a second source; proportional to stature.",
       "Joint centres of the pelvis from the lumbar joint: OpenMA lyonwholebodymodel.cpp (BSD-3). Ankle height: stature "
       "minus the other lengths (0.080 m male, 0.078 m female).",
-      "Left segments mirror the right ones; head, torso and pelvis are made symmetric about the sagittal plane.",
       "Shoulder joints: 0.818 of stature high, 0.129 to the side (Drillis and Contini, after Winter 2009; from "
       "memory), in "
       "the fore-aft position of the cervical joint.",

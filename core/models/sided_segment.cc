@@ -7,12 +7,6 @@ std::string NameOf(const SidedSegment& at) {
   return at.side == BodySide::kMidline ? name : name + (at.side == BodySide::kLeft ? "_l" : "_r");
 }
 
-std::string MirrorNameOf(const SidedSegment& at) {
-  SidedSegment image = at;
-  if (at.side != BodySide::kMidline) image.side = at.side == BodySide::kLeft ? BodySide::kRight : BodySide::kLeft;
-  return NameOf(image);
-}
-
 std::optional<SidedSegment> FindSegment(const std::string& name) {
   for (int s = 0; s < kSegments; ++s) {
     const Segment segment = static_cast<Segment>(s);
@@ -24,14 +18,16 @@ std::optional<SidedSegment> FindSegment(const std::string& name) {
   return std::nullopt;
 }
 
-std::string SegmentNames(bool sided) {
-  std::string names;
+std::vector<std::string> SegmentNames(bool sided) {
+  std::vector<std::string> names;
   for (int s = 0; s < kSegments; ++s) {
     const Segment segment = static_cast<Segment>(s);
-    names += s == 0 ? " " : ", ";
-    names += sided && IsPaired(segment)
-                 ? NameOf({segment, BodySide::kLeft}) + ", " + NameOf({segment, BodySide::kRight})
-                 : SegmentName(segment);
+    if (sided && IsPaired(segment)) {
+      names.push_back(NameOf({segment, BodySide::kLeft}));
+      names.push_back(NameOf({segment, BodySide::kRight}));
+    } else {
+      names.push_back(SegmentName(segment));
+    }
   }
   return names;
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/models/segment_table.h"
 
@@ -16,12 +17,11 @@ struct SidedSegment {
 // The segment of a name: "thigh", "thigh_l", "torso"; empty if there is none of that name.
 std::optional<SidedSegment> FindSegment(const std::string& name);
 
-// The name of a segment on its side, and of its mirror image; the same of head, torso, pelvis and both sides of a limb.
+// The name of a segment on its side.
 std::string NameOf(const SidedSegment& at);
-std::string MirrorNameOf(const SidedSegment& at);
 
-// All names with spaces and commas, for messages; `sided`: those of limbs with each side, else without.
-std::string SegmentNames(bool sided);
+// All names, for messages; `sided`: those of limbs with each side, else without.
+std::vector<std::string> SegmentNames(bool sided);
 
 }  // namespace rollgait
 

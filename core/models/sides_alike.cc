@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/field_path.h"
 #include "core/models/human.h"
 #include "core/models/sided_segment.h"
 
@@ -40,38 +41,61 @@ void KeepAlike(const Model& human, Image image, std::map<std::string, Value>* va
   }
 }
 
-void KeepAlike(std::map<std::string, double>* lengths) {
-  const std::map<std::string, double> given = *lengths;
-  for (const auto& [name, length] : given) {
-    const auto other = given.find(MirrorNameOf(*FindSegment(name)));
-    if (other == given.end() || other->second != length) lengths->erase(name);
+// "thigh_r" of "thigh_l"; a name without a side: itself.
+std::string MirrorNameOf(std::string name) {
+  if (name.ends_with("_l") || name.ends_with("_r")) name.back() = name.back() == 'l' ? 'r' : 'l';
+  return name;
+}
+
+// The same of values of segments and surfaces.
+template <typename Value>
+void KeepAlike(std::map<std::string, Value>* values) {
+  const std::map<std::string, Value> given = *values;
+  for (const auto& [name, value] : given) {
+    const auto other = given.find(MirrorNameOf(name));
+    if (other == given.end() || other->second != value) values->erase(name);
   }
 }
 
 bool AreMirrored(const SegmentLoad& load, const SegmentLoad& other) {
   SegmentLoad image = other;
   if (image.position) image.position->z() *= -1;
-  return load.segment == MirrorNameOf(*FindSegment(other.segment)) && load.mass == image.mass &&
-         load.position == image.position && load.moments == image.moments;
+  return load.segment == MirrorNameOf(other.segment) && load.mass == image.mass && load.position == image.position &&
+         load.moments == image.moments;
+}
+
+// Of each load whether it or another is its mirror image.
+std::vector<char> HaveImages(const std::vector<SegmentLoad>& loads) {
+  std::vector<char> have(loads.size(), 0);
+  for (size_t i = 0; i < loads.size(); ++i) {
+    if (AreMirrored(loads[i], loads[i])) have[i] = 1;
+    for (size_t k = i + 1; k < loads.size() && !have[i]; ++k) {
+      if (!have[k] && AreMirrored(loads[i], loads[k])) have[i] = have[k] = 1;
+    }
+  }
+  return have;
 }
 
 void KeepAlike(std::vector<SegmentLoad>* loads) {
-  std::vector<char> kept(loads->size(), 0);
-  for (size_t i = 0; i < loads->size(); ++i) {
-    SegmentLoad& load = (*loads)[i];
-    if (FindSegment(load.segment)->side == BodySide::kMidline) {
-      if (load.position) load.position->z() = 0;
-      kept[i] = 1;
-    }
-    for (size_t k = i + 1; k < loads->size() && !kept[i]; ++k) {
-      if (!kept[k] && AreMirrored(load, (*loads)[k])) kept[i] = kept[k] = 1;
-    }
-  }
+  const std::vector<char> have = HaveImages(*loads);
   std::vector<SegmentLoad> alike;
   for (size_t i = 0; i < loads->size(); ++i) {
-    if (kept[i]) alike.push_back(std::move((*loads)[i]));
+    SegmentLoad& load = (*loads)[i];
+    const bool is_of_middle = FindSegment(load.segment)->side == BodySide::kMidline;
+    if (is_of_middle && !have[i]) load.position->z() = 0;
+    if (is_of_middle || have[i]) alike.push_back(std::move(load));
   }
   *loads = std::move(alike);
+}
+
+// The names whose values `alike` has otherwise or not at all, as keys of the field.
+template <typename Value>
+void AddChanged(const char* field, const std::map<std::string, Value>& values,
+                const std::map<std::string, Value>& alike, std::vector<std::string>* fields) {
+  for (const auto& [name, value] : values) {
+    const auto kept = alike.find(name);
+    if (kept == alike.end() || !(kept->second == value)) fields->push_back(Keyed(field, name));
+  }
 }
 
 }  // namespace
@@ -79,6 +103,7 @@ void KeepAlike(std::vector<SegmentLoad>* loads) {
 BodyRequest WithSidesAlike(BodyRequest request) {
   const Model human = WholeHuman();
   KeepAlike(&request.segment_lengths);
+  KeepAlike(&request.changes.foot_semi_axes);
   KeepAlike(&request.changes.loads);
   KeepAlike(
       human, [](double share, double) { return share; }, &request.changes.strengths);
@@ -89,6 +114,22 @@ BodyRequest WithSidesAlike(BodyRequest request) {
   KeepAlike(
       human, [](double angle, double sign) { return sign * angle; }, &request.locked_joints);
   return request;
+}
+
+std::vector<std::string> OneSidedFields(const BodyRequest& request) {
+  if (request.own) return {"own"};
+  const BodyRequest alike = WithSidesAlike(request);
+  std::vector<std::string> fields;
+  AddChanged("segment_lengths_m", request.segment_lengths, alike.segment_lengths, &fields);
+  AddChanged("locked_joints_rad", request.locked_joints, alike.locked_joints, &fields);
+  AddChanged("foot_semi_axes_m", request.changes.foot_semi_axes, alike.changes.foot_semi_axes, &fields);
+  AddChanged("joint_strengths", request.changes.strengths, alike.changes.strengths, &fields);
+  AddChanged("joint_springs", request.changes.springs, alike.changes.springs, &fields);
+  const std::vector<char> have = HaveImages(request.changes.loads);
+  for (size_t i = 0; i < have.size(); ++i) {
+    if (!have[i]) fields.push_back("loads[" + std::to_string(i) + "]");
+  }
+  return fields;
 }
 
 }  // namespace rollgait

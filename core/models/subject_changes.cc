@@ -6,7 +6,9 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/check.h"
 #include "core/base/field_path.h"
+#include "core/base/nearest_word.h"
 #include "core/models/human.h"
 #include "core/models/rigid_body.h"
 #include "core/models/sided_segment.h"
@@ -16,6 +18,9 @@ namespace {
 
 // A segment may be this much shorter or longer than the table has it.
 constexpr double kShortest = 0.7, kLongest = 1.4;
+// Semi-axes of a foot's surface, times the usual ones: length and breadth, and height. Wider ones would overlap those
+// of the other foot in the standing body.
+constexpr double kNarrowest = 0.5, kWidest = 1.5, kFlattest = 0.25, kHighest = 2;
 constexpr size_t kMostLoads = 16;
 constexpr double kHeaviest = 100;                   // kg
 constexpr double kFurthest = 1;                     // m
@@ -28,17 +33,41 @@ std::string Text(const Parts&... parts) {
   return text.str();
 }
 
+// "thigh", "thigh_l" and "thigh_r": every name that FindSegment knows.
+std::vector<std::string> AllSegmentNames() {
+  std::vector<std::string> names = SegmentNames(false);
+  for (const std::string& name : SegmentNames(true)) names.push_back(name);
+  return names;
+}
+
+// "a, b, c".
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// What is wrong with the segment of a load, which has to be on one side; empty if nothing is.
+std::string SegmentProblem(const std::string& name) {
+  const auto at = FindSegment(name);
+  if (at && IsPaired(at->segment) && at->side == BodySide::kMidline) {
+    return Text("\"", name, "\" is on both sides; choose ", name, "_l or ", name, "_r");
+  }
+  if (at) return "";
+  const std::vector<std::string> known = SegmentNames(true);
+  return Text("\"", name.substr(0, 40), "\" is no segment", DidYouMean(name.substr(0, 40), known), "; choose from ",
+              Listed(known));
+}
+
 bool IsWithin(double value, double min, double max) { return value >= min && value <= max; }  // false for NaN
 
 // What is wrong with a load, if anything.
 bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* violations) {
   const size_t before = violations->size();
-  const auto at = FindSegment(load.segment);
-  if (!at || (IsPaired(at->segment) && at->side == BodySide::kMidline)) {
-    violations->push_back(
-        {path + ".segment", Text(Quoted(load.segment), " is no segment of one side; choose from", SegmentNames(true))});
-  }
-  if (!(load.mass > 0 && load.mass <= kHeaviest)) {
+  const std::string problem = SegmentProblem(load.segment);
+  if (!problem.empty()) violations->push_back({path + ".segment", problem});
+  const bool has_mass = load.mass > 0 && load.mass <= kHeaviest;
+  if (!has_mass) {
     violations->push_back(
         {path + ".mass_kg", Text("is ", load.mass, " kg; must be more than 0 and at most ", kHeaviest, " kg")});
   }
@@ -48,7 +77,7 @@ bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* vio
   }
   const Vector3& m = load.moments;
   const bool is_body = m.allFinite() && m.minCoeff() >= 0 && 2 * m.maxCoeff() <= m.sum() * (1 + 1e-9);
-  if (!is_body || m.maxCoeff() > load.mass * kFurthest * kFurthest) {
+  if (!is_body || (has_mass && m.maxCoeff() > load.mass * kFurthest * kFurthest)) {
     violations->push_back({path + ".moments_kg_m2",
                            Text("are (", m.transpose(), ") kg m²; each must be at least 0 and at most mass_kg times ",
                                 kFurthest, " m², and the sum of any two at least the third")});
@@ -73,11 +102,14 @@ void AddLoad(const SegmentLoad& load, const Model& human, const SidedTables& tab
 Joint* FindMuscled(const std::string& name, const std::string& field, const Model& human,
                    const std::map<std::string, double>& fixed, std::vector<Joint>* joints, Violations* violations) {
   const int joint = human.Find(name);
+  std::vector<std::string> known;  // those that may be named
+  for (const Joint& each : human.joints()) {
+    if (each.actuated && fixed.count(each.name) == 0) known.push_back(each.name);
+  }
   if (joint < 0) {
-    violations->push_back({field, "the human has no joint of that name; see GetModel of \"human29\" for its joints"});
+    violations->push_back({field, NoSuchJoint(name, known)});
   } else if (!human.joint(joint).actuated) {
-    violations->push_back(
-        {field, "belongs to the floating base, which has no muscles; name a joint of trunk or limbs"});
+    violations->push_back({field, "belongs to the floating base, which has no muscles; choose from " + Listed(known)});
   } else if (fixed.count(name) > 0) {
     violations->push_back({field,
                            "is of a joint that is fixed (locked_joints_rad, sagittal, drop_arms, rigid_trunk or "
@@ -90,17 +122,27 @@ Joint* FindMuscled(const std::string& name, const std::string& field, const Mode
 
 bool CheckSpring(const JointSpring& spring, const std::string& path, Violations* violations) {
   const size_t before = violations->size();
-  const auto check = [&](const char* field, const char* unit, double value, double min, double max) {
+  // In the unit of the field, and in degrees, in which people think of joints.
+  const auto check = [&](const char* field, const char* unit, double value, double min, double max,
+                         const char* unit_of_degrees, double per_degree) {
     if (IsWithin(value, min, max)) return;
-    violations->push_back({path + field, Text("is ", value, unit, "; must be between ", min, " and ", max, unit)});
+    violations->push_back({path + field, Text("is ", value, " ", unit, " (", value * per_degree, " ", unit_of_degrees,
+                                              "); must be between ", min, " and ", max, " ", unit, " (",
+                                              min * per_degree, " and ", max * per_degree, " ", unit_of_degrees, ")")});
   };
-  check(".stiffness_n_m_rad", " N m/rad", spring.stiffness, 0, kStiffest);
-  check(".rest_rad", " rad", spring.rest, -std::numbers::pi, std::numbers::pi);
-  check(".damping_n_m_s_rad", " N m s/rad", spring.damping, 0, kThickest);
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  check(".stiffness_n_m_rad", "N m/rad", spring.stiffness, 0, kStiffest, "N m/deg", 1 / kDegrees);
+  check(".rest_rad", "rad", spring.rest, -std::numbers::pi, std::numbers::pi, "deg", kDegrees);
+  check(".damping_n_m_s_rad", "N m s/rad", spring.damping, 0, kThickest, "N m s/deg", 1 / kDegrees);
   return violations->size() == before;
 }
 
 }  // namespace
+
+std::string NoSuchJoint(const std::string& name, const std::vector<std::string>& known) {
+  const std::string shown = name.substr(0, 40);
+  return "the human has no joint of that name" + DidYouMean(shown, known) + "; choose from " + Listed(known);
+}
 
 SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
   const SegmentTable table(selection.sex, selection.stature, selection.mass);
@@ -110,8 +152,8 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
     const std::string field = Keyed("segment_lengths_m", name);
     const auto found = FindSegment(name);
     if (!found) {
-      violations->push_back(
-          {field, "is not a segment; choose from" + SegmentNames(false) + "; with _l or _r a limb's of one side"});
+      violations->push_back({field, "is not a segment" + DidYouMean(name, AllSegmentNames()) + "; choose from " +
+                                        Listed(SegmentNames(false)) + "; with _l or _r a limb's of one side"});
       continue;
     }
     const Segment kind = found->segment;
@@ -127,6 +169,42 @@ SidedTables TablesOf(const BodySelection& selection, Violations* violations) {
   }
   return {SegmentTable(selection.sex, selection.stature, selection.mass, left),
           SegmentTable(selection.sex, selection.stature, selection.mass, right)};
+}
+
+SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Violations* violations) {
+  const Vector3 least(kNarrowest, kNarrowest, kFlattest), most(kWidest, kWidest, kHighest);
+  SidedFeet feet;
+  // In the order of names: of a surface both sides before one of them.
+  for (const auto& [name, axes] : selection.changes.foot_semi_axes) {
+    const std::string field = Keyed("foot_semi_axes_m", name);
+    const bool left = !name.ends_with("_r"), right = !name.ends_with("_l");
+    const std::string part = left && right ? name : name.substr(0, name.size() - 2);
+    std::vector<std::string> known;
+    for (const bool on_left : {true, false}) {
+      if (on_left ? !left : !right) continue;
+      known.clear();
+      for (const FootSurface& surface : FootSurfaces(on_left ? tables.left : tables.right, selection.feet)) {
+        known.push_back(surface.name);
+        if (surface.name != part) continue;
+        const Vector3 usual = surface.surface.semi_axes(), low = usual.cwiseProduct(least),
+                      high = usual.cwiseProduct(most);
+        const bool inside = (axes.array() >= low.array()).all() && (axes.array() <= high.array()).all();
+        if (inside) {
+          (on_left ? feet.left : feet.right)[part] = axes;
+        } else if (!left || !right || on_left) {
+          violations->push_back(
+              {field, Text("are (", axes.transpose(), ") m; must be between (", low.transpose(), ") and (",
+                           high.transpose(), ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest,
+                           " to ", kHighest, " times what the lengths of foot and leg give")});
+        }
+      }
+    }
+    if (std::find(known.begin(), known.end(), part) == known.end()) {
+      violations->push_back({field, "is no surface of these feet" + DidYouMean(part, known) + "; choose from " +
+                                        Listed(known) + " (see `feet`), with _l or _r that of one side"});
+    }
+  }
+  return feet;
 }
 
 std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,

@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/models/body_selection.h"
+#include "core/models/foot.h"
 #include "core/models/segment_table.h"
 #include "core/multibody/model.h"
 
@@ -22,11 +23,21 @@ struct SidedTables {
 // out of range.
 SidedTables TablesOf(const BodySelection& selection, Violations* violations);
 
+// The semi-axes of the feet's surfaces on each side. Violations name foot_semi_axes_m["NAME"]: no surface of such feet,
+// a semi-axis out of range. Contract: the tables are those of the selection.
+struct SidedFeet {
+  FootAxes left, right;
+};
+SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Violations* violations);
+
 // The joints of the whole human with the changes of the selection: loads are lumped with the links, efforts weakened,
 // springs added. Violations name loads[i].field, joint_strengths["NAME"] and joint_springs["NAME"].field. Contract:
 // `human` is that of the tables; `fixed` are the joints that do not move, by name.
 std::vector<Joint> ChangedJoints(const Model& human, const SidedTables& tables, const BodySelection& selection,
                                  const std::map<std::string, double>& fixed, Violations* violations);
+
+// "the human has no joint of that name", the one of `known` that may have been meant, and all of them.
+std::string NoSuchJoint(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace rollgait
 

@@ -19,12 +19,12 @@ double Length(const TrajectoryPhase& phase) { return phase.node_times.back() - p
 
 }  // namespace
 
-std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& trajectory) {
-  const std::vector<bool> right = ContactsOn(scene, BodySide::kRight);
-  if (std::find(right.begin(), right.end(), true) == right.end()) return std::nullopt;
+std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& trajectory, BodySide side) {
+  const std::vector<bool> leg = ContactsOn(scene, side);
+  if (std::find(leg.begin(), leg.end(), true) == leg.end()) return std::nullopt;
   ROLLGAIT_CHECK(scene.symmetric || trajectory.cycle == Cycle::kFull);
   GaitCycle cycle(scene, trajectory);
-  cycle.right_ = right;
+  cycle.right_ = ContactsOn(scene, BodySide::kRight);
   cycle.left_ = ContactsOn(scene, BodySide::kLeft);
 
   std::vector<Piece> pieces;
@@ -39,7 +39,7 @@ std::optional<GaitCycle> GaitCycle::Of(const Scene& scene, const Trajectory& tra
     }
   }
   const size_t n = pieces.size();
-  const auto on = [&](size_t i) { return cycle.Touches(pieces[i % n], cycle.right_); };
+  const auto on = [&](size_t i) { return cycle.Touches(pieces[i % n], leg); };
   size_t strike = 0;
   while (strike < n && !(on(strike) && !on(strike + n - 1))) ++strike;
   if (strike == n) return std::nullopt;

@@ -10,13 +10,16 @@
 
 namespace rollgait {
 
-// The whole gait cycle, from heel strike to heel strike of the right leg. A half cycle is completed by its left/right
-// mirror image. Refers to the scene and the trajectory it is made of, which must outlive it.
+// The whole gait cycle, from heel strike to heel strike of one leg, the right one unless said otherwise. A half cycle
+// is completed by its left/right mirror image. Refers to the scene and the trajectory it is made of, which must outlive
+// it.
 class GaitCycle {
  public:
-  // Empty if no contact of the scene is on the right side, or if those of that side are never off the ground or never
-  // on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene is not symmetric.
-  static std::optional<GaitCycle> Of(const Scene& scene, const Trajectory& trajectory);
+  // The cycle of the leg on `side`. Empty if no contact of the scene is on that side, or if those of that side are
+  // never off the ground or never on it. Contract: the trajectory fits the scene, and spans a full cycle if the scene
+  // is not symmetric.
+  static std::optional<GaitCycle> Of(const Scene& scene, const Trajectory& trajectory,
+                                     BodySide side = BodySide::kRight);
 
   double start() const { return start_; }  // s, of the heel strike after the start of the trajectory, < duration()
   double duration() const { return duration_; }          // s

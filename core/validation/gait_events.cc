@@ -144,16 +144,17 @@ double StrikePlace(const Scene& scene, const GaitCycle& cycle, const std::vector
 }
 
 void MeasureSteps(const Scene& scene, const GaitCycle& cycle, GaitEvents* result) {
-  FootOnGround &right = result->feet[0], &left = result->feet[1];
   const auto strike_right = result->First(GaitEventKind::kHeelStrike, Foot::kRight);
   const auto strike_left = result->First(GaitEventKind::kHeelStrike, Foot::kLeft);
-  if (!strike_right || !strike_left || *strike_left <= *strike_right) return;
-  const double x_right = StrikePlace(scene, cycle, right.contacts, *strike_right);
-  const double x_left = StrikePlace(scene, cycle, left.contacts, *strike_left);
-  left.step_length = x_left - x_right;
-  right.step_length = cycle.displacement() - left.step_length;
-  left.step_duration = (*strike_left - *strike_right) / 100 * cycle.duration();
-  right.step_duration = cycle.duration() - left.step_duration;
+  if (!strike_right || !strike_left || *strike_left == *strike_right) return;
+  const bool right_first = *strike_right < *strike_left;
+  FootOnGround &first = result->feet[right_first ? 0 : 1], &second = result->feet[right_first ? 1 : 0];
+  const double begin = std::min(*strike_right, *strike_left), end = std::max(*strike_right, *strike_left);
+  second.step_length =
+      StrikePlace(scene, cycle, second.contacts, end) - StrikePlace(scene, cycle, first.contacts, begin);
+  first.step_length = cycle.displacement() - second.step_length;
+  second.step_duration = (end - begin) / 100 * cycle.duration();
+  first.step_duration = cycle.duration() - second.step_duration;
 }
 
 // What both feet share of the ground from the heel strike of one on.
@@ -188,8 +189,11 @@ std::optional<double> GaitEvents::First(GaitEventKind kind, Foot foot) const {
   return std::nullopt;
 }
 
-std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity) {
-  const auto cycle = GaitCycle::Of(scene, trajectory);
+BodySide SideOf(Foot foot) { return foot == Foot::kRight ? BodySide::kRight : BodySide::kLeft; }
+
+std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity,
+                                            Foot first) {
+  const auto cycle = GaitCycle::Of(scene, trajectory, SideOf(first));
   if (!cycle) return std::nullopt;
   GaitEvents result;
   result.start = cycle->start();

@@ -52,8 +52,8 @@ struct FootOnGround {
 };
 inline constexpr double kLeastLoad = 0.01;
 
-// What a gait laboratory's force plates and event detection say of the full cycle, from right heel strike to right heel
-// strike.
+// What a gait laboratory's force plates and event detection say of the full cycle, from heel strike to heel strike of
+// one foot, the right one unless said otherwise.
 struct GaitEvents {
   double start = 0;         // s, GaitCycle::start
   double duration = 0;      // s
@@ -77,8 +77,12 @@ struct GaitEvents {
   std::optional<double> First(GaitEventKind kind, Foot foot) const;
 };
 
-// `gravity` in world axes, not zero. Empty without a gait cycle, see GaitCycle::Of, whose contract holds.
-std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity);
+// `gravity` in world axes, not zero; the cycle begins with the heel strike of `first`. Empty without a gait cycle, see
+// GaitCycle::Of, whose contract holds.
+std::optional<GaitEvents> MeasureGaitEvents(const Scene& scene, const Trajectory& trajectory, const Vector3& gravity,
+                                            Foot first = Foot::kRight);
+
+BodySide SideOf(Foot foot);
 
 }  // namespace rollgait
 

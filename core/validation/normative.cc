@@ -19,10 +19,11 @@ constexpr double kNearLimit = 0.5 * kDegree;
 constexpr double kBodyWeight = 100;          // forces are in % of it
 constexpr double kDepth = 5, kOnGround = 5;  // % of body weight
 
-// Curves of the right leg at 0 … 100 %, in the units and signs of NormativeQuantity.
+// Curves of one leg at 0 … 100 %, in the units and signs of NormativeQuantity.
 class LegCurves {
  public:
-  LegCurves(const Scene& scene, const GaitCycle& cycle, const GaitEvents& events) : scene_(scene), events_(events) {
+  LegCurves(const Scene& scene, const GaitCycle& cycle, const GaitEvents& events, Foot leg)
+      : scene_(scene), events_(events), leg_(leg) {
     for (int i = 0; i <= kCycleSteps; ++i) samples_.push_back(cycle.At(100.0 * i / kCycleSteps));
   }
 
@@ -34,9 +35,9 @@ class LegCurves {
       case NormativeQuantity::kForwardForce:
         return Force(0);
       case NormativeQuantity::kAngle:
-        return Angle(RightJoint(scene_.model, joint));
+        return Angle(LegJoint(scene_.model, joint, SideOf(leg_)));
       case NormativeQuantity::kMoment:
-        return Moment(RightJoint(scene_.model, joint));
+        return Moment(LegJoint(scene_.model, joint, SideOf(leg_)));
     }
     ROLLGAIT_CHECK(false);
   }
@@ -63,12 +64,13 @@ class LegCurves {
     return values;
   }
   std::vector<double> Force(int axis) const {
-    const auto row = events_.foot(Foot::kRight).level_force.row(axis) * (kBodyWeight / events_.body_weight);
+    const auto row = events_.foot(leg_).level_force.row(axis) * (kBodyWeight / events_.body_weight);
     return {row.begin(), row.end()};
   }
 
   const Scene& scene_;
   const GaitEvents& events_;
+  const Foot leg_;
   std::vector<MotionSample> samples_;
 };
 
@@ -117,7 +119,7 @@ DatasetComparison CompareWith(const NormativeDataset& set, const LegCurves& curv
   return result;
 }
 
-std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle, double stance) {
+std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle, double stance, Foot leg) {
   constexpr int kSteps = 200;
   std::vector<RestingJoint> resting;
   std::vector<VectorX> positions;
@@ -127,7 +129,7 @@ std::vector<RestingJoint> FindResting(const Scene& scene, const GaitCycle& cycle
   }
   for (const int j : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(j);
-    if (joint.side == BodySide::kLeft) continue;
+    if (joint.side != BodySide::kMidline && joint.side != SideOf(leg)) continue;
     const double count = static_cast<double>(positions.size());
     const auto share = [&](auto rests) { return std::count_if(positions.begin(), positions.end(), rests) / count; };
     const double low = share([&](const VectorX& q) { return q[j] <= joint.position_min + kNearLimit; });
@@ -148,11 +150,11 @@ std::vector<double> StanceForce(const LegCurves& curves, double stance) {
 
 }  // namespace
 
-int RightJoint(const Model& model, const std::string& name) {
+int LegJoint(const Model& model, const std::string& name, BodySide side) {
   constexpr std::pair<const char*, JointRole> kRoles[] = {
       {"hip", JointRole::kHipFlexion}, {"knee", JointRole::kKneeFlexion}, {"ankle", JointRole::kAnkleDorsiflexion}};
   for (const auto& [joint, role] : kRoles) {
-    if (name == joint) return model.Find(role, BodySide::kRight);
+    if (name == joint) return model.Find(role, side);
   }
   return -1;
 }
@@ -188,22 +190,24 @@ ForcePeaks FindForcePeaks(const std::vector<double>& force, double depth) {
   return peaks;
 }
 
-NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events) {
-  const auto cycle = GaitCycle::Of(scene, trajectory);
+NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events,
+                                      Foot leg) {
+  const auto cycle = GaitCycle::Of(scene, trajectory, SideOf(leg));
+  const Foot other = leg == Foot::kRight ? Foot::kLeft : Foot::kRight;
   ROLLGAIT_CHECK(cycle.has_value());
-  const LegCurves curves(scene, *cycle, events);
+  const LegCurves curves(scene, *cycle, events, leg);
   NormativeComparison result;
   result.stride_time = events.duration;
   result.speed = events.displacement / events.duration;
   result.step_length = events.displacement / 2;
   result.cadence = 2 * 60 / events.duration;
-  result.stance = events.foot(Foot::kRight).stance;
+  result.stance = events.foot(leg).stance;
   result.double_support = events.double_support;
-  result.opposite_toe_off = events.First(GaitEventKind::kToeOff, Foot::kLeft);
-  result.opposite_heel_strike = events.First(GaitEventKind::kHeelStrike, Foot::kLeft);
-  result.toe_off = events.First(GaitEventKind::kToeOff, Foot::kRight);
+  result.opposite_toe_off = events.First(GaitEventKind::kToeOff, other);
+  result.opposite_heel_strike = events.First(GaitEventKind::kHeelStrike, other);
+  result.toe_off = events.First(GaitEventKind::kToeOff, leg);
   result.peaks = FindForcePeaks(StanceForce(curves, result.stance), kDepth);
-  result.resting = FindResting(scene, *cycle, result.stance);
+  result.resting = FindResting(scene, *cycle, result.stance, leg);
   for (const NormativeDataset& set : NormativeDatasets()) result.datasets.push_back(CompareWith(set, curves));
   return result;
 }

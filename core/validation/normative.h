@@ -12,9 +12,9 @@
 
 namespace rollgait {
 
-// Index of the joint of the right leg that the data calls "hip", "knee" or "ankle" (by its role); -1 if the model has
-// none.
-int RightJoint(const Model& model, const std::string& name);
+// Index of the joint of the leg on `side` that the data calls "hip", "knee" or "ankle" (by its role); -1 if the model
+// has none.
+int LegJoint(const Model& model, const std::string& name, BodySide side);
 
 // How far a curve is from what people do, over equal steps of the cycle.
 struct CurveDistance {
@@ -27,7 +27,7 @@ struct CurveDistance {
 CurveDistance MeasureDistance(const std::vector<double>& ours, const std::vector<double>& mean,
                               const std::vector<double>& deviation);
 
-// One curve of the right leg beside that of a data set. Units and signs: NormativeQuantity.
+// One curve of the leg beside that of a data set. Units and signs: NormativeQuantity.
 struct CurveComparison {
   NormativeQuantity quantity;
   std::string joint;
@@ -38,7 +38,7 @@ struct CurveComparison {
   double normative_min, normative_max;
 };
 
-// The vertical ground force of the right foot through its stance, % of body weight. A peak is the largest value of the
+// The vertical ground force of the leg's foot through its stance, % of body weight. A peak is the largest value of the
 // first or the second half of stance where the force rises before it and falls after it. Two peaks: both, and the
 // valley between them is at least 5 % of body weight below the lower one.
 struct ForcePeaks {
@@ -50,8 +50,8 @@ struct ForcePeaks {
 // `force`: equally spaced through stance, any unit with `depth` for the 5 % of body weight.
 ForcePeaks FindForcePeaks(const std::vector<double>& force, double depth);
 
-// A joint of the right side or the trunk that lies within 0.5 deg of an end of its range, through a share of the right
-// leg's stance.
+// A joint of the leg's side or the trunk that lies within 0.5 deg of an end of its range, through a share of the leg's
+// stance.
 struct RestingJoint {
   std::string joint;
   bool at_max;   // which end
@@ -67,23 +67,25 @@ struct DatasetComparison {
 };
 
 struct NormativeComparison {
-  double speed, stride_time, step_length;                                 // m/s, s, m
+  double speed, stride_time, step_length;                                 // m/s, s, m: mean of both steps
   double cadence;                                                         // steps per minute
-  double stance, double_support;                                          // shares of the cycle, right leg
+  double stance, double_support;                                          // shares of the cycle, of the leg
   std::optional<double> opposite_toe_off, opposite_heel_strike, toe_off;  // % of the cycle
   ForcePeaks peaks;
   std::vector<RestingJoint> resting;  // largest share first
   std::vector<DatasetComparison> datasets;
 };
 
-// Compares the gait cycle of the right leg with normative data (level ground). Events, shares and the ground's force
-// are those of `events`, which MeasureGaitEvents made of the same scene and trajectory; on a slope "vertical" is
+// Compares the gait cycle of one leg with normative data (level ground), which are those of a right leg. Events, shares
+// and the ground's force are those of `events`, which MeasureGaitEvents made of the same scene and trajectory from the
+// heel strike of `leg` on; on a slope "vertical" is
 // against gravity. Joint moments are net moments, as a laboratory reports them: what muscles, ligaments and stretched
 // tissue exert on the joint together. In this model that is the effort of the joint, in which the passive torque
 // (core/models/passive_torque.h) is contained: costs of muscles subtract it. A laboratory obtains the same quantity by
 // inverse dynamics of measured motion and forces; of a trajectory that would repeat the errors of its polynomials,
 // twice differentiated, where no effort acts.
-NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events);
+NormativeComparison CompareWithPeople(const Scene& scene, const Trajectory& trajectory, const GaitEvents& events,
+                                      Foot leg = Foot::kRight);
 
 }  // namespace rollgait
 

@@ -103,6 +103,9 @@ SubjectChanges DecodeChanges(const v1::ModelSelection& selection) {
   for (const auto& [name, spring] : selection.joint_springs()) {
     changes.springs[name] = {spring.stiffness_n_m_rad(), spring.rest_rad(), spring.damping_n_m_s_rad()};
   }
+  for (const auto& [name, axes] : selection.foot_semi_axes_m()) {
+    changes.foot_semi_axes[name] = DecodeComponents(axes);
+  }
   return changes;
 }
 

@@ -121,6 +121,9 @@ void EncodeChanges(const SubjectChanges& changes, v1::ModelSelection* encoded) {
     added.set_rest_rad(spring.rest);
     added.set_damping_n_m_s_rad(spring.damping);
   }
+  for (const auto& [name, axes] : changes.foot_semi_axes) {
+    EncodeVector(axes, &(*encoded->mutable_foot_semi_axes_m())[name]);
+  }
 }
 
 void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {

@@ -266,6 +266,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   if (solution.errors) *result.mutable_errors() = EncodeErrors(*solution.errors);
   if (solution.events) *result.mutable_gait_events() = EncodeGaitEvents(*solution.events, scene);
   if (solution.normative) *result.mutable_normative() = EncodeNormative(*solution.normative);
+  if (solution.normative_left) *result.mutable_normative_left() = EncodeNormative(*solution.normative_left);
   result.set_objective(solution.objective);
   for (const CostValue& cost : solution.costs) EncodeCost(cost, result.add_costs());
   for (const UnmetConstraint& unmet : solution.unmet_constraints) EncodeUnmet(unmet, result.add_unmet_constraints());

@@ -314,6 +314,13 @@ grpc::Status FakeGaitService::GetModel(grpc::ServerContext*, const v1::GetModelR
     return {grpc::StatusCode::NOT_FOUND, "no such model"};
   *model = SampleModel();
   *model->mutable_selection() = request->model();
+  for (v1::Joint& joint : *model->mutable_joints()) {
+    const auto spring = request->model().joint_springs().find(joint.name());
+    if (spring == request->model().joint_springs().end()) continue;
+    joint.set_stiffness(spring->second.stiffness_n_m_rad());
+    joint.set_rest_position(spring->second.rest_rad());
+    joint.set_damping(spring->second.damping_n_m_s_rad());
+  }
   return grpc::Status::OK;
 }
 

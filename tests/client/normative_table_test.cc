@@ -37,10 +37,10 @@ v1::NormativeComparison People() {
 
 TEST(NormativeTableTest, SummaryHasTheFigures) {
   v1::Solve solve = SampleSolve("solves/a", 0);
-  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("Comparison with normative gait")));
+  EXPECT_THAT(Summarize(solve, false), Not(HasSubstr("beside normative gait")));
   *solve.mutable_result()->mutable_normative() = People();
   const std::string text = Summarize(solve, false);
-  EXPECT_THAT(text, HasSubstr("Comparison with normative gait (level ground)"));
+  EXPECT_THAT(text, HasSubstr("Right leg beside normative gait (level ground)"));
   EXPECT_THAT(text, HasSubstr("61.2 %"));
   EXPECT_THAT(text, HasSubstr("109 / - / - %"));
   EXPECT_THAT(text, HasSubstr("knee_r (lower, 75 %)"));
@@ -48,11 +48,28 @@ TEST(NormativeTableTest, SummaryHasTheFigures) {
   EXPECT_THAT(text, HasSubstr("correlation 0.93"));
   EXPECT_THAT(text, HasSubstr("1.25 SD"));
   EXPECT_THAT(text, Not(HasSubstr("foot angle")));
+  EXPECT_THAT(text, Not(HasSubstr("Left leg"))) << "it is the mirror image";
+}
+
+TEST(NormativeTableTest, BothLegsOfABodyWhoseSidesDiffer) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  *solve.mutable_result()->mutable_normative() = People();
+  *solve.mutable_result()->mutable_normative_left() = People();
+  solve.mutable_result()->mutable_normative_left()->set_stance_fraction(0.587);
+  const std::string text = Summarize(solve, false);
+  const size_t left = text.find("\nLeft leg beside normative gait (level ground)\n");
+  ASSERT_NE(left, std::string::npos);
+  EXPECT_THAT(text.substr(0, left), HasSubstr("61.2 %"));
+  EXPECT_THAT(text.substr(left), HasSubstr("58.7 %"));
+  const nlohmann::json data = ReportData({solve}, "")["solves"][0];
+  EXPECT_EQ(data["people_left"]["stanceFraction"], 0.587);
+  EXPECT_EQ(data["people_left"]["datasets"][0]["curves"][0]["joint"], "hip");
 }
 
 TEST(NormativeTableTest, ReportGetsTheCurves) {
   v1::Solve solve = SampleSolve("solves/a", 0);
   EXPECT_TRUE(ReportData({solve}, "")["solves"][0]["people"].is_null());
+  EXPECT_TRUE(ReportData({solve}, "")["solves"][0]["people_left"].is_null());
   *solve.mutable_result()->mutable_normative() = People();
   const nlohmann::json people = ReportData({solve}, "")["solves"][0]["people"];
   EXPECT_EQ(people["datasets"][0]["curves"][0]["joint"], "hip");

@@ -89,7 +89,8 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
                                       "--model human29 --segment thigh=0.45 --segment foot=0.3 --feet two --ranges "
                                       "walking --toes --sagittal --drop-arms --rigid-trunk "
                                       "--lock knee_l=20 --lock elbow_r=-1.5 --load hand_l=10 --load torso=5,0.1,-0.2,0 "
-                                      "--strength hip_l=0.3 --spring ankle_l=340 --spring ankle_r=300,18,2")
+                                      "--strength hip_l=0.3 --spring ankle_l=340 --spring ankle_r=300,18,2 "
+                                      "--foot heel_l=0.03,0.02,0.025")
                                       .model();
   EXPECT_EQ(body.segment_lengths_m().at("thigh"), 0.45);
   EXPECT_EQ(body.segment_lengths_m().at("foot"), 0.3);
@@ -105,13 +106,15 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
   EXPECT_EQ(body.loads(1).position_m().x(), 0.1);
   EXPECT_EQ(body.loads(1).position_m().y(), -0.2);
   EXPECT_EQ(body.joint_strengths().at("hip_l"), 0.3);
+  EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").x(), 0.03);
+  EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").z(), 0.025);
   EXPECT_EQ(body.joint_springs().at("ankle_l").stiffness_n_m_rad(), 340);
   EXPECT_NEAR(body.joint_springs().at("ankle_r").rest_rad(), M_PI / 10, 1e-15);
   EXPECT_EQ(body.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);
   EXPECT_FALSE(Parse("--drop-arms").model().toes());
-  for (const char* line :
-       {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg", "--segment thigh=", "--load hand_l",
-        "--load hand_l=1,2", "--load =3", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
+  for (const char* line : {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg",
+                           "--segment thigh=", "--load hand_l", "--load hand_l=1,2", "--load =3", "--foot heel=1,2",
+                           "--foot heel", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
     EXPECT_THROW(Parse(line), Failure) << line;
   }
 }
@@ -233,14 +236,60 @@ TEST_F(SpecFileTest, FlagsOverrideTheFile) {
   EXPECT_EQ(changed.model().sex(), v1::ModelSelection::SEX_FEMALE);
   EXPECT_FALSE(changed.motion().free_speed());
   EXPECT_EQ(changed.motion().step_length_m(), 0.6);
-  ASSERT_EQ(changed.costs_size(), 1);
-  EXPECT_TRUE(changed.costs(0).has_squared_torque());
+  ASSERT_EQ(changed.costs_size(), 3) << "a cost is added to those of the file";
+  EXPECT_TRUE(changed.costs(2).has_squared_torque());
+  try {
+    Parse("--spec " + file + " --cost time:2");
+    ADD_FAILURE() << "taken";
+  } catch (const Failure& failure) {
+    EXPECT_THAT(failure.what(), testing::HasSubstr("--cost time:2: the file has two terms of this kind"));
+  }
+}
+
+// Name by name: what the command line names is replaced as a whole, the rest of the file stays.
+TEST_F(SpecFileTest, RepeatedFlagsAreLaidOverTheFileNameByName) {
+  const std::string file = Write(R"({"model": {"name": "human29",
+      "loads": [{"segment": "hand_l", "massKg": 3}, {"segment": "torso", "massKg": 5}, {"segment": "hand_l", "massKg": 1}],
+      "jointSprings": {"ankle_l": {"stiffnessNMRad": 300, "restRad": 0.1, "dampingNMSRad": 2},
+                       "knee_l": {"stiffnessNMRad": 50}},
+      "jointStrengths": {"hip_l": 0.5}, "lockedJointsRad": {"elbow_l": 1}, "segmentLengthsM": {"thigh": 0.45}},
+      "costs": [{"weight": 3, "muscleEffort": {"exponent": 4}}], "accuracy": {"maxPullBw": 0.5}})");
+  const v1::SolveSpec spec =
+      Parse("--spec " + file +
+            " --load hand_l=10 --spring ankle_l=340 --spring ankle_r=200 --strength hip_r=0.4 "
+            "--lock elbow_r=0 --segment shank=0.4 --cost effort:2 --cost time --bound max_slip_m_s=1");
+  const v1::ModelSelection& body = spec.model();
+  ASSERT_EQ(body.loads_size(), 2);
+  EXPECT_EQ(body.loads(0).segment(), "torso");
+  EXPECT_EQ(body.loads(1).mass_kg(), 10);
+  EXPECT_EQ(body.joint_springs_size(), 3);
+  EXPECT_EQ(body.joint_springs().at("ankle_l").stiffness_n_m_rad(), 340);
+  EXPECT_EQ(body.joint_springs().at("ankle_l").rest_rad(), 0);
+  EXPECT_EQ(body.joint_springs().at("ankle_l").damping_n_m_s_rad(), 0);
+  EXPECT_EQ(body.joint_springs().at("knee_l").stiffness_n_m_rad(), 50);
+  EXPECT_EQ(body.joint_strengths_size(), 2);
+  EXPECT_EQ(body.locked_joints_rad_size(), 2);
+  EXPECT_EQ(body.segment_lengths_m_size(), 2);
+  ASSERT_EQ(spec.costs_size(), 2);
+  EXPECT_EQ(spec.costs(0).weight(), 2) << "its term has another weight";
+  EXPECT_EQ(spec.costs(0).muscle_effort().exponent(), 4);
+  EXPECT_TRUE(spec.costs(1).has_time());
+  EXPECT_EQ(spec.accuracy().max_pull_bw(), 0.5);
 }
 
 TEST_F(SpecFileTest, RefusesWhatIsNotARequest) {
   EXPECT_THROW(Parse("--spec " + Write("{\"sloperad\": 1}")), Failure);
   EXPECT_THROW(Parse("--spec " + Write("not json")), Failure);
   EXPECT_THROW(Parse("--spec no_such_file.json"), Failure);
+}
+
+TEST(SpecFlagsTest, AnErrorQuotesTheValueAsItWasWritten) {
+  try {
+    Parse("--spring ankle_l=stiff");
+    ADD_FAILURE() << "taken";
+  } catch (const Failure& failure) {
+    EXPECT_STREQ(failure.what(), "--spring ankle_l=stiff: must be JOINT=STIFFNESS[,REST[,DAMPING]]");
+  }
 }
 
 TEST(SpecFlagsTest, CostsJoinAPreset) {
@@ -253,12 +302,12 @@ TEST(SpecFlagsTest, CostsJoinAPreset) {
   EXPECT_TRUE(both.costs(0).has_squared_force_rate());
 }
 
-TEST_F(SpecFileTest, APresetReplacesTheCostOfTheFileAndACostItsCosts) {
+TEST_F(SpecFileTest, APresetReplacesTheCostsOfTheFileAndACostIsAdded) {
   const std::string file = Write(R"({"preset": "PRESET_HUMAN", "costs": [{"time": {}}]})");
   const v1::SolveSpec cost = Parse("--spec " + file + " --cost effort:2");
   EXPECT_EQ(cost.preset(), v1::PRESET_HUMAN);
-  ASSERT_EQ(cost.costs_size(), 1);
-  EXPECT_TRUE(cost.costs(0).has_muscle_effort());
+  ASSERT_EQ(cost.costs_size(), 2);
+  EXPECT_TRUE(cost.costs(1).has_muscle_effort());
   const v1::SolveSpec preset = Parse("--spec " + file + " --preset transport");
   EXPECT_EQ(preset.preset(), v1::PRESET_TRANSPORT);
   EXPECT_EQ(preset.costs_size(), 0);

@@ -34,6 +34,7 @@ TEST(SummaryTest, TellsEventsOfFeetNotOfSurfaces) {
   stepping.set_step_duration_s(0.5125);
   stepping.set_loading_fraction(0.0625);
   result.mutable_gait_events()->set_step_length_asymmetry(-0.075);
+  result.mutable_gait_events()->set_step_duration_asymmetry(3e-17);
   v1::GaitEvent& flat = *result.mutable_gait_events()->add_events();
   flat.set_kind(v1::GaitEvent::KIND_FOOT_FLAT);
   flat.set_foot(v1::FOOT_LEFT);
@@ -45,6 +46,13 @@ TEST(SummaryTest, TellsEventsOfFeetNotOfSurfaces) {
   EXPECT_THAT(text, testing::ContainsRegex("asymmetry, right less left +-7.5 % +of step length, 0 % of step duration"));
   EXPECT_THAT(text, testing::ContainsRegex("stance, right foot +60 % +heel strike 0, toe off 60\n"));
   EXPECT_THAT(text, HasSubstr("foot flat 57.5"));
+}
+
+TEST(SummaryTest, TellsWhichStepLengthItIs) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("\n  step length  +"));
+  solve.mutable_result()->mutable_trajectory()->set_cycle(v1::CYCLE_FULL);
+  EXPECT_THAT(Summarize(solve, false), testing::ContainsRegex("\n  step length, mean of both feet  +"));
 }
 
 TEST(SummaryTest, TellsTheVerdictAndEveryCriterion) {

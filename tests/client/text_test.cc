@@ -25,6 +25,14 @@ TEST(TextTest, Times) {
   EXPECT_EQ(FormatTime(time), "2026-11-21 06:31:00 UTC");
 }
 
+TEST(TextTest, RoundingErrorsAreZero) {
+  EXPECT_EQ(FormatVisible(1.2e-17, 1e-12), "0");
+  EXPECT_EQ(FormatVisible(-1.2e-17, 1e-12), "0");
+  EXPECT_EQ(FormatVisible(-0.25, 1e-12), "-0.25");
+  EXPECT_EQ(FormatVisible(1e-12, 1e-12), "1e-12");
+  EXPECT_EQ(FormatVisible(1.0 / 3, 1e-12, 2), "0.33");
+}
+
 TEST(TextTest, EnumeratorsAsWords) {
   EXPECT_EQ(StateName(v1::SOLVE_STATE_RUNNING), "running");
   EXPECT_EQ(TerminationName(v1::TERMINATION_ITERATION_LIMIT), "iteration limit");

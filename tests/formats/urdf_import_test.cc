@@ -2,6 +2,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "client/formats/urdf.h"
@@ -33,6 +34,14 @@ std::vector<v1::ModelSelection> Walkers() {
   // Left and right differ, and links are turned.
   (*walkers[4].mutable_locked_joints_rad())["hip_rotation_l"] = 0.2;
   (*walkers[4].mutable_locked_joints_rad())["trunk_bending"] = 0.1;
+  // Springs and dampers, of one side and of both.
+  for (v1::ModelSelection* const sprung : {&walkers[4], &walkers[2]}) {
+    v1::ModelSelection::JointSpring& spring = (*sprung->mutable_joint_springs())["ankle_l"];
+    spring.set_stiffness_n_m_rad(340);
+    spring.set_rest_rad(0.1);
+    spring.set_damping_n_m_s_rad(2.5);
+  }
+  (*walkers[2].mutable_joint_springs())["ankle_r"] = walkers[2].joint_springs().at("ankle_l");
   return walkers;
 }
 
@@ -70,7 +79,12 @@ v1::Model Canonical(v1::Model model) {
 TEST_P(UrdfImportTest, ReadsBackTheSameModel) {
   const Scene scene = BuildOurs();
   const v1::Model ours = server::EncodeModel(scene, 9.81);
-  const UrdfTree tree = ReadUrdfText("ours.urdf", ToUrdf(ours));
+  const std::string urdf = ToUrdf(ours);
+  const bool sprung = std::any_of(ours.joints().begin(), ours.joints().end(),
+                                  [](const v1::Joint& joint) { return joint.stiffness() != 0; });
+  EXPECT_EQ(urdf.find("<!-- Spring, which URDF cannot state;") != std::string::npos, sprung);
+  EXPECT_EQ(urdf.find("<dynamics damping=\"2.5\"/>") != std::string::npos, sprung);
+  const UrdfTree tree = ReadUrdfText("ours.urdf", urdf);
   const v1::ModelSideFile side = SideFileOfModel(ours);
   ASSERT_NO_THROW(CheckSideFile("ours.json", side, tree));
   const v1::Model back = ModelOfUrdf(tree, "ours.json", side).model;

@@ -89,6 +89,7 @@ const supportName = (feet) => (feet > 1 ? "double support" : feet ? "single supp
 const doubleSupports = (stride) => stride.phases.filter((phase) => phase.feet > 1);
 const footOf = (stride, right) => stride.feet.find((foot) => foot.right === right) || null;
 const rightFoot = (stride) => footOf(stride, true);
+const bothFeet = (stride) => [footOf(stride, true), footOf(stride, false)];
 const eventAt = (stride, foot, name) => {
   const event = stride.events.find((e) => e.foot === foot && e.name === name);
   return event ? event.percent : null;

@@ -16,6 +16,7 @@ if (MOVING.length) {
   trends();
   if (!MANY) section("Snapshots", "The walk apart along the slope, seen from the right.", MOVING.map(snapshots));
   phases();
+  steps();
   joints();
   multiples();
   forces();

@@ -81,7 +81,8 @@ function legChart(quantity, joint, legs) {
     series,
     shared: MANY,
     bands: MOVING.length === 1 ? doubleSupports(MOVING[0].stride) : [],
-    ribbons: kind.data ? bandsOf(kind.data, joint) : [],
+    // The data begin with the heel strike of the leg; the left leg's comes within this cycle.
+    ribbons: kind.data && legs !== "left" ? bandsOf(kind.data, joint) : [],
   });
 }
 
@@ -101,7 +102,7 @@ function joints() {
   };
   draw(first);
   const bands = DATA.datasets.length
-    ? " Bands are what people do on level ground, mean ± one standard deviation; moments are net (muscles and passive " +
+    ? " Bands are what people do on level ground with the right leg, mean ± one standard deviation; moments are net (muscles and passive " +
       "tissue together). On a slope people walk otherwise; the bands stay those of level ground."
     : "";
   const grey = MOVING.length === 1 ? " Grey: double support." : "";

@@ -156,7 +156,9 @@ function model() {
         "p",
         {},
         `Mass ${fmt(m.mass)} kg, ` +
-          `${m.stature ? `stature ${fmt(m.stature)} m, leg length ${fmt(m.leg_length)} m, ` : ""}gravity ` +
+          (m.stature ? `stature ${fmt(m.stature)} m, leg length ${fmt(m.leg_length)} m` : "") +
+          (m.stature ? (m.one_sided ? " of the longer leg, " : ", ") : "") +
+          `gravity ` +
           `${fmt(m.gravity)} m/s². Surfaces that touch the ground: ` +
           `${m.contacts.map(contactText).join("; ")}.`,
       ),

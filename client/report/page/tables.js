@@ -52,7 +52,7 @@ function header() {
       el("span", { class: `verdict ${solve.good ? "good" : "bad"}` }, solve.verdict),
       solve.accuracy.length ? accuracyBadge(solve) : "–",
       stride ? `${fmt(solve.speed)} m/s` : "–",
-      stride ? `${fmt(solve.step_length)} m` : "–",
+      stride ? stepLengths(solve) : "–",
       stride ? `${fmt(stride.duration / 2, 3)} s` : "–",
       foot ? share(foot.stance) : "–",
       foot ? share(stride.double_support) : "–",
@@ -77,6 +77,13 @@ function header() {
       ),
     );
   }
+}
+
+// Of both feet where they differ.
+function stepLengths(solve) {
+  if (!hasUnequalSteps(solve.stride)) return `${fmt(solve.step_length)} m`;
+  const [right, left] = bothFeet(solve.stride);
+  return `right ${fmt(right.step_length)} m, left ${fmt(left.step_length)} m`;
 }
 
 // A figure of the verifier with its bound.
@@ -175,8 +182,13 @@ function normative() {
       .filter((r) => r.stanceFraction >= 0.5)
       .map((r) => `${words(r.joint)} (${r.atMax ? "upper" : "lower"} limit, ${share(r.stanceFraction)})`)
       .join(", ") || "none";
-  const ours = solves.map(({ people: own, ...solve }) => [
-    labelOf(solve),
+  // Of each leg where left and right of the body differ, else of the right one.
+  const legs = solves.flatMap((solve) => [
+    { solve, own: solve.people, leg: "right" },
+    ...(solve.people_left ? [{ solve, own: solve.people_left, leg: "left" }] : []),
+  ]);
+  const ours = legs.map(({ solve, own, leg }) => [
+    el("span", {}, labelOf(solve), ` ${leg} leg`),
     share(own.stanceFraction ?? 0),
     share(own.doubleSupportFraction ?? 0),
     `${fmt(own.stepLengthM)} m`,
@@ -200,10 +212,10 @@ function normative() {
     QUANTITY_FORWARD_FORCE: "forward force, % of body weight",
   };
   const range = (low, high) => `${fmt(low ?? 0, 3)} … ${fmt(high ?? 0, 3)}`;
-  const rows = solves.flatMap((solve) =>
-    solve.people.datasets.flatMap((set) =>
+  const rows = legs.flatMap(({ solve, own, leg }) =>
+    own.datasets.flatMap((set) =>
       (set.curves || []).map((c) => [
-        labelOf(solve),
+        el("span", {}, labelOf(solve), ` ${leg} leg`),
         words(set.name),
         `${c.joint} ${names[c.quantity]}`,
         fmt(c.correlation ?? 0, 2),
@@ -217,9 +229,9 @@ function normative() {
   const figures = table(
     [
       "",
-      "Stance",
+      "Stance of the leg",
       "Double support",
-      "Step length",
+      "Step length, mean of both feet",
       "Cadence",
       "Vertical force: first peak / valley / second peak, %",
       "At a joint limit for ≥ 50 % of stance",
@@ -230,7 +242,9 @@ function normative() {
   );
   section(
     "Comparison with normative data",
-    "The right leg against people on level ground.",
+    solves.some((s) => s.people_left)
+      ? "Each leg from its own heel strike on against people on level ground."
+      : "The right leg against people on level ground; the left leg is its mirror image half a cycle later.",
     figures,
     el(
       "details",

@@ -73,6 +73,7 @@ TEST_F(ExportCommandTest, RefusesBeforeItAsksTheServer) {
       {{"models", "planar", "-o", "a.xml"}, "need --format, one of mjcf, urdf, urdf-side, osim"},
       {{"models", "--format", "mjcf"}, "--format: needs the NAME of a model"},
       {{"models", "planar", "--format", "trc"}, "--format trc: needs a solve"},
+      {{"models", "planar", "--format", "json"}, "--format json: is the flag --json for a model"},
       {{"models", "planar", "--format", "mjcf", "--slope", "60"}, "--slope"},
   };
   for (auto [arguments, message] : cases) {

@@ -47,6 +47,7 @@ TEST_F(HabitsTest, MistypedWordsAreToldWhatMayBeMeant) {
       {{"sovle"}, "sovle: no such command; did you mean solve?\nRun `rollgait --help`"},
       {{"solve", "--sloep", "10"},
        "--sloep: no such flag of solve; did you mean --slope?\nRun `rollgait solve --help`"},
+      {{"solve", "--format", "json"}, "--format: no such flag of solve; --json writes JSON\n"},
       {{"solve", "--sever=a:1"}, "--sever: no such flag of solve; did you mean --server?"},
       {{"solve", "planar"}, "planar: solve does not take this word"},
       {{"solve", "--preset", "humen"}, "--preset humen: must be one of human, torque, transport; did you mean human?"},

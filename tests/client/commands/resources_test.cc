@@ -121,6 +121,18 @@ TEST_F(ResourceCommandTest, Models) {
   EXPECT_EQ(Run({"models", "cat"}).code, 7);
 }
 
+TEST_F(ResourceCommandTest, AModelShowsWhatTheRequestChanges) {
+  const std::string plain = Run({"models", "planar"}).out;
+  EXPECT_THAT(plain, testing::ContainsRegex("\nleg length +[0-9.]+  m\n"));
+  EXPECT_THAT(plain, testing::Not(HasSubstr("SPRING AT")));
+  EXPECT_THAT(plain, testing::Not(HasSubstr("CHANGE")));
+  const std::string changed =
+      Run({"models", "--load", "hand_l=10", "planar", "--strength", "hip_l=0", "--spring", "ankle_l=340,18,2"}).out;
+  EXPECT_THAT(changed, testing::ContainsRegex("load on hand_l +10 kg +at the centre of mass of the segment\n"));
+  EXPECT_THAT(changed, testing::ContainsRegex("strength of hip_l +0 % +no muscles\n"));
+  EXPECT_THAT(changed, testing::ContainsRegex("ankle_l +340 N m/rad +18° +2 N m s/rad\n"));
+}
+
 TEST_F(ResourceCommandTest, StoredModels) {
   const std::string file = testing::TempDir() + "resources_test.json";
   std::ofstream(file) << "{\"summary\": {\"name\": \"walker\"}}";

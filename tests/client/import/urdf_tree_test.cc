@@ -97,6 +97,8 @@ std::vector<Broken> BrokenFiles() {
       {"NoLimit", Replaced(good, "<limit lower=\"-1\" upper=\"1\" effort=\"10\" velocity=\"5\"/>", ""),
        "needs an element <limit>"},
       {"EmptyRange", Replaced(good, "lower=\"-1\"", "lower=\"2\""), "lower must be below upper"},
+      {"NegativeDamping", Replaced(good, "</joint>", "<dynamics damping=\"-1\"/></joint>"),
+       "<dynamics> has damping -1; must be at least 0"},
       {"NegativeEffort", Replaced(good, "effort=\"10\"", "effort=\"-10\""), "neither may be negative"},
       {"NoAxis", Replaced(good, "0 1 0", "0 0 0"), "<axis> has length 0"},
       {"UnknownType", Replaced(good, "revolute", "ball"), "type \"ball\" is unknown"},
@@ -190,6 +192,16 @@ TEST(UrdfTreeTest, OpensNothingThatTheFileNames) {
   EXPECT_THAT(tree.document.xml, testing::Not(HasSubstr("filename")));
   ASSERT_EQ(tree.document.left_out.size(), 1u);
   EXPECT_THAT(tree.document.left_out[0], HasSubstr("1 collision shapes that are no box, sphere or cylinder"));
+}
+
+TEST(UrdfTreeTest, ReadsDampingAndTellsThatFrictionIsLeftOut) {
+  const std::string good = Robot(std::string(kLinks) + kGoodJoint);
+  const UrdfTree damped = ReadUrdfText("x.urdf", Replaced(good, "</joint>", "<dynamics damping=\"0.7\"/></joint>"));
+  EXPECT_EQ(damped.joints[0].damping, 0.7);
+  EXPECT_TRUE(damped.document.left_out.empty());
+  const UrdfTree rubbing = ReadUrdfText("x.urdf", Replaced(good, "</joint>", "<dynamics friction=\"0.7\"/></joint>"));
+  EXPECT_EQ(rubbing.joints[0].damping, 0);
+  EXPECT_THAT(rubbing.document.left_out, testing::ElementsAre("friction of 1 joints, which a model does not have"));
 }
 
 TEST(UrdfTreeTest, ReadsNumbersAndOrder) {

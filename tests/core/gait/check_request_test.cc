@@ -244,6 +244,14 @@ TEST(CheckRequest, BodiesWithoutSymmetryTakeTheFullCycle) {
   const Result<GaitSpec> half = CheckRequest(request);
   ASSERT_FALSE(half.ok());
   EXPECT_EQ(half.violations().front().field, "cycle");
+  EXPECT_NE(half.violations().front().message.find("differ by model.locked_joints_rad[\"knee_l\"];"),
+            std::string::npos);
+  // Another cause, another field.
+  GaitRequest loaded;
+  loaded.body.model = "human29";
+  loaded.body.changes.loads = {{.segment = "hand_l", .mass = 1, .position = {}}};
+  loaded.cycle = Cycle::kHalf;
+  EXPECT_NE(CheckRequest(loaded).violations().front().message.find("differ by model.loads[0];"), std::string::npos);
   request.cycle = Cycle::kFull;
   EXPECT_TRUE(CheckRequest(request).ok());
 }

@@ -86,6 +86,14 @@ TEST(OneSidedBody, WalksAsItsMirrorImageMirrored) {
   EXPECT_NEAR(a.foot(Foot::kRight).loading + a.foot(Foot::kLeft).loading, a.double_support, 1e-12);
   EXPECT_NEAR(a.StepDurationAsymmetry(), -b.StepDurationAsymmetry(), 2e-3);
   EXPECT_GT(std::abs(a.StepLengthAsymmetry()) + std::abs(a.StanceAsymmetry()), 5e-3);
+  // The comparison of each leg with normative data is that of the other leg of the other body; the two are not alike.
+  ASSERT_TRUE(left.normative_left && right.normative_left);
+  const auto rms = [](const std::optional<NormativeComparison>& leg) {
+    return leg->datasets[0].curves[0].distance.rms;
+  };
+  EXPECT_NEAR(rms(left.normative_left), rms(right.normative), 0.02);  // degrees; as the step lengths
+  EXPECT_NEAR(rms(left.normative), rms(right.normative_left), 0.02);
+  EXPECT_GT(std::abs(rms(left.normative) - rms(left.normative_left)), 0.1);
 }
 
 // What the other body has, by name; a joint that is locked here moves there.

@@ -132,7 +132,14 @@ TEST(CheckWarmStart, NamesWhatDiffers) {
   EXPECT_EQ(refusal(Draft(5, 1.1)), "");
   GaitRequest request = Draft(0);
   request.cycle = Cycle::kFull;
-  EXPECT_EQ(refusal(request).substr(0, 45), "warm_start: its solution spans another cycle;");
+  EXPECT_EQ(
+      refusal(request),
+      "warm_start: its solution is one step (CYCLE_HALF, which its mirror image completes), this request asks for "
+      "two steps (CYCLE_FULL); give `cycle` CYCLE_HALF, or start from a solve of the cycle that this request asks "
+      "for");
+  request.cycle.reset();
+  request.body.changes.strengths["knee_l"] = 0.5;
+  EXPECT_NE(refusal(request).find("because left and right of its body differ"), std::string::npos);
   request = Draft(0);
   request.discretization.scheme = Scheme::kRadau3;
   EXPECT_NE(refusal(request).find("another discretization.scheme"), std::string::npos);

@@ -99,6 +99,7 @@ TEST(RollingEllipsoidTest, RefusesWithFieldValueAndLimit) {
   const auto refused = [&](const char* field, const char* words) {
     const Result<Scene> scene = BuildScene(request);
     ASSERT_FALSE(scene.ok()) << field;
+    ASSERT_EQ(scene.violations().size(), 1u) << field << ": one cause, one message";
     EXPECT_EQ(scene.violations()[0].field, field);
     EXPECT_THAT(scene.violations()[0].message, HasSubstr(words));
   };
@@ -108,6 +109,8 @@ TEST(RollingEllipsoidTest, RefusesWithFieldValueAndLimit) {
   refused("rolling_body.semi_axes_m", "20 times");
   request.rolling_body.emplace().mass = std::numeric_limits<double>::quiet_NaN();
   refused("rolling_body.mass_kg", "between 0.001 and 1e6 kg");
+  request.rolling_body.emplace().mass = -1;
+  refused("rolling_body.mass_kg", "is -1; must be between 0.001 and 1e6 kg");
   request.rolling_body.emplace().moments = Vector3(1, 1, 3);
   refused("rolling_body.moments_kg_m2", "no rigid body");
   request.rolling_body.emplace().moments = Vector3(1, 0, 1);

@@ -15,6 +15,7 @@ namespace rollgait {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 BodyRequest Human() {
   BodyRequest request;
@@ -198,9 +199,13 @@ TEST(Subject, NamesWhatIsRefused) {
   EXPECT_THAT(said["joint_strengths[\"knee_l\"]"], HasSubstr("fixed"));
   EXPECT_THAT(said["joint_strengths[\"hip_l\"]"], HasSubstr("is 1.5; must be between 0 and 1"));
   EXPECT_THAT(said["joint_strengths[\"base_x\"]"], HasSubstr("floating base"));
+  EXPECT_THAT(said["joint_strengths[\"base_x\"]"], HasSubstr("choose from hip_l, "));
+  EXPECT_THAT(said["joint_strengths[\"base_x\"]"], Not(HasSubstr("knee_l"))) << "it is locked";
   EXPECT_THAT(said["joint_strengths[\"nose\"]"], HasSubstr("no joint"));
-  EXPECT_THAT(said["joint_springs[\"ankle_l\"].stiffness_n_m_rad"], HasSubstr("is -1 N m/rad; must be between 0"));
-  EXPECT_THAT(said["joint_springs[\"ankle_l\"].rest_rad"], HasSubstr("is 4 rad"));
+  EXPECT_THAT(said["joint_springs[\"ankle_l\"].stiffness_n_m_rad"],
+              HasSubstr("is -1 N m/rad (-0.0174533 N m/deg); must be between 0"));
+  EXPECT_THAT(said["joint_springs[\"ankle_l\"].rest_rad"],
+              HasSubstr("is 4 rad (229.183 deg); must be between -3.14159 and 3.14159 rad (-180 and 180 deg)"));
   EXPECT_THAT(said["joint_springs[\"ankle_l\"].damping_n_m_s_rad"], HasSubstr("20000"));
   EXPECT_EQ(said.size(), 13u);
 
@@ -217,6 +222,98 @@ TEST(Subject, NamesWhatIsRefused) {
   request.model = "ball";
   request.changes.loads.assign(1, {.segment = "hand_l", .mass = 1, .position = {}});
   EXPECT_EQ(BuildScene(request).violations().front().field, "loads");
+}
+
+// One cause, one message: a mass that is out of range does not bound the moments, too.
+TEST(Subject, IsRefusedOnceForOneMass) {
+  BodyRequest request = Human();
+  request.changes.loads = {{.segment = "hand_l", .mass = -1, .position = {}}};
+  const Result<Scene> scene = BuildScene(request);
+  ASSERT_EQ(scene.violations().size(), 1u);
+  EXPECT_EQ(scene.violations()[0].field, "loads[0].mass_kg");
+}
+
+TEST(Subject, IsToldTheNameThatMayHaveBeenMeant) {
+  BodyRequest request = Human();
+  request.segment_lengths = {{"thihg_l", 0.4}};
+  request.locked_joints = {{"knee_lft", 0.1}};
+  request.changes.loads = {{.segment = "hand", .mass = 1, .position = {}},
+                           {.segment = "torsoo", .mass = 1, .position = {}}};
+  request.changes.springs = {{"ankel_l", {300, 0, 0}}};
+  const Violations violations = BuildScene(request).violations();
+  std::map<std::string, std::string> said;
+  for (const Violation& violation : violations) said[violation.field] = violation.message;
+  EXPECT_THAT(said["segment_lengths_m[\"thihg_l\"]"], HasSubstr("did you mean thigh_l?"));
+  EXPECT_THAT(said["locked_joints_rad[\"knee_lft\"]"], HasSubstr("did you mean knee_l?"));
+  EXPECT_EQ(said["loads[0].segment"], "\"hand\" is on both sides; choose hand_l or hand_r");
+  EXPECT_THAT(said["loads[1].segment"], HasSubstr("did you mean torso?"));
+  EXPECT_THAT(said["joint_springs[\"ankel_l\"]"], HasSubstr("did you mean ankle_l?"));
+  EXPECT_EQ(violations.size(), 5u);
+}
+
+// Its sources do not say of a body whose sides differ that one mirrors the other.
+TEST(Subject, HasSourcesThatAreTrueOfIt) {
+  const auto says = [](const Scene& scene, const std::string& words) {
+    return std::any_of(scene.sources.begin(), scene.sources.end(),
+                       [&](const std::string& line) { return line.find(words) != std::string::npos; });
+  };
+  BodyRequest request = Human();
+  EXPECT_TRUE(says(Built(request), "Left segments mirror the right ones;"));
+  request.changes.springs = {{"ankle_l", {300, 0, 0}}};
+  EXPECT_FALSE(says(Built(request), "Left segments mirror the right ones;"));
+  EXPECT_TRUE(says(Built(request), "left and right of this body differ"));
+}
+
+// The ellipsoids have the semi-axes that are asked for, and touch the ground where the foot does: lowest points at the
+// sole, the heel's end at the heel, the forefoot's end at the toes.
+TEST(SubjectFeet, HaveTheSemiAxesOfTheRequest) {
+  BodyRequest request = Human();
+  request.feet = FootShape::kTwoEllipsoids;
+  const Scene bare = Built(request);
+  const Vector3 heel(0.03, 0.025, 0.02), left(0.06, 0.04, 0.018);
+  request.changes.foot_semi_axes = {{"heel", heel}, {"forefoot_l", left}};
+  const Scene scene = Built(request);
+  EXPECT_FALSE(scene.symmetric);
+  const auto contact = [](const Scene& of, const char* name) {
+    return of.contacts[static_cast<size_t>(of.FindContact(name))];
+  };
+  const auto axes = [&](const Scene& of, const char* name) {
+    return contact(of, name).surface.ellipsoid()->semi_axes();
+  };
+  EXPECT_EQ(axes(scene, "left_heel"), heel);
+  EXPECT_EQ(axes(scene, "right_heel"), heel);
+  EXPECT_EQ(axes(scene, "left_forefoot"), left);
+  EXPECT_EQ(axes(scene, "right_forefoot"), axes(bare, "right_forefoot"));
+  for (const char* name : {"left_heel", "right_heel", "left_forefoot", "right_forefoot"}) {
+    const Vector3 now = contact(scene, name).p_LE, before = contact(bare, name).p_LE;
+    const Vector3 size = axes(scene, name), usual = axes(bare, name);
+    EXPECT_NEAR(now.z() - size.z(), before.z() - usual.z(), 1e-15) << name;
+    const double end = std::string(name).ends_with("heel") ? -1 : 1;
+    EXPECT_NEAR(now.x() + end * size.x(), before.x() + end * usual.x(), 1e-15) << name;
+  }
+  EXPECT_EQ(scene.model.total_mass(), bare.model.total_mass());
+  request.changes.foot_semi_axes = {{"heel", heel}, {"forefoot", left}};
+  EXPECT_TRUE(Built(request).symmetric);
+}
+
+TEST(SubjectFeet, AreRefusedByNameAndRange) {
+  BodyRequest request = Human();
+  const auto refusal = [&](const std::string& name, const Vector3& axes) {
+    request.changes.foot_semi_axes = {{name, axes}};
+    const Result<Scene> scene = BuildScene(request);
+    if (scene.ok()) return std::string("taken");
+    EXPECT_EQ(scene.violations().size(), 1u);
+    EXPECT_EQ(scene.violations()[0].field, "foot_semi_axes_m[\"" + name + "\"]");
+    return scene.violations()[0].message;
+  };
+  const Vector3 usual = Built(request).contacts[0].surface.ellipsoid()->semi_axes();
+  EXPECT_EQ(refusal("foot", usual), "taken");
+  EXPECT_EQ(refusal("foot_r", usual.cwiseProduct(Vector3(0.5, 1.5, 0.25))), "taken");
+  EXPECT_THAT(refusal("foot", usual.cwiseProduct(Vector3(1.51, 1, 1))), HasSubstr("m; must be between ("));
+  EXPECT_THAT(refusal("foot_l", usual.cwiseProduct(Vector3(1, 1, 2.01))), HasSubstr("up 0.25 to 2 times"));
+  EXPECT_THAT(refusal("foot", Vector3(0.1, std::nan(""), 0.05)), HasSubstr("must be between"));
+  EXPECT_THAT(refusal("heel", usual), HasSubstr("is no surface of these feet; choose from foot"));
+  EXPECT_THAT(refusal("foto", usual), HasSubstr("did you mean foot?"));
 }
 
 }  // namespace

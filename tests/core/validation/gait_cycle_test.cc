@@ -62,7 +62,8 @@ TEST_P(GaitCycleTest, CurvesAreThoseThatWerePutIn) {
   for (double percent = 0; percent < 100; percent += 2) {
     const MotionSample sample = cycle->At(percent);
     for (const auto& [name, curve] : walk_.angles) {
-      EXPECT_NEAR(sample.position[RightJoint(scene_.model, name)], curve(percent), 1e-12) << name << " at " << percent;
+      EXPECT_NEAR(sample.position[LegJoint(scene_.model, name, BodySide::kRight)], curve(percent), 1e-12)
+          << name << " at " << percent;
       const int left = scene_.model.Find(name + "_l");
       EXPECT_NEAR(sample.position[left], curve(percent + 50), 1e-12) << name << " at " << percent;
     }

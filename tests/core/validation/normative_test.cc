@@ -106,6 +106,32 @@ TEST_P(PeopleTest, ShiftedAndScaledWalks) {
   }
 }
 
+// The left leg is compared from its own heel strike on, with its own joints and foot.
+TEST_P(PeopleTest, EitherLegIsComparedWithItself) {
+  Trajectory walk = Walk(0, 1).Make(scene_, Cycle::kFull, 30);
+  const int hip = LegJoint(scene_.model, "hip", BodySide::kLeft);
+  const double turn = scene_.model.FlexionSign(hip) * 5 * kDegree;
+  for (TrajectoryPhase& phase : walk.phases) phase.node_positions.row(hip).array() += turn;
+  const NormativeComparison right = CompareWalk(scene_, walk, kGravity);
+  const auto from_left = MeasureGaitEvents(scene_, walk, kGravity, Foot::kLeft);
+  ASSERT_TRUE(from_left);
+  EXPECT_EQ(from_left->First(GaitEventKind::kHeelStrike, Foot::kLeft).value(), 0);
+  EXPECT_NEAR(from_left->First(GaitEventKind::kHeelStrike, Foot::kRight).value(), 50, 1e-9);
+  const NormativeComparison left = CompareWithPeople(scene_, walk, *from_left, Foot::kLeft);
+  EXPECT_NEAR(left.stance, right.stance, 1e-12);
+  EXPECT_NEAR(left.toe_off.value(), 68, 1e-9);
+  EXPECT_NEAR(left.opposite_heel_strike.value(), 50, 1e-9);
+  EXPECT_NEAR(left.peaks.first.value(), right.peaks.first.value(), 1e-6);
+  for (const char* joint : {"hip", "knee", "ankle"}) {
+    const bool turned = std::string_view(joint) == "hip";
+    const auto rms = [&](const NormativeComparison& leg) {
+      return Of(leg.datasets[GetParam()], NormativeQuantity::kAngle, joint).distance.rms;
+    };
+    EXPECT_NEAR(rms(right), 0, 1e-6) << joint;
+    EXPECT_NEAR(rms(left), turned ? 5 : 0, 1e-6) << joint;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, PeopleTest, ::testing::Values(0u, 1u));
 
 // What our joints call positive is what the data calls positive: flexion moves the knee forward, knee flexion the ankle
@@ -152,7 +178,8 @@ TEST(NormativeMomentsTest, AreThoseOfStatics) {
 
   PrescribedWalk walk;
   for (const char* joint : {"hip", "knee", "ankle"}) {
-    const double angle = q[RightJoint(scene.model, joint)], effort = moments[RightJoint(scene.model, joint)];
+    const double angle = q[LegJoint(scene.model, joint, BodySide::kRight)];
+    const double effort = moments[LegJoint(scene.model, joint, BodySide::kRight)];
     walk.angles[joint] = [angle](double) { return angle; };
     walk.efforts[joint] = [effort](double) { return effort; };
   }

@@ -175,6 +175,7 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
                         {.segment = "pelvis", .mass = 3, .position = {}}};
   body.changes.strengths = {{"knee_l", 0.5}};
   body.changes.springs = {{"ankle_r", {300, 0.1, 2}}};
+  body.changes.foot_semi_axes = {{"heel_l", Vector3(0.035, 0.03, 0.02)}};
   const v1::ModelSelection selection = EncodeModel(BuildScene(body).value(), 9.81).selection();
   EXPECT_EQ(selection.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);
   EXPECT_TRUE(selection.toes() && selection.rigid_trunk());
@@ -189,6 +190,8 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
   EXPECT_EQ(selection.loads(0).moments_kg_m2().z(), 1);
   EXPECT_FALSE(selection.loads(1).has_position_m() || selection.loads(1).has_moments_kg_m2());
   EXPECT_EQ(selection.joint_strengths().at("knee_l"), 0.5);
+  EXPECT_EQ(selection.foot_semi_axes_m().at("heel_l").x(), 0.035);
+  EXPECT_EQ(selection.foot_semi_axes_m().at("heel_l").z(), 0.02);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").stiffness_n_m_rad(), 300);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").rest_rad(), 0.1);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);

@@ -174,6 +174,16 @@ TEST(EncodeResult, EveryFigureArrives) {
   EXPECT_NEAR(result.model().gravity_m_s2(), 9.81, 1e-14) << "magnitude of the turned vector, rounding";
 }
 
+TEST(EncodeResult, EitherLegArrivesInItsOwnField) {
+  GaitSolution solution = Solution();
+  solution.normative.emplace().cadence = 111;
+  EXPECT_FALSE(EncodeResult(solution, Planar()).has_normative_left());
+  solution.normative_left.emplace().cadence = 113;
+  const v1::SolveResult result = EncodeResult(solution, Planar());
+  EXPECT_EQ(result.normative().cadence_per_min(), 111);
+  EXPECT_EQ(result.normative_left().cadence_per_min(), 113);
+}
+
 TEST(EncodeResult, TheVerdictArrives) {
   const auto encoded = [](Verdict::Kind kind) {
     GaitSolution solution = Solution();

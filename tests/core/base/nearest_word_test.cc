@@ -1,11 +1,11 @@
-#include "client/suggestion.h"
+#include "core/base/nearest_word.h"
 
 #include <gtest/gtest.h>
 
-namespace rollgait::client {
+namespace rollgait {
 namespace {
 
-TEST(SuggestionTest, DistanceCountsEdits) {
+TEST(NearestWordTest, DistanceCountsEdits) {
   EXPECT_EQ(EditDistance("", ""), 0);
   EXPECT_EQ(EditDistance("slope", "slope"), 0);
   EXPECT_EQ(EditDistance("", "abc"), 3);
@@ -17,7 +17,7 @@ TEST(SuggestionTest, DistanceCountsEdits) {
   EXPECT_EQ(EditDistance("wlak", "walk"), 1);  // neighbours swapped
 }
 
-TEST(SuggestionTest, NearestIsNearOrNothing) {
+TEST(NearestWordTest, NearestIsNearOrNothing) {
   const std::vector<std::string> flags = {"--slope", "--speed", "--step-length", "--step-duration"};
   EXPECT_EQ(Nearest("--sloep", flags), "--slope");
   EXPECT_EQ(Nearest("--sped", flags), "--speed");
@@ -30,10 +30,10 @@ TEST(SuggestionTest, NearestIsNearOrNothing) {
   EXPECT_EQ(Nearest("slope", {}), "");
 }
 
-TEST(SuggestionTest, SaysSo) {
+TEST(NearestWordTest, SaysSo) {
   EXPECT_EQ(DidYouMean("hlaf", {"full", "half"}), "; did you mean half?");
   EXPECT_EQ(DidYouMean("third", {"full", "half"}), "");
 }
 
 }  // namespace
-}  // namespace rollgait::client
+}  // namespace rollgait

@@ -1,10 +1,15 @@
-#include "client/suggestion.h"
+#ifndef ROLLGAIT_CORE_BASE_NEAREST_WORD_H_
+#define ROLLGAIT_CORE_BASE_NEAREST_WORD_H_
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
-namespace rollgait::client {
+namespace rollgait {
 
-int EditDistance(const std::string& a, const std::string& b) {
+// Least number of letters to insert, remove or replace, and of neighbours to swap, that makes one word of the other
+// (optimal string alignment). Counts bytes.
+inline int EditDistance(const std::string& a, const std::string& b) {
   // rows[k]: distances of the first (row - k) letters of a to the beginnings of b.
   std::vector<std::vector<int>> rows(3, std::vector<int>(b.size() + 1));
   for (size_t j = 0; j <= b.size(); ++j) rows[0][j] = static_cast<int>(j);
@@ -20,7 +25,10 @@ int EditDistance(const std::string& a, const std::string& b) {
   return rows[0][b.size()];
 }
 
-std::string Nearest(const std::string& word, const std::vector<std::string>& candidates) {
+// The first candidate that begins with the word, the word having 3 letters or more; else the one that fewest edits make
+// of it, the first of equals; empty if that takes more than 2 edits or more than a third of the word's length (at least
+// 1).
+inline std::string Nearest(const std::string& word, const std::vector<std::string>& candidates) {
   const size_t letters = word.size() - std::min(word.size(), word.find_first_not_of('-'));
   for (const std::string& candidate : candidates) {
     if (letters >= 3 && candidate.rfind(word, 0) == 0) return candidate;
@@ -34,9 +42,12 @@ std::string Nearest(const std::string& word, const std::vector<std::string>& can
   return nearest;
 }
 
-std::string DidYouMean(const std::string& word, const std::vector<std::string>& candidates) {
+// "; did you mean CANDIDATE?", or nothing.
+inline std::string DidYouMean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string nearest = Nearest(word, candidates);
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
-}  // namespace rollgait::client
+}  // namespace rollgait
+
+#endif  // ROLLGAIT_CORE_BASE_NEAREST_WORD_H_
