@@ -80,7 +80,7 @@ TEST(ErrorEstimate, ScalesWithGravity) {
   const double ratio = 1.62 / 9.81;
   moon.gravity = 1.62;
   moon.motion.speed = 1.3 * std::sqrt(ratio);
-  const GaitSolution one = Solve(earth), two = Solve(moon);
+  const GaitSolution one = SolvePlanar(earth), two = SolvePlanar(moon);
   ASSERT_TRUE(one.errors && two.errors) << two.message;
   EXPECT_NEAR(Largest(two.errors->motion, MotionQuantity::kAngle) / Largest(one.errors->motion, MotionQuantity::kAngle),
               1, 1e-3);

@@ -53,13 +53,21 @@ TEST(OneSidedBody, TakesTheFullCycleByItself) {
   EXPECT_EQ(CheckRequest(Planar()).value().cycle, Cycle::kHalf);
 }
 
-// What the search of several starts does not use is not made.
-TEST(OneSidedBody, KnowsTheSymmetricOneOfASingleStart) {
-  GaitRequest request = OneSided("_l");
+TEST(OneSidedBody, KnowsTheSymmetricOne) {
+  const GaitRequest request = OneSided("_l");
   EXPECT_NE(CheckRequest(request).value().symmetric, nullptr);
   EXPECT_EQ(CheckRequest(request).value().symmetric->symmetric, nullptr);
+}
+
+TEST(OneSidedBody, SeveralStartsHaveTheSymmetricOneAmongThem) {
+  GaitRequest request = OneSided("_l");
+  const GaitSolution one = Solve(request);
   request.starts = 2;
-  EXPECT_EQ(CheckRequest(request).value().symmetric, nullptr);
+  const GaitSolution several = Solve(request);
+  ASSERT_EQ(several.termination, Termination::kOptimal) << several.message;
+  EXPECT_LE(several.objective, one.objective * (1 + 1e-6));  // both end at the scaled KKT error 1e-6
+  EXPECT_THAT(several.message, HasSubstr("It was started from"));
+  EXPECT_GT(several.meshes.size(), one.meshes.size() + 1);
 }
 
 TEST(OneSidedBody, WalksAsItsMirrorImageMirrored) {
