@@ -159,14 +159,13 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   return solution;
 }
 
-// From a step of the body whose sides are alike, and its mirror image; with smooth powers first, where powers cost. A
-// difference of the sides may ask for another way to walk than that leads to, so where it costs much, and where the
-// request asks for several starts, the guesses are tried as well and the cheaper gait is taken. Empty where none
-// answers; `meshes` as above.
+// From a step of the body whose sides are alike, and its mirror image; with smooth powers first, where powers cost.
+// Where the request asks for several starts the guesses are tried as well, and the cheaper gait is taken. Empty where
+// none answers; `meshes` as above.
 std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudget* budget,
                                                 std::vector<MeshStatistics>* meshes) {
-  // Another start saves at most about what the difference of the sides costs, for with both alike the body walks the
-  // cheaper: a tenth is left alone.
+  // With both sides alike the body walks the cheaper, so another start saves about what the difference of the sides
+  // costs at most. Above a tenth it may be worth a word.
   constexpr double kDear = 1.1;
   const std::optional<GaitSpec> step_spec = SymmetricStepOf(spec);
   if (!step_spec) return std::nullopt;
@@ -177,32 +176,35 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   GaitSolution step = SearchCold(AsStart(*step_spec), budget);
   keep_meshes(&step);
   if (!Converged(step.termination) || !budget->Left()) return std::nullopt;
-  const bool sharpens = NeedsSmoothing(spec);
-  GaitSpec first = sharpens ? AsStart(spec) : spec;
-  first.warm_start = OneSidedStart(spec, step);
-  GaitSolution solution = SolveFromNeighbour(first, *BuildProblem(first), MostIterations::kFromSymmetric, budget);
+  const GaitSpec first = NeedsSmoothing(spec) ? AsStart(spec) : spec;
+  GaitSpec from_step = first;
+  from_step.warm_start = OneSidedStart(spec, step);
+  GaitSolution solution =
+      SolveFromNeighbour(from_step, *BuildProblem(from_step), MostIterations::kFromSymmetric, budget);
   solution.warm_started = solution.used_multipliers = false;  // not from what the request named
   if (!Converged(solution.termination)) {
     keep_meshes(&solution);
     return std::nullopt;
   }
-  std::vector<GaitSolution> candidates;
-  const bool is_dear = solution.objective > kDear * step.objective;
   solution.note += " It was started from the gait of the body with both sides alike.";
+  if (spec.starts == 1 && solution.objective > kDear * step.objective) {
+    solution.note += " It costs " + FormatNumber(solution.objective / step.objective) +
+                     " times as much as with both sides alike; with 2 or more `starts` there may be a cheaper one.";
+  }
+  std::vector<GaitSolution> candidates;
   candidates.push_back(std::move(solution));
-  if ((is_dear || spec.starts > 1) && budget->Left()) {
+  if (spec.starts > 1 && budget->Left()) {
     keep_meshes(&candidates.front());
-    GaitSpec from_guess = sharpens ? AsStart(spec) : spec;
-    GaitSolution other = SearchFromAfar(from_guess, Otherwise::kGiveUp, budget);
+    GaitSolution other = SearchFromAfar(first, Otherwise::kGiveUp, budget);
     keep_meshes(&other);
     if (Converged(other.termination)) {
       const bool is_cheaper = other.objective < candidates.front().objective;
-      other.note += " It was started from the guess, not from the gait of the body with both sides alike.";
+      other.note += " It was started from a guess, not from the gait of the body with both sides alike.";
       candidates.insert(is_cheaper ? candidates.begin() : candidates.end(), std::move(other));
     }
   }
   for (GaitSolution& candidate : candidates) {
-    if (sharpens) candidate = Sharpen(spec, std::move(candidate), budget);
+    if (NeedsSmoothing(spec)) candidate = Sharpen(spec, std::move(candidate), budget);
     if (Answers(candidate)) return std::move(candidate);
     keep_meshes(&candidate);
   }
