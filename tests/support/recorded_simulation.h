@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/simulation/simulation.h"
 
 namespace rollgait::testing {
@@ -17,7 +18,7 @@ struct RecordedSimulation {
 
 // Everything that a simulation of the scene tells its observer. The calling test fails where the scene is refused.
 inline RecordedSimulation Record(const SimulationScene& scene) {
-  EXPECT_TRUE(CheckScene(scene).empty());
+  for (const Violation& violation : CheckScene(scene)) ADD_FAILURE() << violation.field << ' ' << violation.message;
   RecordedSimulation recorded;
   SimulationObserver observer;
   observer.sample = [&](const SimulationSample& sample) { return recorded.samples.push_back(sample), true; };

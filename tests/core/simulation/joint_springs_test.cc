@@ -66,6 +66,7 @@ TEST(JointSprings, DamperOfAFreeJointStopsTheSpin) {
   joint.inertia = Vector3(0.4, 0.6, inertia).asDiagonal();
   joint.damping = kDamper;
   SimulationScene scene{"top", Model::Create({joint}).value(), {0.0}, {GroundMotion{}}, {}, {}, {}, {}, {}, -1, {}};
+  scene.gravity.setZero();
   scene.q = VectorX::Unit(7, 0);
   scene.v = VectorX::Zero(6);
   scene.v[2] = 3;
