@@ -58,7 +58,7 @@ struct GaitSpec {
   double max_wall_time;
   int starts;
   std::optional<WarmStart> warm_start;  // passes CheckWarmStart
-  // Of a body whose left and right differ, in full cycles from one start: the same request for the body without what
+  // Of a body whose left and right differ, in full cycles: the same request for the body without what
   // makes them differ (WithSidesAlike), where there is one. Shared: it does not change, and specs are copied often.
   std::shared_ptr<const GaitSpec> symmetric = nullptr;
 };

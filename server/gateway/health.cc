@@ -38,8 +38,9 @@ int ConnectTo(const std::string& listen) {
   }
   addrinfo hints{}, *found = nullptr;
   hints.ai_socktype = SOCK_STREAM;
-  const std::string port = listen.substr(listen.rfind(':') + 1);
-  if (getaddrinfo(HostOf(listen).c_str(), port.c_str(), &hints, &found) != 0) {
+  const std::string host = HostOf(listen), port = listen.substr(listen.rfind(':') + 1);
+  const bool is_any = host.empty() || host == "*";  // this machine's loopback is among them
+  if (getaddrinfo(is_any ? nullptr : host.c_str(), port.c_str(), &hints, &found) != 0) {
     errno = EADDRNOTAVAIL;
     return -1;
   }

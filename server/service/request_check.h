@@ -14,7 +14,8 @@
 namespace rollgait::server {
 
 // What no message of any type may hold: numbers that are not finite (but infinite limits of a Joint), enum values and
-// fields that this server does not know (a request is never understood in part). `prefix` is put before every path:
+// fields that this server does not know (a request is never understood in part), more than 100 000 messages, entries of
+// maps among them. The first 100 violations. `prefix` is put before every path:
 // "spec." gives "spec.motion.speed_m_s".
 Violations CheckWellFormed(const google::protobuf::Message& message, const std::string& prefix);
 

@@ -187,7 +187,9 @@ class Calls(WithService):
 
     def test_health(self):
         command = [os.environ["ROLLGAIT_GATEWAY"], "--health", "--listen"]
-        self.assertEqual(subprocess.run([*command, "%s:%d" % self.service.address], timeout=60).returncode, 0)
+        host, port = self.service.address
+        for where in (host, "*", ""):  # of a gateway that listens everywhere, loopback is asked
+            self.assertEqual(subprocess.run([*command, f"{where}:{port}"], timeout=60).returncode, 0)
         self.assertEqual(subprocess.run([*command, "unix:/nowhere"], stderr=subprocess.DEVNULL, timeout=60).returncode, 1)
 
     def test_document(self):

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/models/catalog.h"
+#include "tests/support/seeded_random.h"
 
 namespace rollgait {
 namespace {
@@ -187,6 +188,61 @@ TEST(OneSidedFields, NameWhatDiffers) {
   EXPECT_THAT(
       of([](BodyRequest* r) { r->changes.loads = {{.segment = "torso", .mass = 1, .position = Vector3(0, 0, 0.1)}}; }),
       ElementsAre("loads[0]"));
+}
+
+// A random request with things on joints, segments and in hands: on both sides alike, or also on one side alone, or
+// with a value that is not the mirror image.
+BodyRequest RandomSubject(SeededRandom& random) {
+  BodyRequest request = AnyOf("human29");
+  const Model model = SceneFor(request).model;
+  const auto flip = [&] { return random.Uniform(0, 1) < 0.5; };
+  const bool is_alike = flip();
+  const auto on_joints = [&](auto& values, auto value, auto image) {
+    for (int count = flip() ? 2 : 0; count > 0; --count) {
+      const Joint& joint = model.joint(static_cast<int>(random.Uniform(6, model.size())));
+      if (is_alike && joint.mirror_sign < 0 && joint.mirror_joint == model.Find(joint.name)) continue;
+      values[joint.name] = value;
+      if (is_alike || flip()) {
+        values[model.joint(joint.mirror_joint).name] = is_alike || flip() ? image(joint.mirror_sign) : value;
+      }
+    }
+  };
+  on_joints(request.changes.strengths, 0.5, [](double) { return 0.5; });
+  on_joints(request.changes.springs, JointSpring{100, 0.1, 1}, [](double sign) {
+    return JointSpring{100, sign * 0.1, 1};
+  });
+  on_joints(request.locked_joints, 0.05, [](double sign) { return sign * 0.05; });
+  for (const auto& [segment, length] : {std::pair("thigh", 0.42), std::pair("forearm", 0.27)}) {
+    const bool has = flip();
+    for (const char* side : {"_l", "_r"}) {
+      if (is_alike ? has : flip()) request.segment_lengths[segment + std::string(side)] = length;
+    }
+  }
+  const double in_left = flip() ? 2 : 3, in_right = is_alike || flip() ? in_left : 1;
+  if (is_alike || flip()) {
+    request.changes.loads = {{.segment = "hand_l", .mass = in_left, .position = Vector3(0.1, 0, -0.02)},
+                             {.segment = "hand_r", .mass = in_right, .position = Vector3(0.1, 0, 0.02)}};
+  }
+  request.changes.loads.push_back(
+      {.segment = "torso", .mass = 2, .position = Vector3(0.1, 0, is_alike || flip() ? 0 : 0.02)});
+  return request;
+}
+
+TEST(OneSidedFields, AreThoseThatDecideHowTheBodyIsBuilt) {
+  SeededRandom random(20261126);
+  int symmetric = 0, one_sided = 0;
+  for (int i = 0; i < 300; ++i) {
+    const BodyRequest request = RandomSubject(random);
+    const Result<Scene> scene = BuildScene(request);
+    if (!scene.ok()) continue;  // a joint that does not reach where it is locked, or that is locked and has a spring
+    EXPECT_EQ(scene.value().symmetric, OneSidedFields(request).empty()) << i;
+    const Result<Scene> alike = BuildScene(WithSidesAlike(request));
+    ASSERT_TRUE(alike.ok()) << i << ' ' << alike.violations().front().field;
+    EXPECT_TRUE(alike.value().symmetric) << i;
+    ++(scene.value().symmetric ? symmetric : one_sided);
+  }
+  EXPECT_GT(symmetric, 50);
+  EXPECT_GT(one_sided, 50);
 }
 
 TEST(WithSidesAlike, KeepsFeetOfBothSides) {

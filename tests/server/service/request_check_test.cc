@@ -56,6 +56,38 @@ TEST(CheckWellFormedTest, FindsUnknownEnumValuesAndFields) {
   for (const Violation& violation : violations) EXPECT_FALSE(violation.message.empty());
 }
 
+// Two million empty messages fit into the bytes of a request.
+TEST(CheckWellFormedTest, RefusesMoreMessagesThanAnyRequestNeeds) {
+  v1::CreateSolveRequest request;
+  v1::ModelSelection& model = *request.mutable_spec()->mutable_model();
+  for (int i = 0; i < 99'000; ++i) model.add_loads();
+  EXPECT_TRUE(CheckWellFormed(request, "").empty());
+  for (int i = 0; i < 1'000; ++i) model.add_loads();
+  EXPECT_EQ(Fields(CheckWellFormed(request, "")), std::set<std::string>{"spec.model.loads"});
+  // Many in no single field.
+  v1::CreateSolveRequest costs;
+  for (int i = 0; i < 400; ++i) {
+    auto& tracking = *costs.mutable_spec()->add_costs()->mutable_tracking();
+    for (int k = 0; k < 300; ++k) tracking.add_channels();
+  }
+  const Violations violations = CheckWellFormed(costs, "");
+  ASSERT_EQ(violations.size(), 1u);
+  EXPECT_EQ(violations[0].field.rfind("spec.costs[", 0), 0u) << violations[0].field;
+  // Entries of maps.
+  v1::CreateSolveRequest map;
+  for (int i = 0; i < 100'001; ++i) (*map.mutable_labels())[std::to_string(i)];
+  for (int i = 0; i < 100'001; ++i)
+    (*map.mutable_spec()->mutable_model()->mutable_joint_strengths())[std::to_string(i)];
+  EXPECT_EQ(CheckWellFormed(map, "").size(), 1u);
+}
+
+TEST(CheckWellFormedTest, TellsTheFirstHundredOfWhatIsWrong) {
+  v1::CreateSolveRequest request;
+  auto* channel = request.mutable_spec()->add_costs()->mutable_tracking()->add_channels();
+  for (int i = 0; i < 1000; ++i) channel->add_positions(kNan);
+  EXPECT_EQ(CheckWellFormed(request, "").size(), 100u);
+}
+
 TEST(CheckSizeTest, RefusesWhatIsTooLargeAndNamesTheLargestField) {
   v1::CreateSolveRequest request;
   request.set_request_id("small");
