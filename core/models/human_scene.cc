@@ -95,16 +95,16 @@ bool UnpairUnlike(std::vector<Joint>* joints) {
 
 Result<Scene> HumanScene(const BodySelection& selection) {
   Violations violations;
-  if (selection.toes && selection.feet == FootShape::kOneEllipsoid) {
+  const bool toes_fit = selection.feet != FootShape::kOneEllipsoid;
+  if (selection.toes && !toes_fit) {
     violations.push_back({"toes",
                           "needs feet of two ellipsoids: one that spans heel and toes cannot bend; leave `feet` "
                           "unset or set it to FEET_TWO_ELLIPSOIDS"});
   }
   const SidedTables tables = TablesOf(selection, &violations);
   const SidedFeet feet = FeetOf(selection, tables, &violations);
-  const HumanBody human =
-      Human(tables.left, tables.right,
-            {selection.feet, selection.ranges, selection.toes && violations.empty(), feet.left, feet.right});
+  const HumanBody human = Human(tables.left, tables.right,
+                                {selection.feet, selection.ranges, selection.toes && toes_fit, feet.left, feet.right});
   const std::map<std::string, double> locked = CheckLocks(human.model, selection, &violations);
   std::vector<Joint> joints = ChangedJoints(human.model, tables, selection, locked, &violations);
   if (!violations.empty()) return violations;

@@ -59,6 +59,9 @@ std::string SegmentProblem(const std::string& name) {
               Listed(known));
 }
 
+// "0.05, 0.05, 0.02".
+std::string Numbers(const Vector3& v) { return Text(v.x(), ", ", v.y(), ", ", v.z()); }
+
 bool IsWithin(double value, double min, double max) { return value >= min && value <= max; }  // false for NaN
 
 // What is wrong with a load, if anything.
@@ -72,14 +75,14 @@ bool CheckLoad(const SegmentLoad& load, const std::string& path, Violations* vio
         {path + ".mass_kg", Text("is ", load.mass, " kg; must be more than 0 and at most ", kHeaviest, " kg")});
   }
   if (load.position && !(load.position->cwiseAbs().maxCoeff() <= kFurthest && load.position->allFinite())) {
-    violations->push_back({path + ".position_m", Text("is (", load.position->transpose(), ") m; each must be between -",
+    violations->push_back({path + ".position_m", Text("is (", Numbers(*load.position), ") m; each must be between -",
                                                       kFurthest, " and ", kFurthest, " m")});
   }
   const Vector3& m = load.moments;
   const bool is_body = m.allFinite() && m.minCoeff() >= 0 && 2 * m.maxCoeff() <= m.sum() * (1 + 1e-9);
   if (!is_body || (has_mass && m.maxCoeff() > load.mass * kFurthest * kFurthest)) {
     violations->push_back({path + ".moments_kg_m2",
-                           Text("are (", m.transpose(), ") kg m²; each must be at least 0 and at most mass_kg times ",
+                           Text("are (", Numbers(m), ") kg m²; each must be at least 0 and at most mass_kg times ",
                                 kFurthest, " m², and the sum of any two at least the third")});
   }
   return violations->size() == before;
@@ -180,6 +183,7 @@ SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Viol
     const bool left = !name.ends_with("_r"), right = !name.ends_with("_l");
     const std::string part = left && right ? name : name.substr(0, name.size() - 2);
     std::vector<std::string> known;
+    bool refused = false;  // once, though both sides may be too large for it
     for (const bool on_left : {true, false}) {
       if (on_left ? !left : !right) continue;
       known.clear();
@@ -191,11 +195,12 @@ SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Viol
         const bool inside = (axes.array() >= low.array()).all() && (axes.array() <= high.array()).all();
         if (inside) {
           (on_left ? feet.left : feet.right)[part] = axes;
-        } else if (!left || !right || on_left) {
+        } else if (!refused) {
+          refused = true;
           violations->push_back(
-              {field, Text("are (", axes.transpose(), ") m; must be between (", low.transpose(), ") and (",
-                           high.transpose(), ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest,
-                           " to ", kHighest, " times what the lengths of foot and leg give")});
+              {field, Text("are (", Numbers(axes), ") m; must be between (", Numbers(low), ") and (", Numbers(high),
+                           ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest, " to ", kHighest,
+                           " times what the lengths of foot and leg give")});
         }
       }
     }

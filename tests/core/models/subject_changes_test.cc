@@ -314,6 +314,24 @@ TEST(SubjectFeet, AreRefusedByNameAndRange) {
   EXPECT_THAT(refusal("foot", Vector3(0.1, std::nan(""), 0.05)), HasSubstr("must be between"));
   EXPECT_THAT(refusal("heel", usual), HasSubstr("is no surface of these feet; choose from foot"));
   EXPECT_THAT(refusal("foto", usual), HasSubstr("did you mean foot?"));
+  // What suits the longer foot alone is not left out of the shorter one without a word.
+  request.segment_lengths = {{"foot_r", 0.2}};
+  EXPECT_THAT(refusal("foot", usual.cwiseProduct(Vector3(1.45, 1, 1))), HasSubstr("m; must be between ("));
+  EXPECT_EQ(refusal("foot_l", usual.cwiseProduct(Vector3(1.45, 1, 1))), "taken");
+}
+
+// A refused length or foot does not make toe joints unknown.
+TEST(SubjectFeet, DoNotTakeTheToesAway) {
+  BodyRequest request = Human();
+  request.model = "human29";
+  request.feet = FootShape::kTwoEllipsoids;
+  request.toes = true;
+  request.changes.foot_semi_axes = {{"heel", Vector3(1, 1, 1)}};
+  request.changes.strengths = {{"toe_l", 0.5}};
+  const Result<Scene> scene = BuildScene(request);
+  ASSERT_FALSE(scene.ok());
+  ASSERT_EQ(scene.violations().size(), 1u);
+  EXPECT_EQ(scene.violations()[0].field, "foot_semi_axes_m[\"heel\"]");
 }
 
 }  // namespace
