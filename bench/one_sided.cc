@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -62,9 +63,13 @@ void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& me
                 100 * events.foot(Foot::kLeft).stance, 100 * events.foot(Foot::kRight).loading,
                 100 * events.foot(Foot::kLeft).loading);
   }
-  std::printf("\n    %s\n   ", solution.message.c_str());
-  for (const MeshStatistics& mesh : solution.meshes) std::printf(" %d", mesh.iterations);
-  std::printf(" iterations\n");
+  std::printf("\n    %s\n", solution.message.c_str());
+  for (const MeshStatistics& mesh : solution.meshes) {
+    const int intervals = std::accumulate(mesh.intervals.begin(), mesh.intervals.end(), 0);
+    std::printf(
+        "    %3d intervals, powers smoothed by %6.3g W: %3d iterations, %5.2f s, objective %.6f, slip %.2g m/s\n",
+        intervals, mesh.smoothing, mesh.iterations, mesh.wall_time, mesh.objective, mesh.max_slip);
+  }
   std::fflush(stdout);
 }
 

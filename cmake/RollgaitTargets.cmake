@@ -79,6 +79,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND ROLLGAIT_TEST_OPTIMISATION "$<$<CONFIG:Release>:-Wno-maybe-uninitialized>")
 endif()
 
+# Folders of tests that compute with Eigen and read nothing from outside. The address sanitizer doubles the time to compile them, so they
+# go without: what they test is in libraries that have it, and their own indices are checked by Eigen's assertions.
+set(ROLLGAIT_NUMERIC_TESTS "^tests/(core|conformance|paper|reference_check)")
+set(ROLLGAIT_NUMERIC_TEST_OPTIONS "")
+if(ROLLGAIT_SANITIZE MATCHES "address")
+  set(ROLLGAIT_NUMERIC_TEST_OPTIONS -fno-sanitize=all)
+endif()
+
 # rollgait_test(dual_test.cc DEPS rollgait::base LABELS unit [DEFINITIONS DATA="..."] [NEEDS a_program])
 # declares one GoogleTest program per source file; the path below tests/ is its name. NEEDS: programs that it starts.
 function(rollgait_test SOURCE)
@@ -169,9 +177,18 @@ function(rollgait_test_program TARGET SOURCES)
   set_target_properties(${TARGET} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   target_link_libraries(${TARGET} PRIVATE rollgait_options ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${TARGET} PRIVATE ${ARG_DEFINITIONS})
-  target_compile_options(${TARGET} PRIVATE ${ROLLGAIT_TEST_OPTIMISATION})
   if(ARG_NEEDS)
     add_dependencies(${TARGET} ${ARG_NEEDS})
+  endif()
+  rollgait_test_options(${TARGET})
+endfunction()
+
+# How sources of tests in this folder are compiled.
+function(rollgait_test_options TARGET)
+  file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_compile_options(${TARGET} PRIVATE ${ROLLGAIT_TEST_OPTIMISATION})
+  if(path MATCHES "${ROLLGAIT_NUMERIC_TESTS}")
+    target_compile_options(${TARGET} PRIVATE ${ROLLGAIT_NUMERIC_TEST_OPTIONS})
   endif()
   rollgait_precompile(${TARGET})
 endfunction()
