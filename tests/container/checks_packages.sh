@@ -47,8 +47,8 @@ inside() {
     sh -c 'cd /root && exec "$@"' sh "$@"
 }
 
-# The commands of the page after the one that makes the packages, a line each.
-page_commands() { awk '/^```sh$/ {inside = 1; next} /^```$/ {inside = 0} inside && $0 != "scripts/package"' $page; }
+# The commands of the page's section "From the packages to a plot", a line each.
+page_commands() { awk '/^## / {section = /From the packages/} /^```sh$/ {inside = section; next} /^```$/ {inside = 0} inside' $page; }
 # page_command N: runs the page's Nth command and says how long it took.
 page_command() {
   local line online=() begun
@@ -102,7 +102,7 @@ conffiles_are_kept() {
 # Files that came since the packages were installed, and whatever has the name; what apt and dpkg write for themselves does not count.
 leftovers() {
   inside find / -xdev \( -path /proc -o -path /sys -o -path /dev -o -path /tmp -o -path /root -o -path /var/log -o -path /var/lib/dpkg -o -path /var/lib/apt -o -path /var/cache \
-    -o -path /run \) -prune -o \( -name '*rollgait*' -o -user rollgait -o -user rollgait-gateway -o -group rollgait -o -newercc /root/installed ! -type d \) -print |
+    -o -path /run \) -prune -o \( -name '*rollgait*' -o -user rollgait -o -user rollgait-gateway -o -group rollgait -o -newercc installed ! -type d \) -print |
     grep -v '^/etc/ld.so.cache$\|^/usr/local/bin/systemctl$' || true
 }
 nothing_is_left() { local left; left=$(leftovers); [ -z "$left" ] || { echo "$left"; return 1; }; }
