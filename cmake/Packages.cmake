@@ -90,10 +90,6 @@ macro(rollgait_package PART)
     set(CPACK_DEBIAN_${key}_PACKAGE_SHLIBDEPS ON)
   endif()
   package_install(${PART} DIRECTORY "${made}/doc/" DESTINATION "${doc}/${ARG_NAME}")
-  if(EXISTS "${debian}/${PART}/lintian-overrides")
-    package_install(${PART} FILES "${debian}/${PART}/lintian-overrides" DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides"
-      RENAME "${ARG_NAME}")
-  endif()
 endmacro()
 
 # Lines of at most 79 characters.

@@ -60,6 +60,12 @@ page_command() {
   awk -v n="$1" -v begun="$begun" -v end="$(date +%s.%N)" 'BEGIN {printf "%d %.1f\n", n, end - begun}' >> "$work/page-seconds"
 }
 
+# Who hands packages on gives an address, which these have not.
+lintian_agrees() {
+  local found
+  found=$(lintian --allow-root --suppress-tags bogus-mail-host,bogus-mail-host-in-debian-changelog build/packages/*.deb 2>&1) && [ -z "$found" ] ||
+    { echo "$found"; return 1; }
+}
 make_packages() { DEBEMAIL=packages@rollgait.invalid scripts/package --as-built; }
 units_are_right() {
   local said
@@ -110,6 +116,11 @@ nothing_is_left() { local left; left=$(leftovers); [ -z "$left" ] || { echo "$le
 check_packages() {
   local number command
   check "scripts/package makes them" make_packages
+  if command -v lintian > /dev/null; then
+    check "lintian finds no error and nothing to warn of" lintian_agrees
+  else
+    echo "  --    lintian is not installed: not asked"
+  fi
   make_package_root "$1"
   for number in 1 2 3 4; do
     check "the page's command: $(page_commands | sed -n "${number}p" | cut -c1-90)" page_command $number
