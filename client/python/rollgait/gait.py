@@ -11,6 +11,8 @@ import numpy as np
 
 from rollgait.v1 import accuracy_pb2, gait_events_pb2, solve_pb2, solve_spec_pb2
 
+_LARGEST_FILE = 256 << 20  # bytes
+
 
 def _matrix(message) -> np.ndarray:
     return np.array(message.values, dtype=float).reshape(message.rows, message.columns)
@@ -98,6 +100,23 @@ class Gait:
         self.point_velocities = np.vstack([_matrix(p.point_velocities) for p in phases])
         self.accelerations = np.vstack([_matrix(p.point_accelerations) for p in phases])
         self.efforts = np.vstack([_matrix(p.point_efforts) for p in phases])
+
+    @classmethod
+    def from_json(cls, path: Union[str, os.PathLike]) -> "Gait":
+        """The gait in a file of `to_json`, `rollgait solve --output` or `rollgait sweep --output`. ValueError: the file holds none."""
+        from google.protobuf import json_format
+        size = os.path.getsize(path)
+        if size > _LARGEST_FILE:
+            raise ValueError(f"{os.fspath(path)}: size {size} bytes, must be at most {_LARGEST_FILE}")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        try:
+            solve = json_format.Parse(text, solve_pb2.Solve())
+        except json_format.ParseError as error:
+            raise ValueError(f"{os.fspath(path)} holds no solve: {error}") from None
+        if not solve.result.trajectory.phases:
+            raise ValueError(f"{os.fspath(path)}: the solve {solve.name} has no trajectory")
+        return cls(solve)
 
     def __repr__(self) -> str:
         return (f"<Gait {self.name}: {self.termination}, {self.verdict}, objective {self.objective:.6g}, "

@@ -292,6 +292,29 @@ class Files(unittest.TestCase):
         subprocess.run([os.environ["ROLLGAIT"], "-q", "report", str(path), "-o", str(page)], check=True)
         self.assertIn("<html", page.read_text()[:2000].lower())
 
+    def test_reads_what_is_written_here_and_by_the_command_line_client(self):
+        path, fetched = work() / "written.json", work() / "fetched.json"
+        gait.to_json(path)
+        # Messages that hold NaN are not equal to themselves; their bytes are.
+        self.assertEqual(rollgait.Gait.from_json(path).solve.SerializeToString(deterministic=True),
+                         gait.solve.SerializeToString(deterministic=True))
+        with open(fetched, "wb") as file:
+            subprocess.run([os.environ["ROLLGAIT"], "--server", server.socket, "--json", "get", gait.name], stdout=file, check=True)
+        read = rollgait.Gait.from_json(fetched)
+        self.assertEqual(read.objective, gait.objective)
+        np.testing.assert_array_equal(read.angles("knee_r"), gait.angles("knee_r"))
+
+    def test_says_what_is_wrong_with_a_file(self):
+        path = work() / "wrong.json"
+        for text, words in (("{", "holds no solve"), ('{"speed": 1}', "holds no solve"), ('{"name": "solves/x"}', "no trajectory")):
+            path.write_text(text)
+            with self.assertRaisesRegex(ValueError, words):
+                rollgait.Gait.from_json(path)
+        with open(path, "wb") as file:
+            file.truncate((256 << 20) + 1)
+        with self.assertRaisesRegex(ValueError, "at most 268435456"):
+            rollgait.Gait.from_json(path)
+
     def test_plots(self):
         try:
             import matplotlib  # noqa: F401
