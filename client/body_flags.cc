@@ -5,6 +5,7 @@
 #include "client/failure.h"
 #include "client/flag_values.h"
 #include "client/import/model_file.h"
+#include "client/import/tree_file.h"
 #include "client/repeated_flags.h"
 #include "client/spec_flags.h"
 #include "client/spec_words.h"
@@ -78,7 +79,8 @@ bool HasBodyFlags(const SpecFlags& flags) {
 void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   command
       .add_option("--side", flags.side_file,
-                  "Of a model in FILE.urdf: rollgait.v1.ModelSideFile as JSON, with feet, roles, reference posture")
+                  "Of a model in a URDF, MJCF or .osim file: rollgait.v1.ModelSideFile as JSON, with feet, roles, "
+                  "reference posture")
       ->group("Body");
   command.add_option("--sex", flags.sex, "Segment table: female or male (default male)")->group("Body");
   command.add_option("--stature", flags.stature_m, "Body height in m, [1.0, 2.3]")->group("Body");
@@ -118,7 +120,7 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
 std::string ApplyBodyFlags(const SpecFlags& flags, v1::ModelSelection& selection) {
   std::string explanation;
   if (!flags.side_file.empty() && !(flags.model && IsModelFile(*flags.model))) {
-    throw Failure(ExitCode::kUsage, "--side: needs a model in a .urdf file");
+    throw Failure(ExitCode::kUsage, "--side: needs a model in a " + TreeFileEndings() + " file");
   }
   // One or the other, whatever a file of the whole request says.
   if (flags.model && IsModelFile(*flags.model)) {

@@ -141,10 +141,11 @@ void AddModels(CLI::App& app, Arguments& arguments) {
   models->add_option(
       "NAME", arguments.models.flags.model,
       "Print this model: joints, links, limits, contact surfaces; models/ID is one of your own, models/ID@2 "
-      "its second version; or check the one in FILE.json or FILE.urdf");
+      "its second version; or check the one in FILE.json, .urdf, .xml (MJCF) or .osim");
   AddBodyFlags(*models, arguments.models.flags);
-  models->add_flag("--propose-side", arguments.models.propose_side,
-                   "Of FILE.urdf: print a side file to begin with, and say why on standard error; asks no server");
+  models->add_flag(
+      "--propose-side", arguments.models.propose_side,
+      "Of a URDF, MJCF or .osim file: print a side file to begin with, and say why on standard error; asks no server");
   models->add_option("--format", arguments.models.format, "Write the model as " + ModelFormatNames());
   models->add_option("-o,--output", arguments.models.output, "With --format: the file; default: standard output");
   models->add_option("--slope", arguments.models.slope_deg, "With --format: of the ground, degrees; uphill is positive")
@@ -152,9 +153,12 @@ void AddModels(CLI::App& app, Arguments& arguments) {
   models->footer("Example: rollgait models create robot.json, then rollgait solve --model models/robot");
 
   CLI::App* const create = models->add_subcommand("create", "Store a model of your own on the server; print its name");
-  create->add_option("FILE", arguments.created_model.file, "The model, rollgait.v1.Model as JSON, or a URDF")
+  create
+      ->add_option("FILE", arguments.created_model.file,
+                   "The model: rollgait.v1.Model as JSON, or a URDF, MJCF or .osim file")
       ->required();
-  create->add_option("--side", arguments.created_model.side_file, "Of a URDF: rollgait.v1.ModelSideFile as JSON");
+  create->add_option("--side", arguments.created_model.side_file,
+                     "Of a URDF, MJCF or .osim file: rollgait.v1.ModelSideFile as JSON");
   create->add_option(
       "--id", arguments.created_model.id,
       "The ID in models/ID; default: the name in the file. Other content under an ID is its next version");

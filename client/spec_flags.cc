@@ -148,10 +148,10 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
                      "Request as proto3 JSON of rollgait.v1.SolveSpec, - for standard input; flags override it, those "
                      "that may be repeated name by name (`rollgait help repeated-flags`); `rollgait spec` writes it");
   command
-      .add_option(
-          "--model", flags.model,
-          "Model name, see `rollgait models`; models/ID is one of your own on the server, FILE.json or FILE.urdf "
-          "one in a file")
+      .add_option("--model", flags.model,
+                  "Model name, see `rollgait models`; models/ID is one of your own on the server, FILE.json, .urdf, "
+                  ".xml (MJCF) or .osim "
+                  "one in a file")
       ->group("Body");
   AddBodyFlags(command, flags);
   const auto add = [&command](const std::string& name, auto& value, const std::string& group, const std::string& help) {

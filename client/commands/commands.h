@@ -68,17 +68,17 @@ struct ModelsOptions {
   std::string format;               // of format_table.h; empty: a table for people
   std::string output;               // with a format: a file; empty or "-": terminal.out
   std::optional<double> slope_deg;  // of the ground that the model stands on, with a format
-  bool propose_side = false;        // of a model in a URDF file: print a side file to begin with
+  bool propose_side = false;        // of a URDF, MJCF or .osim file: print a side file to begin with
 };
 // Without a model name in the flags: the list; with one: the whole model.
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct CreateModelOptions {
-  std::string file;       // rollgait.v1.Model as proto3 JSON, or a URDF
-  std::string side_file;  // of a URDF: rollgait.v1.ModelSideFile as proto3 JSON
+  std::string file;       // rollgait.v1.Model as proto3 JSON, or a URDF, MJCF or .osim file
+  std::string side_file;  // of such a file: rollgait.v1.ModelSideFile as proto3 JSON
   std::string id;         // "ID" or "models/ID"; empty: the name in the file
 };
-// Stores a model and writes its name, or with --json the whole model, to terminal.out; what was read of a URDF to
+// Stores a model and writes its name, or with --json the whole model, to terminal.out; what was read of such a file to
 // terminal.err.
 ExitCode RunCreateModel(const CreateModelOptions& options, const GlobalOptions& global, const Terminal& terminal);
 // As RunDelete.

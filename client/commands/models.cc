@@ -3,6 +3,7 @@
 #include "client/commands/commands.h"
 #include "client/import/model_file.h"
 #include "client/import/side_proposal.h"
+#include "client/import/tree_file.h"
 #include "client/json.h"
 #include "client/output.h"
 #include "client/report/sides.h"
@@ -140,10 +141,11 @@ std::vector<v1::ModelSummary> ListModels(Connection& connection) {
 
 ExitCode ProposeSide(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal) {
   const SpecFlags& flags = options.flags;
-  if (!flags.model || !IsUrdfFile(*flags.model) || !flags.side_file.empty() || !options.format.empty()) {
-    throw Failure(ExitCode::kUsage, "--propose-side: needs a FILE.urdf, and neither --side nor --format");
+  if (!flags.model || !IsTreeFile(*flags.model) || !flags.side_file.empty() || !options.format.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  "--propose-side: needs a " + TreeFileEndings() + " file, and neither --side nor --format");
   }
-  const SideProposal proposal = ProposeSideFile(ReadUrdf(*flags.model));
+  const SideProposal proposal = ProposeSideFile(ReadLinkTree(*flags.model));
   if (!global.quiet) {
     terminal.err << "Proposed, to be checked:\n";
     for (const std::string& reason : proposal.reasons) terminal.err << "  " << reason << "\n";

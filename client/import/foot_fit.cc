@@ -9,10 +9,16 @@ namespace rollgait::client {
 namespace {
 
 // Half the shape's extent along each axis of the world.
-Eigen::Vector3d HalfExtent(const UrdfShape& shape, const Eigen::Matrix3d& rotation) {
-  if (shape.kind == UrdfShape::Kind::kSphere) return shape.half_size;
-  if (shape.kind == UrdfShape::Kind::kBox) return rotation.cwiseAbs() * shape.half_size;
+Eigen::Vector3d HalfExtent(const TreeShape& shape, const Eigen::Matrix3d& rotation) {
+  if (shape.kind == TreeShape::Kind::kSphere) return shape.half_size;
+  if (shape.kind == TreeShape::Kind::kBox) return rotation.cwiseAbs() * shape.half_size;
+  if (shape.kind == TreeShape::Kind::kEllipsoid) {
+    return (rotation * shape.half_size.asDiagonal()).rowwise().norm();
+  }
   const Eigen::Vector3d axis = rotation.col(2);
+  if (shape.kind == TreeShape::Kind::kCapsule) {
+    return Eigen::Vector3d::Constant(shape.half_size.x()) + shape.half_size.z() * axis.cwiseAbs();
+  }
   const Eigen::Vector3d across = (Eigen::Vector3d::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
   return shape.half_size.x() * across + shape.half_size.z() * axis.cwiseAbs();
 }
@@ -21,10 +27,10 @@ double Rounded(double metres) { return std::max(0.001, std::round(metres * 1e6) 
 
 }  // namespace
 
-std::optional<Extent> ExtentOf(const UrdfTree& tree, const UrdfPosture& posture, const std::vector<int>& links) {
+std::optional<Extent> ExtentOf(const LinkTree& tree, const TreePosture& posture, const std::vector<int>& links) {
   std::optional<Extent> extent;
   for (const int link : links) {
-    for (const UrdfShape& shape : tree.links[static_cast<size_t>(link)].shapes) {
+    for (const TreeShape& shape : tree.links[static_cast<size_t>(link)].shapes) {
       const Pose place = Compose(posture.links[static_cast<size_t>(link)], shape.place);
       const Eigen::Vector3d half = HalfExtent(shape, place.rotation);
       const Eigen::Vector3d least = place.position - half, most = place.position + half;

@@ -1,11 +1,11 @@
-// An ellipsoid for a foot that a URDF draws as boxes, spheres and cylinders.
+// An ellipsoid for a foot that a file draws as simple shapes.
 #ifndef ROLLGAIT_CLIENT_IMPORT_FOOT_FIT_H_
 #define ROLLGAIT_CLIENT_IMPORT_FOOT_FIT_H_
 
 #include <optional>
 #include <vector>
 
-#include "client/import/urdf_posture.h"
+#include "client/import/tree_posture.h"
 
 namespace rollgait::client {
 
@@ -14,7 +14,7 @@ struct Extent {
   Eigen::Vector3d least, most;  // m
 };
 // Nothing if the links have no shapes.
-std::optional<Extent> ExtentOf(const UrdfTree& tree, const UrdfPosture& posture, const std::vector<int>& links);
+std::optional<Extent> ExtentOf(const LinkTree& tree, const TreePosture& posture, const std::vector<int>& links);
 
 struct FittedEllipsoid {
   Eigen::Vector3d center;     // m, world

@@ -67,12 +67,16 @@ std::vector<LimbRole> ProposeRoles(const std::vector<LimbJoint>& joints) {
     found.clear();
     if (side == v1::BODY_SIDE_UNSPECIFIED) {
       Roles words;
-      for (const char* word : {"waist", "trunk", "torso", "back", "spine", "lumbar"}) {
+      for (const char* word : {"waist", "trunk", "torso", "back", "spine", "lumbar", "abdomen"}) {
         words.emplace_back(word, v1::Joint::ROLE_TRUNK_FLEXION);
       }
       ByName(rest, words, &found);
     } else {
-      ByName(rest, {{"shoulder", v1::Joint::ROLE_SHOULDER_FLEXION}, {"elbow", v1::Joint::ROLE_ELBOW_FLEXION}}, &found);
+      ByName(rest,
+             {{"shoulder", v1::Joint::ROLE_SHOULDER_FLEXION},
+              {"arm_flex", v1::Joint::ROLE_SHOULDER_FLEXION},
+              {"elbow", v1::Joint::ROLE_ELBOW_FLEXION}},
+             &found);
     }
     roles.insert(roles.end(), found.begin(), found.end());
   }

@@ -26,7 +26,8 @@ struct LimbRole {
 // Only joints with across >= 0.5 have a role, each at most one, and no role is given twice on a side. In a leg (joints
 // in order from the root): the first whose name has "hip", "knee" or "ankle", in any case; what is then missing by
 // order: the first joint flexes the hip, the next the knee, the next the ankle. Of all others by name alone: "shoulder"
-// and "elbow" on a side; "waist", "trunk", "torso", "back", "spine" and "lumbar" in the middle.
+// (or "arm_flex") and "elbow" on a side; "waist", "trunk", "torso", "back", "spine", "lumbar" and "abdomen" in the
+// middle.
 std::vector<LimbRole> ProposeRoles(const std::vector<LimbJoint>& joints);
 
 }  // namespace rollgait::client

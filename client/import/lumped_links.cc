@@ -6,26 +6,27 @@ namespace rollgait::client {
 
 Pose Compose(const Pose& a, const Pose& b) { return {a.rotation * b.rotation, a.position + a.rotation * b.position}; }
 
-Pose MotionOf(const UrdfJoint& joint, double position) {
-  Pose pose{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
-  if (position == 0) return pose;
-  if (joint.type == UrdfJoint::Type::kPrismatic) {
-    pose.position = position * joint.axis;
-  } else if (joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kContinuous) {
-    pose.rotation = Eigen::AngleAxisd(position, joint.axis).toRotationMatrix();
+Pose MotionOf(const TreeJoint& joint, double position) {
+  Pose pose = kNoMotion;
+  const double motion = position - joint.zero;
+  if (motion == 0) return pose;
+  if (joint.type == TreeJoint::Type::kPrismatic) {
+    pose.position = motion * joint.axis;
+  } else if (joint.Moves()) {
+    pose.rotation = Eigen::AngleAxisd(motion, joint.axis).toRotationMatrix();
   }
   return pose;
 }
 
-UrdfMass Placed(const UrdfMass& mass, const Pose& place) {
+MassProperties Placed(const MassProperties& mass, const Pose& place) {
   return {mass.mass, place.position + place.rotation * mass.center,
           place.rotation * mass.inertia * place.rotation.transpose()};
 }
 
-UrdfMass Lump(const std::vector<UrdfMass>& masses) {
-  UrdfMass sum;
+MassProperties Lump(const std::vector<MassProperties>& masses) {
+  MassProperties sum;
   int heavy = 0;
-  for (const UrdfMass& part : masses) {
+  for (const MassProperties& part : masses) {
     if (!(part.mass > 0)) continue;
     ++heavy;
     sum.mass += part.mass;
@@ -33,7 +34,7 @@ UrdfMass Lump(const std::vector<UrdfMass>& masses) {
   }
   if (heavy == 0) return sum;
   sum.center /= sum.mass;
-  for (const UrdfMass& part : masses) {
+  for (const MassProperties& part : masses) {
     if (!(part.mass > 0)) continue;
     if (heavy == 1) return part;
     const Eigen::Vector3d r = part.center - sum.center;
@@ -42,7 +43,7 @@ UrdfMass Lump(const std::vector<UrdfMass>& masses) {
   return sum;
 }
 
-Eigen::Vector3d PrincipalMoments(const UrdfMass& mass) {
+Eigen::Vector3d PrincipalMoments(const MassProperties& mass) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
 }
 

@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "client/failure.h"
-#include "client/import/urdf_model.h"
+#include "client/import/tree_file.h"
+#include "client/import/tree_model.h"
 #include "client/json.h"
 
 namespace rollgait::client {
 namespace {
 
-std::string ExplainUrdfModel(const UrdfModel& model) {
+std::string Explain(const ImportedModel& model) {
   std::string text;
   const std::pair<const char*, const std::vector<std::string>*> parts[] = {
       {"Read", &model.read}, {"Merged", &model.merged}, {"Assumed", &model.assumed}, {"Left out", &model.left_out}};
@@ -23,13 +24,12 @@ std::string ExplainUrdfModel(const UrdfModel& model) {
 
 }  // namespace
 
-bool IsUrdfFile(const std::string& word) { return word.ends_with(".urdf"); }
-bool IsModelFile(const std::string& word) { return word.ends_with(".json") || IsUrdfFile(word); }
+bool IsModelFile(const std::string& word) { return word.ends_with(".json") || IsTreeFile(word); }
 
 ModelFile ReadModelFile(const std::string& path, const std::string& side_path) {
-  if (!IsUrdfFile(path)) {
+  if (!IsTreeFile(path)) {
     if (!side_path.empty())
-      throw Failure(ExitCode::kUsage, "--side: belongs to a model in a .urdf file, not to " + path);
+      throw Failure(ExitCode::kUsage, "--side: belongs to a model in a " + TreeFileEndings() + " file, not to " + path);
     ModelFile file;
     ReadJsonFile(path, file.model);
     return file;
@@ -37,12 +37,12 @@ ModelFile ReadModelFile(const std::string& path, const std::string& side_path) {
   if (side_path.empty()) {
     throw Failure(ExitCode::kUsage,
                   path +
-                      ": a URDF says neither what the feet are nor what its joints do; add --side FILE.json. "
+                      ": says neither what the feet are nor what its joints do; add --side FILE.json. "
                       "`rollgait models " +
                       path + " --propose-side` writes one to begin with");
   }
-  const UrdfModel urdf = ReadUrdfModel(path, side_path);
-  return {urdf.model, ExplainUrdfModel(urdf)};
+  const ImportedModel imported = ReadImportedModel(path, side_path);
+  return {imported.model, Explain(imported)};
 }
 
 }  // namespace rollgait::client

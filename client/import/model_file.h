@@ -8,17 +8,16 @@
 
 namespace rollgait::client {
 
-// Whether a word that names a model is a file: it ends in .json or .urdf.
+// Whether a word that names a model is a file: it ends in .json, or as files of a tree_file.h format do.
 bool IsModelFile(const std::string& word);
-bool IsUrdfFile(const std::string& word);
 
 struct ModelFile {
   v1::Model model;
-  std::string explanation;  // of a URDF: what was read, merged, assumed and left out, lines for people; else empty
+  std::string explanation;  // of a tree: what was read, merged, assumed and left out, lines for people; else empty
 };
 
-// Reads rollgait.v1.Model as JSON, or a URDF with its side file. Throws Failure(kUsage) for a URDF without side file, a
-// side file without URDF, and for what ReadJsonFile, ReadUrdf, ReadSideFile and ModelOfUrdf refuse.
+// Reads rollgait.v1.Model as JSON, or a tree of links with its side file. Throws Failure(kUsage) for one without the
+// other, and for what ReadJsonFile, ReadLinkTree, ReadSideFile and ModelOfTree refuse.
 ModelFile ReadModelFile(const std::string& path, const std::string& side_path);
 
 }  // namespace rollgait::client

@@ -19,7 +19,7 @@ constexpr size_t kMaxSideText = 2000, kMaxSideName = 64;
 
 class SideCheck {
  public:
-  SideCheck(const std::string& path, const v1::ModelSideFile& side, const UrdfTree& tree)
+  SideCheck(const std::string& path, const v1::ModelSideFile& side, const LinkTree& tree)
       : path_(path), side_(side), tree_(tree) {}
 
   void Check() const {
@@ -89,13 +89,13 @@ class SideCheck {
   void CheckJoints() const {
     const bool own_base = HasOwnBase(side_, tree_);
     std::vector<std::string> known;
-    for (const UrdfJoint& joint : tree_.joints) known.push_back(joint.name);
+    for (const TreeJoint& joint : tree_.joints) known.push_back(joint.name);
     std::set<std::string> added, seen;
     if (!own_base) {
       for (const BaseJoint& joint : BaseJoints(side_.base())) added.insert(joint.name);
     } else {
       const std::string reason =
-          "must not be given where joints of the URDF have base roles: they say where the body is";
+          "must not be given where joints of the file have base roles: they say where the body is";
       if (side_.base() != v1::ModelSideFile::BASE_UNSPECIFIED) Refuse("base", reason);
       if (side_.has_base_orientation()) Refuse("baseOrientation", reason);
       if (side_.has_base_position_m()) Refuse("basePositionM", reason);
@@ -105,8 +105,7 @@ class SideCheck {
       const int index = tree_.FindJoint(joint.name());
       const std::string shown = "\"" + joint.name().substr(0, 64) + "\" ";
       if (index < 0 && added.count(joint.name()) == 0) {
-        Refuse(At("joints", i, "name"),
-               shown + "is no joint of " + tree_.document.path + DidYouMean(joint.name(), known));
+        Refuse(At("joints", i, "name"), shown + "is no joint of " + tree_.path + DidYouMean(joint.name(), known));
       }
       if (!seen.insert(joint.name()).second) Refuse(At("joints", i, "name"), shown + "stands twice");
       if (!v1::Joint::Role_IsValid(joint.role()))
@@ -148,7 +147,7 @@ class SideCheck {
   template <typename Parts>
   void CheckParts(const char* list, const Parts& parts) const {
     std::vector<std::string> known;
-    for (const UrdfLink& link : tree_.links) known.push_back(link.name);
+    for (const TreeLink& link : tree_.links) known.push_back(link.name);
     std::set<std::string> seen;
     for (int i = 0; i < parts.size(); ++i) {
       const auto& part = parts[i];
@@ -156,7 +155,7 @@ class SideCheck {
       if (!seen.insert(part.name()).second) Refuse(At(list, i, "name"), "\"" + part.name() + "\" stands twice");
       if (tree_.FindLink(part.link()) < 0) {
         Refuse(At(list, i, "link"), "of \"" + part.name() + "\" is \"" + part.link().substr(0, 64) + "\", no link of " +
-                                        tree_.document.path + DidYouMean(part.link(), known));
+                                        tree_.path + DidYouMean(part.link(), known));
       }
       const Eigen::Vector3d axes = ToVector(part.surface().ellipsoid().semi_axes_m());
       if (!part.surface().has_ellipsoid() || !axes.allFinite() || axes.minCoeff() < 0.001 || axes.maxCoeff() > 1) {
@@ -170,7 +169,7 @@ class SideCheck {
 
   const std::string& path_;
   const v1::ModelSideFile& side_;
-  const UrdfTree& tree_;
+  const LinkTree& tree_;
 };
 
 }  // namespace
@@ -194,17 +193,17 @@ bool IsBaseRole(v1::Joint::Role role) {
   return role >= v1::Joint::ROLE_BASE_FORWARD && role <= v1::Joint::ROLE_BASE_PITCH;
 }
 
-bool HasOwnBase(const v1::ModelSideFile& side, const UrdfTree& tree) {
+bool HasOwnBase(const v1::ModelSideFile& side, const LinkTree& tree) {
   return std::any_of(side.joints().begin(), side.joints().end(), [&](const v1::SideJoint& joint) {
     return IsBaseRole(joint.role()) && tree.FindJoint(joint.name()) >= 0;
   });
 }
 
-void CheckSideFile(const std::string& path, const v1::ModelSideFile& side, const UrdfTree& tree) {
+void CheckSideFile(const std::string& path, const v1::ModelSideFile& side, const LinkTree& tree) {
   SideCheck(path, side, tree).Check();
 }
 
-v1::ModelSideFile ReadSideFile(const std::string& path, const UrdfTree& tree) {
+v1::ModelSideFile ReadSideFile(const std::string& path, const LinkTree& tree) {
   v1::ModelSideFile side;
   ReadJsonFile(path, side);
   CheckSideFile(path, side, tree);

@@ -1,4 +1,4 @@
-// Side files: what a walker needs and a URDF does not say.
+// Side files: what a walker needs and a URDF, MJCF or OpenSim file does not say.
 #ifndef ROLLGAIT_CLIENT_IMPORT_SIDE_FILE_H_
 #define ROLLGAIT_CLIENT_IMPORT_SIDE_FILE_H_
 
@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "client/import/urdf_tree.h"
+#include "client/import/link_tree.h"
 #include "rollgait/v1/model_side_file.pb.h"
 
 namespace rollgait::client {
 
-// A joint of the floating base that the client adds to a URDF.
+// A joint of the floating base that the client adds to a tree.
 struct BaseJoint {
   const char* name;
   v1::Joint::Role role;
@@ -23,14 +23,14 @@ struct BaseJoint {
 std::vector<BaseJoint> BaseJoints(v1::ModelSideFile::Base base);
 
 bool IsBaseRole(v1::Joint::Role role);
-// Whether joints of the URDF are the base: one of them has a base role.
-bool HasOwnBase(const v1::ModelSideFile& side, const UrdfTree& tree);
+// Whether joints of the file are the base: one of them has a base role.
+bool HasOwnBase(const v1::ModelSideFile& side, const LinkTree& tree);
 
-// Reads and checks a file against the URDF that it belongs to. Throws Failure(kUsage) that names the file, the field,
+// Reads and checks a file against the tree that it belongs to. Throws Failure(kUsage) that names the file, the field,
 // its value and what is accepted.
-v1::ModelSideFile ReadSideFile(const std::string& path, const UrdfTree& tree);
+v1::ModelSideFile ReadSideFile(const std::string& path, const LinkTree& tree);
 // The checks alone. `path` is for messages.
-void CheckSideFile(const std::string& path, const v1::ModelSideFile& side, const UrdfTree& tree);
+void CheckSideFile(const std::string& path, const v1::ModelSideFile& side, const LinkTree& tree);
 
 }  // namespace rollgait::client
 

@@ -12,44 +12,30 @@
 #include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/mirror_names.h"
-#include "client/import/urdf_model.h"
+#include "client/import/tree_model.h"
 #include "client/text.h"
 
 namespace rollgait::client {
 namespace {
-
-// Whether no link behind the joint has mass.
-std::vector<bool> MovesNoMass(const UrdfTree& tree) {
-  std::vector<double> behind(tree.links.size(), 0);
-  std::vector<bool> moves_none(tree.joints.size(), false);
-  for (size_t i = 0; i < tree.links.size(); ++i) behind[i] = tree.links[i].mass.mass;
-  for (size_t i = tree.joints.size(); i-- > 0;) {
-    const UrdfJoint& joint = tree.joints[i];
-    moves_none[i] = behind[static_cast<size_t>(joint.child)] == 0;
-    behind[static_cast<size_t>(joint.parent)] += behind[static_cast<size_t>(joint.child)];
-  }
-  return moves_none;
-}
-
-bool IsMoving(const UrdfJoint& joint) {
-  return joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kContinuous ||
-         joint.type == UrdfJoint::Type::kPrismatic;
-}
 
 const char* SideWord(v1::BodySide side) { return side == v1::BODY_SIDE_LEFT ? "left" : "right"; }
 constexpr v1::BodySide kSides[] = {v1::BODY_SIDE_LEFT, v1::BODY_SIDE_RIGHT};
 
 class Proposer {
  public:
-  explicit Proposer(const UrdfTree& tree) : tree_(tree), locked_(tree.joints.size(), false) {}
+  explicit Proposer(const LinkTree& tree)
+      : tree_(tree), locked_(tree.joints.size(), false), carries_leg_(tree.joints.size(), false) {}
 
   SideProposal Propose() {
+    if (const std::string name = AsModelName(tree_.name); name != tree_.name) {
+      proposal_.side.set_name(name);
+      proposal_.reasons.push_back("name \"" + name +
+                                  "\": models have letters, digits, \"_\", \"-\" and \".\" in theirs");
+    }
     LockJoints();
     Place(0);
     TurnToLeft();
-    for (const v1::BodySide side : kSides) {
-      if (const int end = LegEnd(side); end >= 0) legs_.emplace(side, ChainTo(posture_, end));
-    }
+    FindLegs();
     SetRoles();
     for (const auto& [side, chain] : legs_) AddFoot(side, chain);
     LockUnlimited();
@@ -66,22 +52,35 @@ class Proposer {
   }
 
  private:
-  const UrdfJoint& Joint(int i) const { return tree_.joints[static_cast<size_t>(i)]; }
+  const TreeJoint& Joint(int i) const { return tree_.joints[static_cast<size_t>(i)]; }
+
+  bool IsSideways(int i) const {
+    const double across = std::abs(upright_.axes[static_cast<size_t>(i)].y());
+    return Joint(i).type == TreeJoint::Type::kPrismatic ? across > 1e-6 : across < 1 - 1e-6;
+  }
 
   void LockJoints() {
-    const std::vector<bool> moves_none = MovesNoMass(tree_);
+    upright_ = PostureOf(tree_, kNoMotion, {}, locked_);
+    if (tree_.base_in_plane) {
+      proposal_.side.set_base(v1::ModelSideFile::BASE_PLANE);
+      proposal_.reasons.push_back("base BASE_PLANE: the base of the file moves in the plane");
+    }
+    const std::vector<bool> moves_none = JointsWithoutMass(tree_);
     for (size_t i = 0; i < tree_.joints.size(); ++i) {
-      const UrdfJoint& joint = tree_.joints[i];
-      const bool planar = joint.type == UrdfJoint::Type::kPlanar;
-      if (!planar && !IsMoving(joint)) continue;
-      locked_[i] = planar || !joint.mimics.empty() || moves_none[i];
+      const TreeJoint& joint = tree_.joints[i];
+      const bool planar = joint.type == TreeJoint::Type::kPlanar;
+      if (!planar && !joint.Moves()) continue;
+      // The base moves in the plane: so does everything else.
+      const bool sideways = tree_.base_in_plane && IsSideways(static_cast<int>(i));
+      locked_[i] = planar || !joint.mimics.empty() || moves_none[i] || sideways;
       if (locked_[i]) {
         proposal_.reasons.push_back("joint \"" + joint.name + "\" is locked: it " +
                                     (planar                  ? "is planar"
                                      : !joint.mimics.empty() ? "mimics \"" + joint.mimics + "\""
+                                     : sideways              ? "moves out of the plane of the base"
                                                              : "moves no mass"));
       }
-      const bool bounded = joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kPrismatic;
+      const bool bounded = joint.type == TreeJoint::Type::kRevolute || joint.type == TreeJoint::Type::kPrismatic;
       if (!bounded || (joint.lower <= 0 && joint.upper >= 0)) continue;
       positions_[joint.name] = joint.lower > 0 ? joint.lower : joint.upper;
       proposal_.reasons.push_back("reference of joint \"" + joint.name +
@@ -116,10 +115,10 @@ class Proposer {
   int LegEnd(v1::BodySide side) const {
     int end = -1;
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
-      if (!IsMoving(Joint(i)) || locked_[static_cast<size_t>(i)] || SideOf(i) != side) continue;
-      const bool is_last = std::none_of(tree_.joints.begin(), tree_.joints.end(), [&](const UrdfJoint& other) {
+      if (!Joint(i).Moves() || locked_[static_cast<size_t>(i)] || SideOf(i) != side) continue;
+      const bool is_last = std::none_of(tree_.joints.begin(), tree_.joints.end(), [&](const TreeJoint& other) {
         const int index = static_cast<int>(&other - tree_.joints.data());
-        return IsMoving(other) && !locked_[static_cast<size_t>(index)] &&
+        return other.Moves() && !locked_[static_cast<size_t>(index)] &&
                posture_.behind[static_cast<size_t>(index)] == i;
       });
       if (is_last && (end < 0 || Lowest(i) < Lowest(end))) end = i;
@@ -127,14 +126,33 @@ class Proposer {
     return end;
   }
 
+  // The chain to the end, without what also carries the other leg.
+  std::vector<int> LegTo(int end, int other) const {
+    const std::vector<int> shared = other < 0 ? std::vector<int>() : ChainTo(posture_, other);
+    std::vector<int> leg = ChainTo(posture_, end);
+    leg.erase(std::remove_if(leg.begin(), leg.end(),
+                             [&](int i) { return std::find(shared.begin(), shared.end(), i) != shared.end(); }),
+              leg.end());
+    return leg;
+  }
+  void FindLegs() {
+    const int ends[] = {LegEnd(kSides[0]), LegEnd(kSides[1])};
+    for (const int k : {0, 1}) {
+      if (ends[k] < 0) continue;
+      legs_.emplace(kSides[k], LegTo(ends[k], ends[1 - k]));
+      // What carries both legs flexes no trunk above the base.
+      for (const int i : ChainTo(posture_, ends[k])) carries_leg_[static_cast<size_t>(i)] = true;
+    }
+  }
+
   // Turns the root about z until the left leg is in +y of the right one.
   void TurnToLeft() {
     const int left = LegEnd(v1::BODY_SIDE_LEFT), right = LegEnd(v1::BODY_SIDE_RIGHT);
     if (left < 0 || right < 0) return;
-    const auto hip = [&](int end) {
-      return posture_.links[static_cast<size_t>(Joint(ChainTo(posture_, end).front()).child)].position;
+    const auto hip = [&](int end, int other) {
+      return posture_.joints[static_cast<size_t>(LegTo(end, other).front())];
     };
-    Eigen::Vector3d to_left = hip(left) - hip(right);
+    Eigen::Vector3d to_left = hip(left, right) - hip(right, left);
     if (to_left.head<2>().norm() < 1e-3) {  // hips in one place: by the feet
       to_left = posture_.links[static_cast<size_t>(Joint(left).child)].position -
                 posture_.links[static_cast<size_t>(Joint(right).child)].position;
@@ -155,12 +173,9 @@ class Proposer {
     for (const auto& [side, chain] : legs_) {
       for (const int i : chain) limbs.push_back({i, Joint(i).name, side, true, AcrossOf(i)});
     }
-    const auto in_leg = [&](int i) {
-      return std::any_of(limbs.begin(), limbs.end(), [i](const LimbJoint& joint) { return joint.index == i; });
-    };
     std::vector<LimbJoint> others;
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
-      if (!IsMoving(Joint(i)) || locked_[static_cast<size_t>(i)] || in_leg(i)) continue;
+      if (!Joint(i).Moves() || locked_[static_cast<size_t>(i)] || carries_leg_[static_cast<size_t>(i)]) continue;
       others.push_back({i, Joint(i).name, MirrorNameOf(Joint(i).name).side, false, AcrossOf(i)});
     }
     limbs.insert(limbs.end(), others.begin(), others.end());
@@ -173,7 +188,7 @@ class Proposer {
 
   // How far a joint turns about y of the world, 0 to 1; 0 of a prismatic one.
   double AcrossOf(int i) const {
-    return Joint(i).type == UrdfJoint::Type::kPrismatic ? 0 : std::abs(posture_.axes[static_cast<size_t>(i)].y());
+    return Joint(i).type == TreeJoint::Type::kPrismatic ? 0 : std::abs(posture_.axes[static_cast<size_t>(i)].y());
   }
 
   void AddFoot(v1::BodySide side, const std::vector<int>& chain) {
@@ -184,15 +199,15 @@ class Proposer {
     if (!extent) {
       proposal_.missing.push_back(
           "contact \"" + name + "\": link \"" + link_name +
-          "\" has no box, sphere or cylinder as collision shape; add an ellipsoid from heel to toe");
+          "\" has no box, sphere, cylinder, capsule or ellipsoid as shape; add an ellipsoid from heel to toe");
       return;
     }
     const Pose& place = posture_.links[static_cast<size_t>(link)];
-    double leg = posture_.links[static_cast<size_t>(Joint(chain.front()).child)].position.z() - extent->least.z();
+    double leg = posture_.joints[static_cast<size_t>(chain.front())].z() - extent->least.z();
     for (const int i : chain) {
       const auto found = roles_.find(i);
       if (found == roles_.end() || found->second != v1::Joint::ROLE_HIP_FLEXION) continue;
-      leg = posture_.links[static_cast<size_t>(Joint(i).child)].position.z() - extent->least.z();
+      leg = posture_.joints[static_cast<size_t>(i)].z() - extent->least.z();
     }
     if (!(leg > 0.01)) {
       proposal_.missing.push_back("contact \"" + name + "\": link \"" + link_name +
@@ -215,9 +230,9 @@ class Proposer {
       to.set_y(q.y());
       to.set_z(q.z());
     }
-    proposal_.reasons.push_back(
-        "contact \"" + name + "\": an ellipsoid as long and broad as the collision shapes of \"" + link_name +
-        "\", sole radius " + FormatNumber(foot.semi_axes.x() * foot.semi_axes.x() / foot.semi_axes.z()) + " m");
+    proposal_.reasons.push_back("contact \"" + name + "\": an ellipsoid as long and broad as the shapes of \"" +
+                                link_name + "\", sole radius " +
+                                FormatNumber(foot.semi_axes.x() * foot.semi_axes.x() / foot.semi_axes.z()) + " m");
   }
 
   static void SetVector(const Eigen::Vector3d& from, v1::Vector3* to) {
@@ -227,15 +242,17 @@ class Proposer {
     to->set_z(rounded(from.z()));
   }
 
+  bool LacksLimits(const TreeJoint& joint) const {
+    const bool any_velocity = joint.velocity > 0 || !tree_.states_velocity;
+    return joint.driven && !(joint.effort_min < 0 && joint.effort_max > 0 && any_velocity);
+  }
+
   // A sensor that turns, a gripper: what has no limits and is of no limb.
   void LockUnlimited() {
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
-      const UrdfJoint& joint = Joint(i);
-      const bool in_leg = std::any_of(legs_.begin(), legs_.end(), [i](const auto& leg) {
-        return std::find(leg.second.begin(), leg.second.end(), i) != leg.second.end();
-      });
-      if (!IsMoving(joint) || locked_[static_cast<size_t>(i)] || in_leg || roles_.count(i) != 0) continue;
-      if (joint.effort > 0 && joint.velocity > 0) continue;
+      const TreeJoint& joint = Joint(i);
+      if (!joint.Moves() || locked_[static_cast<size_t>(i)] || carries_leg_[static_cast<size_t>(i)]) continue;
+      if (roles_.count(i) != 0 || !LacksLimits(joint)) continue;
       locked_[static_cast<size_t>(i)] = true;
       proposal_.reasons.push_back("joint \"" + joint.name +
                                   "\" is locked: it has no limit of effort or velocity and is in no leg");
@@ -244,9 +261,9 @@ class Proposer {
 
   void AddJoints() {
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
-      const UrdfJoint& joint = Joint(i);
+      const TreeJoint& joint = Joint(i);
       const bool locked = locked_[static_cast<size_t>(i)];
-      if (!IsMoving(joint) && !locked) continue;
+      if (!joint.Moves() && !locked) continue;
       v1::SideJoint& to = *proposal_.side.add_joints();
       to.set_name(joint.name);
       if (positions_.count(joint.name) != 0) to.set_reference(positions_.at(joint.name));
@@ -258,7 +275,7 @@ class Proposer {
       }
       if (to.side() == v1::BODY_SIDE_UNSPECIFIED) to.set_side(MirrorNameOf(joint.name).side);
       if (to.role() == v1::Joint::ROLE_TRUNK_FLEXION) to.set_side(v1::BODY_SIDE_UNSPECIFIED);
-      if (joint.effort == 0 || joint.velocity == 0) {
+      if (LacksLimits(joint)) {
         proposal_.missing.push_back("joint \"" + joint.name +
                                     "\" has no limit of effort or velocity: give effortMin, effortMax and "
                                     "velocityMax, or \"actuated\": false");
@@ -292,7 +309,7 @@ class Proposer {
     if (!proposal_.missing.empty() || legs_.size() != 2) return;
     v1::Model model;
     try {
-      model = ModelOfUrdf(tree_, "the side file", proposal_.side).model;
+      model = ModelOfTree(tree_, "the side file", proposal_.side).model;
     } catch (const Failure& failure) {
       proposal_.missing.push_back(failure.what());
       return;
@@ -313,17 +330,17 @@ class Proposer {
     }
   }
 
-  const UrdfTree& tree_;
-  std::vector<bool> locked_;
+  const LinkTree& tree_;
+  std::vector<bool> locked_, carries_leg_;
   std::map<std::string, double> positions_;
-  UrdfPosture posture_;
-  std::map<v1::BodySide, std::vector<int>> legs_;  // joints from the root to the foot
+  TreePosture posture_, upright_;                  // upright: every joint at zero, the root not turned
+  std::map<v1::BodySide, std::vector<int>> legs_;  // joints from the hip to the foot
   std::map<int, v1::Joint::Role> roles_;
   SideProposal proposal_;
 };
 
 }  // namespace
 
-SideProposal ProposeSideFile(const UrdfTree& tree) { return Proposer(tree).Propose(); }
+SideProposal ProposeSideFile(const LinkTree& tree) { return Proposer(tree).Propose(); }
 
 }  // namespace rollgait::client

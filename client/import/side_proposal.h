@@ -1,11 +1,11 @@
-// A side file to begin with: what names, axes and collision shapes of a URDF suggest.
+// A side file to begin with: what names, axes and shapes of a tree suggest.
 #ifndef ROLLGAIT_CLIENT_IMPORT_SIDE_PROPOSAL_H_
 #define ROLLGAIT_CLIENT_IMPORT_SIDE_PROPOSAL_H_
 
 #include <string>
 #include <vector>
 
-#include "client/import/urdf_tree.h"
+#include "client/import/link_tree.h"
 #include "rollgait/v1/model_side_file.pb.h"
 
 namespace rollgait::client {
@@ -16,8 +16,9 @@ struct SideProposal {
   std::vector<std::string> missing;  // what the caller must add before it can be used
 };
 
-// For a robot that stands upright with straight legs where the URDF's joints are zero (or at the end of their range
+// For a robot that stands upright with straight legs where the file's joints are zero (or at the end of their range
 // that is nearest to zero), its legs being the chains that reach lowest on each side:
+//   name       that of the file, if a model can have it; else with "_" in place of what it must not have
 //   base       turned about z so that the left leg is in +y
 //   locked     joints that mimic another, planar joints, joints that move no mass, joints without limits that are in no
 //   leg
@@ -27,7 +28,7 @@ struct SideProposal {
 //   contacts   one ellipsoid a foot (foot_fit.h)
 //   mirror     by names; averaged if links that should be mirror images are not quite (mirror_average.h), none if they
 //              are not at all
-SideProposal ProposeSideFile(const UrdfTree& tree);
+SideProposal ProposeSideFile(const LinkTree& tree);
 
 }  // namespace rollgait::client
 

@@ -3,30 +3,22 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "client/failure.h"
-#include "client/formats/exact_number.h"
-#include "client/import/xml_guard.h"
-#include "client/text.h"
+#include "client/import/link_tree.h"
+#include "client/import/xml_source.h"
 
 namespace rollgait::client {
 namespace {
 
-constexpr size_t kMaxUrdfName = 256;
-
 // Checks one document and copies what a model needs of it.
 class UrdfCleaner {
  public:
-  explicit UrdfCleaner(UrdfDocument* document) : document_(document) {}
+  explicit UrdfCleaner(UrdfDocument* document) : document_(document), source_(document->path) {}
 
   void Clean(const tinyxml2::XMLDocument& xml) {
     const tinyxml2::XMLElement* const robot = xml.RootElement();
@@ -71,77 +63,20 @@ class UrdfCleaner {
 
  private:
   [[noreturn]] void Refuse(const tinyxml2::XMLElement& element, const std::string& reason) const {
-    const char* const name = element.Attribute("name");
-    std::string where = document_->path + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name();
-    const auto is_shown = [](const char* text) {
-      return text != nullptr && std::strlen(text) <= kMaxUrdfName && IsUtf8(text);
-    };
-    if (is_shown(name)) where += " name=\"" + std::string(name) + "\"";
-    const tinyxml2::XMLElement* owner = &element;
-    while (owner->Attribute("name") == nullptr && owner->Parent() != nullptr &&
-           owner->Parent()->ToElement() != nullptr) {
-      owner = owner->Parent()->ToElement();
-    }
-    const char* const owner_name = owner->Attribute("name");
-    if (owner != &element && is_shown(owner_name)) {
-      where += "> of <" + std::string(owner->Name()) + " name=\"" + owner_name + "\"";
-    }
-    throw Failure(ExitCode::kUsage, WithoutControls(where + ">: " + reason));
+    source_.Refuse(element, reason);
   }
-
   std::string Text(const tinyxml2::XMLElement& element, const char* attribute) const {
-    const char* const text = element.Attribute(attribute);
-    if (text == nullptr || *text == '\0') Refuse(element, std::string("needs the attribute ") + attribute);
-    return text;
+    return source_.Text(element, attribute);
   }
   std::string Name(const tinyxml2::XMLElement& element, const char* attribute = "name") const {
-    const std::string name = Text(element, attribute);
-    if (name.size() > kMaxUrdfName) {
-      Refuse(element, std::string(attribute) + " has " + std::to_string(name.size()) + " bytes; at most " +
-                          std::to_string(kMaxUrdfName) + " are accepted");
-    }
-    if (!IsUtf8(name)) Refuse(element, std::string(attribute) + " is no UTF-8");
-    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
-      Refuse(element, std::string(attribute) + " holds a control character");
-    }
-    return name;
+    return source_.Name(element, attribute);
   }
-
-  // The attribute as so many finite numbers with one space between.
-  std::string Numbers(const tinyxml2::XMLElement& element, const char* attribute, int count) const {
-    const std::string text = Text(element, attribute);
-    std::istringstream words(text);
-    std::string word, clean;
-    int found = 0;
-    for (; words >> word; ++found) {
-      const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
-      const char* const last = word.data() + word.size();
-      double value = 0;
-      const auto [end, error] = std::from_chars(first, last, value);
-      const std::string shown = word.substr(0, 40);
-      if (error == std::errc::invalid_argument || end != last) {
-        Refuse(element, std::string(attribute) + " has \"" + shown + "\", which is no number");
-      }
-      if (error != std::errc() || !std::isfinite(value) || std::abs(value) > kMaxUrdfNumber) {
-        Refuse(element, std::string(attribute) + " has " + shown + "; numbers must be finite and within ±" +
-                            Exact(kMaxUrdfNumber));
-      }
-      clean += (clean.empty() ? "" : " ") + word;
-    }
-    if (found != count) {
-      Refuse(element,
-             std::string(attribute) + " has " + std::to_string(found) + " numbers, must have " + std::to_string(count));
-    }
-    return clean;
-  }
-
   const tinyxml2::XMLElement* Only(const tinyxml2::XMLElement& element, const char* child, bool required) const {
-    const tinyxml2::XMLElement* const found = element.FirstChildElement(child);
-    if (found == nullptr && required) Refuse(element, std::string("needs an element <") + child + ">");
-    if (found != nullptr && found->NextSiblingElement(child) != nullptr) {
-      Refuse(*found->NextSiblingElement(child), "stands twice");
-    }
-    return found;
+    return source_.Only(element, child, required);
+  }
+  // The attribute as so many finite numbers with one space between.
+  std::string Numbers(const tinyxml2::XMLElement& element, const char* attribute, size_t count) const {
+    return source_.Numbers(element, attribute, Text(element, attribute).c_str(), count, count).text;
   }
 
   tinyxml2::XMLElement* Add(tinyxml2::XMLElement* to, const char* name) {
@@ -149,7 +84,7 @@ class UrdfCleaner {
     to->InsertEndChild(element);
     return element;
   }
-  void CopyNumbers(const tinyxml2::XMLElement& from, const char* attribute, int count, bool required,
+  void CopyNumbers(const tinyxml2::XMLElement& from, const char* attribute, size_t count, bool required,
                    tinyxml2::XMLElement* to) {
     if (!required && from.Attribute(attribute) == nullptr) return;
     to->SetAttribute(attribute, Numbers(from, attribute, count).c_str());
@@ -184,7 +119,7 @@ class UrdfCleaner {
   }
 
   void CleanCollision(const tinyxml2::XMLElement& collision, tinyxml2::XMLElement* link) {
-    constexpr std::pair<const char*, std::pair<const char*, int>> kSizes[] = {
+    constexpr std::pair<const char*, std::pair<const char*, size_t>> kSizes[] = {
         {"box", {"size", 3}}, {"sphere", {"radius", 1}}, {"cylinder", {"radius", 1}}};
     const tinyxml2::XMLElement* const shape = Only(collision, "geometry", true)->FirstChildElement();
     for (const auto& [kind, size] : kSizes) {
@@ -273,8 +208,8 @@ class UrdfCleaner {
                std::vector<std::string>* names) {
     if (!seen->insert(name).second) Refuse(element, "the name is used twice; give each a name of its own");
     names->push_back(name);
-    if (names->size() > kMaxUrdfLinks) {
-      Refuse(element, "is one of more than " + std::to_string(kMaxUrdfLinks) + "; a model has at most 64 joints");
+    if (names->size() > kMaxTreeLinks) {
+      Refuse(element, "is one of more than " + std::to_string(kMaxTreeLinks) + "; a model has at most 64 joints");
     }
   }
 
@@ -284,6 +219,7 @@ class UrdfCleaner {
   };
 
   UrdfDocument* const document_;
+  const XmlSource source_;
   std::vector<Edge> edges_;
   tinyxml2::XMLDocument out_;
   std::set<std::string> link_names_, joint_names_, others_;
@@ -292,26 +228,11 @@ class UrdfCleaner {
 
 }  // namespace
 
-UrdfDocument CheckUrdfText(const std::string& path, const std::string& text) {
-  RequireSafeXml(path, text);
-  tinyxml2::XMLDocument xml;
-  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw Failure(ExitCode::kUsage, path + ":" + std::to_string(xml.ErrorLineNum()) +
-                                        ": is no XML: " + tinyxml2::XMLDocument::ErrorIDToName(xml.ErrorID()));
-  }
+UrdfDocument CheckUrdf(const std::string& path, const tinyxml2::XMLDocument& xml) {
   UrdfDocument document;
   document.path = path;
   UrdfCleaner(&document).Clean(xml);
   return document;
-}
-
-std::string ReadUrdfBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kMaxUrdfBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.eof() && file.fail()) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));
-  text.resize(static_cast<size_t>(file.gcount()));
-  return text;
 }
 
 }  // namespace rollgait::client

@@ -1,21 +1,15 @@
-// A URDF file as text that is safe to hand to a parser: bounded in size, checked, and reduced to what a model needs.
+// A URDF file as text that is safe to hand to urdfdom: checked, and reduced to what a model needs.
 #ifndef ROLLGAIT_CLIENT_IMPORT_URDF_DOCUMENT_H_
 #define ROLLGAIT_CLIENT_IMPORT_URDF_DOCUMENT_H_
 
 #include <string>
 #include <vector>
 
-namespace rollgait::client {
+namespace tinyxml2 {
+class XMLDocument;
+}
 
-// Bounds of a file: together they keep the memory that reading takes below 150 MB.
-constexpr size_t kMaxUrdfBytes = size_t{4} << 20;
-constexpr size_t kMaxUrdfTags = 100000;    // start and end tags, comments
-constexpr size_t kMaxUrdfAttributes = 64;  // of a tag; parsers take a time that grows with their square
-constexpr size_t kMaxUrdfLinks = 1000;     // and as many joints
-// Elements within each other, the root included. Below the limit of every version of the parser.
-constexpr int kMaxUrdfDepth = 64;
-// The largest number that any attribute may have, in its unit.
-constexpr double kMaxUrdfNumber = 1e9;
+namespace rollgait::client {
 
 struct UrdfDocument {
   std::string path;                 // as given, for messages
@@ -28,16 +22,12 @@ struct UrdfDocument {
   std::vector<std::string> left_out;  // what was in the file and is not in `xml`, a sentence each
 };
 
-// The content of a file, or its first kMaxUrdfBytes + 1 bytes. Throws Failure(kUsage) if it cannot be read.
-std::string ReadUrdfBytes(const std::string& path);
-
-// Checks the text of a file; `path` is for messages. Opens no file and no address that it names. Throws Failure(kUsage)
-// with file, element and reason, and the line where the text itself is wrong, for: a text that exceeds a bound; no XML;
-// a document type declaration, which could define entities; no <robot>; names that are missing, doubled, overlong
+// Checks a file; `path` is for messages. Opens no file and no address that it names. Throws Failure(kUsage)
+// with file, element and reason for: no <robot>; names that are missing, doubled, overlong
 // (256 bytes), no UTF-8 or hold control characters; unknown parents and children, links with two parents, cycles,
 // several roots; joints without limits that need them; numbers that are missing, no numbers, not finite or beyond
-// kMaxUrdfNumber.
-UrdfDocument CheckUrdfText(const std::string& path, const std::string& text);
+// kMaxXmlNumber.
+UrdfDocument CheckUrdf(const std::string& path, const tinyxml2::XMLDocument& xml);
 
 }  // namespace rollgait::client
 

@@ -1,11 +1,12 @@
 #include "client/import/xml_guard.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <cstring>
 #include <optional>
 
 #include "client/failure.h"
-#include "client/import/urdf_document.h"
 
 namespace rollgait::client {
 namespace {
@@ -39,14 +40,14 @@ std::optional<Excess> FindExcess(const std::string& text) {
       while (++at < text.size() && text[at] != '>') {
         if (text[at] != '"' && text[at] != '\'') continue;
         at = std::min(text.find(text[at], at + 1), text.size());
-        if (++attributes > kMaxUrdfAttributes) {
-          return Excess{start, "a tag has more than " + std::to_string(kMaxUrdfAttributes) + " attributes"};
+        if (++attributes > kMaxXmlAttributes) {
+          return Excess{start, "a tag has more than " + std::to_string(kMaxXmlAttributes) + " attributes"};
         }
       }
       if (ends) {
         depth = std::max(0, depth - 1);
-      } else if (text[std::min(at, text.size()) - 1] != '/' && ++depth > kMaxUrdfDepth) {
-        return Excess{start, "elements are nested deeper than " + std::to_string(kMaxUrdfDepth)};
+      } else if (text[std::min(at, text.size()) - 1] != '/' && ++depth > kMaxXmlDepth) {
+        return Excess{start, "elements are nested deeper than " + std::to_string(kMaxXmlDepth)};
       }
     }
   }
@@ -57,14 +58,14 @@ std::optional<Excess> FindExcess(const std::string& text) {
 
 void RequireSafeXml(const std::string& path, const std::string& text) {
   const auto refuse = [&](const std::string& reason) { throw Failure(ExitCode::kUsage, path + ": " + reason); };
-  if (text.size() > kMaxUrdfBytes) {
-    refuse("has more than " + std::to_string(kMaxUrdfBytes >> 20) +
-           " MiB, which no URDF needs; meshes are files of their own");
+  if (text.size() > kMaxXmlBytes) {
+    refuse("has more than " + std::to_string(kMaxXmlBytes >> 20) +
+           " MiB, which no model needs; meshes are files of their own");
   }
-  if (text.find('\0') != std::string::npos) refuse("holds a zero byte; a URDF is text in UTF-8");
+  if (text.find('\0') != std::string::npos) refuse("holds a zero byte; a model is text in UTF-8");
   const size_t tags = static_cast<size_t>(std::count(text.begin(), text.end(), '<'));
-  if (tags > kMaxUrdfTags) {
-    refuse("has " + std::to_string(tags) + " tags; at most " + std::to_string(kMaxUrdfTags) + " are accepted");
+  if (tags > kMaxXmlTags) {
+    refuse("has " + std::to_string(tags) + " tags; at most " + std::to_string(kMaxXmlTags) + " are accepted");
   }
   const auto line_of = [&](size_t at) {
     return path + ":" +
@@ -73,11 +74,18 @@ void RequireSafeXml(const std::string& path, const std::string& text) {
   for (size_t at = text.find("<!"); at != std::string::npos; at = text.find("<!", at + 1)) {
     if (text.compare(at, 4, "<!--") == 0 || text.compare(at, 9, "<![CDATA[") == 0) continue;
     throw Failure(ExitCode::kUsage,
-                  line_of(at) + ": has a document type or entity declaration; a URDF needs none, remove it");
+                  line_of(at) + ": has a document type or entity declaration; a model needs none, remove it");
   }
   if (const std::optional<Excess> excess = FindExcess(text)) {
     throw Failure(ExitCode::kUsage, line_of(excess->place) + ": " + excess->reason);
   }
+}
+
+void ParseSafeXml(const std::string& path, const std::string& text, tinyxml2::XMLDocument* xml) {
+  RequireSafeXml(path, text);
+  if (xml->Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) return;
+  throw Failure(ExitCode::kUsage, path + ":" + std::to_string(xml->ErrorLineNum()) +
+                                      ": is no XML: " + tinyxml2::XMLDocument::ErrorIDToName(xml->ErrorID()));
 }
 
 }  // namespace rollgait::client

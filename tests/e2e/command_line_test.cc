@@ -187,6 +187,34 @@ TEST_F(CommandLineTest, ARobotInAUrdfWalks) {
               HasSubstr("walker.urdf:1: <robot name=\"r\">: has several links that are the child of no joint"));
 }
 
+// Files of MuJoCo and OpenSim go the same way: a side file is proposed, the server checks the model, and it walks.
+TEST_F(CommandLineTest, BodiesOfMujocoAndOpensimWalk) {
+  ASSERT_NE(daemon_.address(), "");
+  const struct {
+    const char *file, *joint, *left_out, *leg;
+  } kFiles[] = {
+      {"humanoid.xml", "joint \"left_knee\" is ROLE_KNEE_FLEXION", "<tendon>: a model has no tendons", "0.89  m"},
+      {"walker.osim", "joint \"knee_angle_l\" is ROLE_KNEE_FLEXION", "<Thelen2003Muscle name=\"soleus_r\">",
+       "0.8799  m"}};
+  const std::string side = directory_.path() + "/side.json";
+  for (const auto& [file, joint, left_out, leg] : kFiles) {
+    SCOPED_TRACE(file);
+    const std::string path = std::string(ROLLGAIT_SOURCE "/tests/data/") + file;
+    const Ended proposed = Run("models " + path + " --propose-side");
+    EXPECT_EQ(proposed.code, 0);
+    EXPECT_THAT(proposed.err, HasSubstr(joint));
+    EXPECT_THAT(proposed.err, testing::Not(HasSubstr("Missing")));
+    std::ofstream(side) << proposed.out;
+    const Ended checked = Run("models " + path + " --side " + side);
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    EXPECT_THAT(checked.err, HasSubstr(left_out));
+    EXPECT_THAT(checked.out, HasSubstr(leg));
+    const v1::Solve walk = Solve("--model " + path + " --side " + side + " --preset human --speed 1 --accuracy draft");
+    EXPECT_EQ(walk.result().termination(), v1::TERMINATION_OPTIMAL) << walk.result().message();
+    EXPECT_EQ(Run("solve --model " + path).code, 2) << "no side file";
+  }
+}
+
 // A model that is stored once walks like the one in the file, and a solve outlives the model it used.
 TEST_F(CommandLineTest, AStoredModelWalksLikeTheOneInTheFile) {
   ASSERT_NE(daemon_.address(), "");

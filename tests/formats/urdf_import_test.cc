@@ -8,7 +8,8 @@
 #include "client/formats/urdf.h"
 #include "client/formats/urdf_side.h"
 #include "client/import/side_file.h"
-#include "client/import/urdf_model.h"
+#include "client/import/tree_file.h"
+#include "client/import/tree_model.h"
 #include "core/models/catalog.h"
 #include "core/models/own_model.h"
 #include "core/multibody/tree_dynamics.h"
@@ -84,10 +85,10 @@ TEST_P(UrdfImportTest, ReadsBackTheSameModel) {
                                   [](const v1::Joint& joint) { return joint.stiffness() != 0; });
   EXPECT_EQ(urdf.find("<!-- Spring, which URDF cannot state;") != std::string::npos, sprung);
   EXPECT_EQ(urdf.find("<dynamics damping=\"2.5\"/>") != std::string::npos, sprung);
-  const UrdfTree tree = ReadUrdfText("ours.urdf", urdf);
+  const LinkTree tree = ReadLinkTreeText("ours.urdf", urdf);
   const v1::ModelSideFile side = SideFileOfModel(ours);
   ASSERT_NO_THROW(CheckSideFile("ours.json", side, tree));
-  const v1::Model back = ModelOfUrdf(tree, "ours.json", side).model;
+  const v1::Model back = ModelOfTree(tree, "ours.json", side).model;
 
   google::protobuf::util::DefaultFieldComparator numbers;
   numbers.set_float_comparison(google::protobuf::util::DefaultFieldComparator::APPROXIMATE);

@@ -8,7 +8,8 @@
 
 #include "client/import/side_file.h"
 #include "client/import/side_proposal.h"
-#include "client/import/urdf_model.h"
+#include "client/import/tree_file.h"
+#include "client/import/tree_model.h"
 #include "core/multibody/tree_dynamics.h"
 #include "server/convert/own_model_convert.h"
 #include "tests/formats/mujoco_model.h"
@@ -31,8 +32,8 @@ std::string Floating(std::string urdf, const std::string& root) {
 // `fixed`: positions of joints that are no joints of the model; `reference`: where the model counts positions from.
 void ExpectSameDynamics(const std::string& name, const std::string& urdf, const v1::ModelSideFile& side,
                         const std::map<std::string, double>& fixed, const std::map<std::string, double>& reference) {
-  const UrdfTree tree = ReadUrdfText(name, urdf);
-  const v1::Model model = ModelOfUrdf(tree, "side.json", side).model;
+  const LinkTree tree = ReadLinkTreeText(name, urdf);
+  const v1::Model model = ModelOfTree(tree, "side.json", side).model;
   Violations violations;
   const auto own = server::DecodeOwnModel("model.own.", model, &violations);
   ASSERT_TRUE(violations.empty());
@@ -84,8 +85,8 @@ void ExpectSameDynamics(const std::string& name, const std::string& urdf, const 
 }
 
 TEST(UrdfMujocoTest, TheExampleIsReadAlike) {
-  const std::string urdf = Floating(ReadUrdfBytes(ROLLGAIT_SOURCE "/examples/biped/biped.urdf"), "pelvis");
-  ExpectSameDynamics("biped.urdf", urdf, ProposeSideFile(ReadUrdfText("biped.urdf", urdf)).side, {}, {});
+  const std::string urdf = Floating(ReadModelBytes(ROLLGAIT_SOURCE "/examples/biped/biped.urdf"), "pelvis");
+  ExpectSameDynamics("biped.urdf", urdf, ProposeSideFile(ReadLinkTreeText("biped.urdf", urdf)).side, {}, {});
 }
 
 TEST(UrdfMujocoTest, TurnedFramesReferencesAndLocksAreReadAlike) {

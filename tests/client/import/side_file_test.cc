@@ -10,6 +10,7 @@
 
 #include "client/failure.h"
 #include "client/import/model_file.h"
+#include "client/import/tree_file.h"
 
 namespace rollgait::client {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-UrdfTree TwoLegs() {
-  return ReadUrdfText(
+LinkTree TwoLegs() {
+  return ReadLinkTreeText(
       "x.urdf",
       "<robot name=\"r\"><link name=\"body\"/><link name=\"left\"/><link name=\"right\"/>"
       "<joint name=\"hip_l\" type=\"continuous\"><parent link=\"body\"/><child link=\"left\"/></joint>"
@@ -43,7 +44,7 @@ v1::ModelSideFile GoodSide() {
 }
 
 TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
-  const UrdfTree tree = TwoLegs();
+  const LinkTree tree = TwoLegs();
   EXPECT_NO_THROW(CheckSideFile("s.json", GoodSide(), tree));
   const struct {
     void (*damage)(v1::ModelSideFile&);
@@ -91,12 +92,12 @@ TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
          s.mutable_joints(0)->set_role(v1::Joint::ROLE_BASE_PITCH);
          s.mutable_base_orientation()->set_w(1);
        },
-       "baseOrientation must not be given where joints of the URDF have base roles"},
+       "baseOrientation must not be given where joints of the file have base roles"},
       {[](v1::ModelSideFile& s) {
          s.mutable_joints(0)->set_role(v1::Joint::ROLE_BASE_PITCH);
          s.mutable_base_position_m()->set_z(0.9);
        },
-       "basePositionM must not be given where joints of the URDF have base roles"},
+       "basePositionM must not be given where joints of the file have base roles"},
       {[](v1::ModelSideFile& s) { s.mutable_joints(0)->set_name("hip\x1b[2J\n\x7f"); },
        "joints[0].name \"hip?[2J??\" is no joint of x.urdf"},
       {[](v1::ModelSideFile& s) { s.set_leg_length_m(900); }, "legLengthM is 900 m; must be in [0.05, 3] m"},
@@ -127,7 +128,8 @@ TEST(SideFileTest, AUrdfNeedsOneAndNothingElseTakesOne) {
     return "read";
   };
   EXPECT_THAT(refusal("robot.urdf", ""), HasSubstr("rollgait models robot.urdf --propose-side"));
-  EXPECT_THAT(refusal("robot.json", "s.json"), HasSubstr("--side: belongs to a model in a .urdf file"));
+  EXPECT_THAT(refusal("robot.json", "s.json"),
+              HasSubstr("--side: belongs to a model in a .urdf, .xml, .mjcf or .osim file"));
   const std::string path = testing::TempDir() + "two_legs.urdf", side = testing::TempDir() + "two_legs.json";
   std::ofstream(path) << "<robot name=\"r\"><link name=\"a\"/></robot>";
   std::ofstream(side) << "{\"feet\": 2}";

@@ -14,7 +14,8 @@
 #include "client/import/mirror_images.h"
 #include "client/import/mirror_names.h"
 #include "client/import/side_file.h"
-#include "client/import/urdf_model.h"
+#include "client/import/tree_file.h"
+#include "client/import/tree_model.h"
 
 namespace rollgait::client {
 namespace {
@@ -26,7 +27,7 @@ using testing::IsEmpty;
 constexpr char kBiped[] = ROLLGAIT_SOURCE "/examples/biped/biped.urdf";
 
 std::string BipedWith(const std::string& from, const std::string& to) {
-  std::string text = ReadUrdfBytes(kBiped);
+  std::string text = ReadModelBytes(kBiped);
   EXPECT_NE(text.find(from), std::string::npos) << from;
   for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
@@ -86,14 +87,14 @@ TEST(LimbRolesTest, NamesComeBeforeOrder) {
 }
 
 TEST(FootFitTest, TouchesTheBottomOfTheShapes) {
-  const UrdfTree tree = ReadUrdfText(
+  const LinkTree tree = ReadLinkTreeText(
       "x.urdf",
       "<robot name=\"r\"><link name=\"a\"><collision><origin xyz=\"0.05 0 0\" rpy=\"0 1.5707963267948966 0\"/>"
       "<geometry><cylinder radius=\"0.03\" length=\"0.2\"/></geometry></collision>"
       "<collision><origin xyz=\"0 0.02 -0.01\"/><geometry><sphere radius=\"0.04\"/></geometry></collision>"
       "<collision><origin xyz=\"0 0 0\" rpy=\"0 0 0.7853981633974483\"/><geometry>"
       "<box size=\"0.04 0.04 0.02\"/></geometry></collision></link></robot>");
-  const UrdfPosture posture = PostureOf(tree, {Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 1)}, {}, {});
+  const TreePosture posture = PostureOf(tree, {Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 1)}, {}, {});
   const std::optional<Extent> extent = ExtentOf(tree, posture, {0});
   ASSERT_TRUE(extent.has_value());
   EXPECT_LT((extent->least - Eigen::Vector3d(-0.05, -0.03, 0.95)).norm(), 1e-12) << extent->least.transpose();
@@ -107,7 +108,7 @@ TEST(FootFitTest, TouchesTheBottomOfTheShapes) {
 }
 
 TEST(SideProposalTest, TheExampleGetsRolesFeetAndMirrorImages) {
-  const UrdfTree tree = ReadUrdf(kBiped);
+  const LinkTree tree = ReadLinkTree(kBiped);
   const SideProposal proposal = ProposeSideFile(tree);
   EXPECT_THAT(proposal.missing, IsEmpty());
   EXPECT_EQ(proposal.side.mirror(), v1::ModelSideFile::MIRROR_UNSPECIFIED);
@@ -121,7 +122,7 @@ TEST(SideProposalTest, TheExampleGetsRolesFeetAndMirrorImages) {
   }
   ASSERT_EQ(proposal.side.contacts_size(), 2);
   EXPECT_NO_THROW(CheckSideFile("s.json", proposal.side, tree));
-  const v1::Model model = ModelOfUrdf(tree, "s.json", proposal.side).model;
+  const v1::Model model = ModelOfTree(tree, "s.json", proposal.side).model;
   EXPECT_EQ(MirrorDifference(model), "");
   for (const v1::Joint& joint : model.joints()) {
     EXPECT_EQ(model.joints(joint.mirror_joint()).name(), MirrorNameOf(joint.name()).other);
@@ -138,11 +139,12 @@ TEST(SideProposalTest, ARobotThatFacesElsewhereIsTurned) {
       BipedWith("<robot name=\"biped\">",
                 "<robot name=\"biped\"><link name=\"root\"/><joint name=\"turn\" type=\"fixed\"><parent link=\"root\"/>"
                 "<child link=\"pelvis\"/><origin xyz=\"0 0 0\" rpy=\"0 0 1.5707963267948966\"/></joint>");
-  const UrdfTree tree = ReadUrdfText("x.urdf", turned);
+  const LinkTree tree = ReadLinkTreeText("x.urdf", turned);
   const SideProposal proposal = ProposeSideFile(tree);
   EXPECT_THAT(proposal.reasons, Contains(HasSubstr("the root is turned by -90° about z")));
-  const v1::Model model = ModelOfUrdf(tree, "s.json", proposal.side).model;
-  const v1::Model straight = ModelOfUrdf(ReadUrdf(kBiped), "s.json", ProposeSideFile(ReadUrdf(kBiped)).side).model;
+  const v1::Model model = ModelOfTree(tree, "s.json", proposal.side).model;
+  const v1::Model straight =
+      ModelOfTree(ReadLinkTree(kBiped), "s.json", ProposeSideFile(ReadLinkTree(kBiped)).side).model;
   const std::vector<double> zeros(static_cast<size_t>(model.joints_size()), 0.0);
   const std::vector<Pose> found = LinkPoses(model, zeros), expected = LinkPoses(straight, zeros);
   for (size_t i = 6; i < found.size(); ++i) EXPECT_LT((found[i].position - expected[i].position).norm(), 1e-12) << i;
@@ -150,13 +152,13 @@ TEST(SideProposalTest, ARobotThatFacesElsewhereIsTurned) {
 
 TEST(SideProposalTest, SaysWhatDiffersAndWhatIsMissing) {
   const std::string heavy = "<mass value=\"2.6\"/>";
-  std::string text = ReadUrdfBytes(kBiped);
+  std::string text = ReadModelBytes(kBiped);
   text.replace(text.find(heavy), heavy.size(), "<mass value=\"2.7\"/>");
-  const UrdfTree uneven_tree = ReadUrdfText("x.urdf", text);
+  const LinkTree uneven_tree = ReadLinkTreeText("x.urdf", text);
   const SideProposal uneven = ProposeSideFile(uneven_tree);
   EXPECT_EQ(uneven.side.mirror(), v1::ModelSideFile::MIRROR_AVERAGED);
   EXPECT_THAT(uneven.reasons, Contains(HasSubstr("masses of \"left_shank\" and \"right_shank\", 2.7 and 2.6 kg")));
-  const UrdfModel averaged = ModelOfUrdf(uneven_tree, "s.json", uneven.side);
+  const ImportedModel averaged = ModelOfTree(uneven_tree, "s.json", uneven.side);
   EXPECT_EQ(MirrorDifference(averaged.model), "");
   EXPECT_THAT(averaged.model.sources(), Contains(HasSubstr("left and right averaged: masses by up to 1.9 %")));
   for (const v1::Joint& joint : averaged.model.joints()) {
@@ -164,29 +166,30 @@ TEST(SideProposalTest, SaysWhatDiffersAndWhatIsMissing) {
       EXPECT_NEAR(joint.mass_kg(), 2.65, 1e-12);
     }
   }
-  text = ReadUrdfBytes(kBiped);
+  text = ReadModelBytes(kBiped);
   text.replace(text.find(heavy), heavy.size(), "<mass value=\"5\"/>");
-  const SideProposal lame = ProposeSideFile(ReadUrdfText("x.urdf", text));
+  const SideProposal lame = ProposeSideFile(ReadLinkTreeText("x.urdf", text));
   EXPECT_EQ(lame.side.mirror(), v1::ModelSideFile::MIRROR_NONE);
   EXPECT_THAT(lame.reasons, Contains(HasSubstr("walks in full cycles")));
 
   const SideProposal meshes = ProposeSideFile(
-      ReadUrdfText("x.urdf", BipedWith("<box size=\"0.22 0.1 0.06\"/>", "<mesh filename=\"foot.stl\"/>")));
+      ReadLinkTreeText("x.urdf", BipedWith("<box size=\"0.22 0.1 0.06\"/>", "<mesh filename=\"foot.stl\"/>")));
   EXPECT_EQ(meshes.side.contacts_size(), 0);
   EXPECT_THAT(meshes.missing,
-              Contains(HasSubstr("contact \"left_foot\": link \"left_foot\" has no box, sphere or cylinder")));
-  const SideProposal weak = ProposeSideFile(ReadUrdfText("x.urdf", BipedWith("effort=\"120\"", "effort=\"0\"")));
+              Contains(HasSubstr(
+                  "contact \"left_foot\": link \"left_foot\" has no box, sphere, cylinder, capsule or ellipsoid")));
+  const SideProposal weak = ProposeSideFile(ReadLinkTreeText("x.urdf", BipedWith("effort=\"120\"", "effort=\"0\"")));
   EXPECT_THAT(weak.missing, Contains(HasSubstr("joint \"left_ankle_pitch\" has no limit of effort or velocity")));
-  const SideProposal bent =
-      ProposeSideFile(ReadUrdfText("x.urdf", BipedWith("lower=\"0\" upper=\"2.2\"", "lower=\"0.1\" upper=\"2.2\"")));
+  const SideProposal bent = ProposeSideFile(
+      ReadLinkTreeText("x.urdf", BipedWith("lower=\"0\" upper=\"2.2\"", "lower=\"0.1\" upper=\"2.2\"")));
   EXPECT_THAT(bent.reasons, Contains(HasSubstr("reference of joint \"left_knee\"")));
   EXPECT_THAT(bent.missing, IsEmpty());
 }
 
 // Whatever two sides are given, what is averaged is symmetric, weighs the same, and is unchanged by averaging again.
 TEST(MirrorAverageTest, MakesLeftAndRightMirrorImages) {
-  const UrdfTree tree = ReadUrdf(kBiped);
-  v1::Model model = ModelOfUrdf(tree, "s.json", ProposeSideFile(tree).side).model;
+  const LinkTree tree = ReadLinkTree(kBiped);
+  v1::Model model = ModelOfTree(tree, "s.json", ProposeSideFile(tree).side).model;
   double mass = 0, averaged_mass = 0;
   double shift = 0.001;
   for (v1::Joint& joint : *model.mutable_joints()) {

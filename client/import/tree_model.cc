@@ -1,4 +1,4 @@
-#include "client/import/urdf_model.h"
+#include "client/import/tree_model.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +14,8 @@
 #include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/side_file.h"
-#include "client/import/urdf_limits.h"
+#include "client/import/tree_file.h"
+#include "client/import/tree_limits.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -40,17 +41,24 @@ void SetOrientation(const Eigen::Matrix3d& rotation, Part* part) {
   to->set_z(q.z());
 }
 
+bool IsNameLetter(unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; }
+
 class ModelMaker {
  public:
-  ModelMaker(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side)
+  ModelMaker(const LinkTree& tree, const std::string& side_path, const v1::ModelSideFile& side)
       : tree_(tree), side_path_(side_path), side_(side), carried_(tree.links.size()) {
     for (const v1::SideJoint& joint : side.joints()) said_.emplace(joint.name(), &joint);
   }
 
-  UrdfModel Make() {
+  ImportedModel Make() {
+    result_.assumed = tree_.assumed;
+    if (!tree_.states_velocity) {
+      result_.assumed.push_back("limits of velocity, which " + tree_.format +
+                                " does not state: 20 rad/s and 2 m/s where the side file gives no velocityMax");
+    }
     RequireOneBase();
     AddBase();
-    for (const UrdfJoint& joint : tree_.joints) AddUrdfJoint(joint);
+    for (const TreeJoint& joint : tree_.joints) AddTreeJoint(joint);
     AddMasses();
     AddContacts();
     AddBodies();
@@ -63,14 +71,14 @@ class ModelMaker {
   }
 
  private:
-  // Where a link of the URDF is: in the link frame of a joint of the model, -1 the world.
+  // Where a link of the tree is: in the link frame of a joint of the model, -1 the world.
   struct Carried {
     int joint = -1;
-    Pose place{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+    Pose place = kNoMotion;
   };
 
-  [[noreturn]] void Refuse(const UrdfJoint& joint, const std::string& reason) const {
-    throw Failure(ExitCode::kUsage, tree_.document.path + ": <joint name=\"" + joint.name + "\">: " + reason);
+  [[noreturn]] void Refuse(const TreeJoint& joint, const std::string& reason) const {
+    tree_.RefuseJoint(joint.name, reason);
   }
   const v1::SideJoint& Said(std::string_view joint) const {
     static const v1::SideJoint nothing;
@@ -78,21 +86,20 @@ class ModelMaker {
     return found == said_.end() ? nothing : *found->second;
   }
   void RequireName(const std::string& what, const std::string& name) const {
-    const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-    if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), allowed)) return;
-    throw Failure(ExitCode::kUsage, tree_.document.path + ": the " + what + " \"" + name +
+    if (!name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), IsNameLetter)) return;
+    throw Failure(ExitCode::kUsage, tree_.path + ": the " + what + " \"" + name +
                                         "\" must be 1 to 64 letters, digits, \"_\", \"-\" or \".\"; rename it");
   }
 
   Carried& Of(int link) { return carried_[static_cast<size_t>(link)]; }
-  const UrdfLink& Link(int link) const { return tree_.links[static_cast<size_t>(link)]; }
+  const TreeLink& Link(int link) const { return tree_.links[static_cast<size_t>(link)]; }
 
   // What is not behind the floating joint, if there is one, is the world: it must not weigh nor move.
   void RequireOneBase() const {
-    const UrdfJoint* base = nullptr;
+    const TreeJoint* base = nullptr;
     std::vector<bool> behind(tree_.links.size());
-    for (const UrdfJoint& joint : tree_.joints) {
-      const bool floats = joint.type == UrdfJoint::Type::kFloating;
+    for (const TreeJoint& joint : tree_.joints) {
+      const bool floats = joint.type == TreeJoint::Type::kFloating;
       if (floats && base != nullptr) {
         Refuse(joint, "is floating, and so is joint \"" + base->name +
                           "\"; a model has one floating base: make this joint fixed, or remove it");
@@ -105,10 +112,10 @@ class ModelMaker {
       Refuse(*base,
              "a floating joint must be the first of the tree, below links without mass: it is the floating base");
     }
-    for (const UrdfJoint& joint : tree_.joints) {
+    for (const TreeJoint& joint : tree_.joints) {
       if (behind[static_cast<size_t>(joint.child)]) continue;
       const std::string where = "is not behind the floating joint \"" + base->name + "\", so it is part of the world";
-      if (joint.type != UrdfJoint::Type::kFixed && !Said(joint.name).locked()) {
+      if (joint.type != TreeJoint::Type::kFixed && !Said(joint.name).locked()) {
         Refuse(joint, where + ", which does not move; remove it, or lock it in the side file: \"locked\": true");
       }
       if (Link(joint.child).mass.mass > 0) {
@@ -118,10 +125,10 @@ class ModelMaker {
     }
   }
 
-  // The base that the URDF does not have; its last joint carries the root link.
+  // The base that the file does not have; its last joint carries the root link.
   void AddBase() {
     if (HasOwnBase(side_, tree_)) {
-      result_.read.push_back("floating base: the joints of the URDF that have base roles");
+      result_.read.push_back("floating base: the joints of the file that have base roles");
       return;
     }
     Carried& root = Of(tree_.root);
@@ -154,18 +161,19 @@ class ModelMaker {
                            Link(tree_.root).name + "\"");
   }
 
-  void AddUrdfJoint(const UrdfJoint& joint) {
+  void AddTreeJoint(const TreeJoint& joint) {
     const v1::SideJoint& said = Said(joint.name);
     const Carried& parent = Of(joint.parent);
     const Pose frame = Compose(Compose(parent.place, joint.origin), MotionOf(joint, said.reference()));
-    const bool floats = joint.type == UrdfJoint::Type::kFloating;
+    const Pose link = Compose(frame, joint.end);
+    const bool floats = joint.type == TreeJoint::Type::kFloating;
     if (floats) {
       result_.read.push_back("joint \"" + joint.name + "\" is the floating base, \"" + Link(joint.child).name +
                              "\" its link");
       result_.model.mutable_joints(parent.joint)->set_link_name(Link(joint.child).name);
     }
-    if (floats || joint.type == UrdfJoint::Type::kFixed || said.locked()) {
-      Of(joint.child) = {parent.joint, frame};
+    if (floats || joint.type == TreeJoint::Type::kFixed || said.locked()) {
+      Of(joint.child) = {parent.joint, link};
       if (said.locked()) RequireReference(tree_, joint, side_path_, said, joint.lower, joint.upper);
       if (!floats) {
         result_.merged.push_back("\"" + Link(joint.child).name + "\" into \"" + Link(joint.parent).name +
@@ -174,7 +182,7 @@ class ModelMaker {
       }
       return;
     }
-    if (joint.type == UrdfJoint::Type::kPlanar) {
+    if (joint.type == TreeJoint::Type::kPlanar) {
       Refuse(joint, "is planar, which a model does not have; lock it in the side file: \"locked\": true");
     }
     if (!joint.mimics.empty()) {
@@ -183,11 +191,11 @@ class ModelMaker {
     }
     v1::Joint& to = *result_.model.add_joints();
     to.set_parent(parent.joint);
-    Of(joint.child) = {result_.model.joints_size() - 1, Carried().place};
+    Of(joint.child) = {result_.model.joints_size() - 1, joint.end};
     RequireName("joint", joint.name);
     to.set_name(joint.name);
     to.set_link_name(Link(joint.child).name);
-    to.set_type(joint.type == UrdfJoint::Type::kPrismatic ? v1::Joint::TYPE_PRISMATIC : v1::Joint::TYPE_REVOLUTE);
+    to.set_type(joint.type == TreeJoint::Type::kPrismatic ? v1::Joint::TYPE_PRISMATIC : v1::Joint::TYPE_REVOLUTE);
     SetXyz(frame.position, to.mutable_origin_m());
     SetOrientation(frame.rotation, &to);
     SetXyz(joint.axis, to.mutable_axis());
@@ -198,41 +206,39 @@ class ModelMaker {
     SetSpring(joint, said, &to);
   }
 
-  static void SetSpring(const UrdfJoint& joint, const v1::SideJoint& said, v1::Joint* to) {
-    if (said.stiffness() != 0) {
-      to->set_stiffness(said.stiffness());
-      to->set_rest_position(said.rest_position() - said.reference());
+  static void SetSpring(const TreeJoint& joint, const v1::SideJoint& said, v1::Joint* to) {
+    const bool sprung = said.stiffness() != 0;  // what the side file says wins
+    if (sprung || joint.stiffness != 0) {
+      to->set_stiffness(sprung ? said.stiffness() : joint.stiffness);
+      to->set_rest_position((sprung ? said.rest_position() : joint.rest) - said.reference());
     }
     to->set_damping(said.has_damping() ? said.damping() : joint.damping);
   }
 
   void AddMasses() {
-    std::vector<std::vector<UrdfMass>> parts(static_cast<size_t>(result_.model.joints_size()));
+    std::vector<std::vector<MassProperties>> parts(static_cast<size_t>(result_.model.joints_size()));
     double total = 0;
     for (size_t i = 0; i < tree_.links.size(); ++i) {
-      const UrdfLink& link = tree_.links[i];
+      const TreeLink& link = tree_.links[i];
       if (link.mass.mass == 0) continue;
       if (carried_[i].joint < 0) {
-        throw Failure(ExitCode::kUsage,
-                      tree_.document.path + ": <link name=\"" + link.name +
-                          "\">: has mass, but no joint of the base carries it: it would be fixed to the world");
+        tree_.RefuseLink(link.name, "has mass, but no joint of the base carries it: it would be fixed to the world");
       }
       parts[static_cast<size_t>(carried_[i].joint)].push_back(Placed(link.mass, carried_[i].place));
       total += link.mass.mass;
     }
     for (int i = 0; i < result_.model.joints_size(); ++i) {
-      const UrdfMass mass = Lump(parts[static_cast<size_t>(i)]);
+      const MassProperties mass = Lump(parts[static_cast<size_t>(i)]);
       v1::Joint& joint = *result_.model.mutable_joints(i);
       RequireName("link", joint.link_name());
       const Eigen::Vector3d moments = PrincipalMoments(mass);
       if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6)) {
-        throw Failure(ExitCode::kUsage,
-                      tree_.document.path + ": <link name=\"" + joint.link_name() +
-                          "\">: with what is merged into it, it has the principal moments " + FormatNumber(moments(0)) +
-                          ", " + FormatNumber(moments(1)) + " and " + FormatNumber(moments(2)) +
-                          " kg m²; no body has one above the sum of the two others. Correct <inertia>, or "
-                          "lock joint \"" +
-                          joint.name() + "\" in the side file, which merges the link");
+        tree_.RefuseLink(joint.link_name(), "with what is merged into it, it has the principal moments " +
+                                                FormatNumber(moments(0)) + ", " + FormatNumber(moments(1)) + " and " +
+                                                FormatNumber(moments(2)) +
+                                                " kg m²; no body has one above the sum of the two others. Correct its "
+                                                "inertia, or lock joint \"" +
+                                                joint.name() + "\" in the side file, which merges the link");
       }
       joint.set_mass_kg(mass.mass);
       SetXyz(mass.center, joint.mutable_center_of_mass_m());
@@ -243,7 +249,7 @@ class ModelMaker {
       }
     }
     result_.read.insert(result_.read.begin(),
-                        "robot \"" + tree_.document.robot + "\": " + std::to_string(tree_.links.size()) + " links, " +
+                        tree_.format + " \"" + tree_.name + "\": " + std::to_string(tree_.links.size()) + " links, " +
                             std::to_string(tree_.joints.size()) + " joints, " + FormatNumber(total) + " kg");
   }
 
@@ -295,38 +301,46 @@ class ModelMaker {
 
   void AddSummary() {
     v1::Model& model = result_.model;
-    const std::string& name = side_.name().empty() ? tree_.document.robot : side_.name();
+    const std::string& name = side_.name().empty() ? tree_.name : side_.name();
     if (side_.name().empty()) RequireName("name of the robot", name);
     model.mutable_summary()->set_name(name);
-    model.mutable_summary()->set_description(
-        side_.description().empty() ? "Robot " + tree_.document.robot + ", read from a URDF." : side_.description());
+    model.mutable_summary()->set_description(side_.description().empty()
+                                                 ? "Robot " + tree_.name + ", read from " + tree_.format + "."
+                                                 : side_.description());
     model.set_leg_length_m(side_.leg_length_m());
     *model.mutable_sources() = side_.sources();
-    model.add_sources("URDF " + std::filesystem::path(tree_.document.path).filename().string() + " with side file " +
+    model.add_sources(tree_.format + " " + std::filesystem::path(tree_.path).filename().string() + " with side file " +
                       std::filesystem::path(side_path_).filename().string() + ".");
     for (const std::string& line : result_.assumed) {
       if (model.sources_size() < 60) model.add_sources(("Assumed: " + line).substr(0, 1900));
     }
-    result_.left_out = tree_.document.left_out;
+    result_.left_out = tree_.left_out;
   }
 
-  const UrdfTree& tree_;
+  const LinkTree& tree_;
   const std::string& side_path_;
   const v1::ModelSideFile& side_;
   std::map<std::string, const v1::SideJoint*, std::less<>> said_;
-  std::vector<Carried> carried_;  // of each link of the URDF
-  UrdfModel result_;
+  std::vector<Carried> carried_;  // of each link of the tree
+  ImportedModel result_;
 };
 
 }  // namespace
 
-UrdfModel ModelOfUrdf(const UrdfTree& tree, const std::string& side_path, const v1::ModelSideFile& side) {
+ImportedModel ModelOfTree(const LinkTree& tree, const std::string& side_path, const v1::ModelSideFile& side) {
   return ModelMaker(tree, side_path, side).Make();
 }
 
-UrdfModel ReadUrdfModel(const std::string& urdf_path, const std::string& side_path) {
-  const UrdfTree tree = ReadUrdf(urdf_path);
-  return ModelOfUrdf(tree, side_path, ReadSideFile(side_path, tree));
+std::string AsModelName(const std::string& name) {
+  std::string accepted = name.empty() ? "model" : name.substr(0, 64);
+  std::replace_if(
+      accepted.begin(), accepted.end(), [](unsigned char c) { return !IsNameLetter(c); }, '_');
+  return accepted;
+}
+
+ImportedModel ReadImportedModel(const std::string& path, const std::string& side_path) {
+  const LinkTree tree = ReadLinkTree(path);
+  return ModelOfTree(tree, side_path, ReadSideFile(side_path, tree));
 }
 
 }  // namespace rollgait::client

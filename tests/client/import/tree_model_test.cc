@@ -1,5 +1,5 @@
 // The model of a URDF moves and weighs as the URDF does, in every posture.
-#include "client/import/urdf_model.h"
+#include "client/import/tree_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "client/failure.h"
 #include "client/formats/body_links.h"
 #include "client/import/side_file.h"
+#include "client/import/tree_file.h"
 #include "tests/support/twisted_robot.h"
 
 namespace rollgait::client {
@@ -35,22 +36,22 @@ struct Weight {
 };
 
 // Where the tree's own numbers put its mass: nothing of lumped_links.h.
-Weight WeightOfUrdf(const UrdfTree& tree, const Eigen::Isometry3d& root, const std::map<std::string, double>& at,
+Weight WeightOfUrdf(const LinkTree& tree, const Eigen::Isometry3d& root, const std::map<std::string, double>& at,
                     std::map<std::string, Eigen::Isometry3d>* places) {
   Weight weight;
   const auto add = [&](int link, const Eigen::Isometry3d& place) {
-    const UrdfLink& from = tree.links[static_cast<size_t>(link)];
+    const TreeLink& from = tree.links[static_cast<size_t>(link)];
     (*places)[from.name] = place;
     weight.Add(place, from.mass.mass, from.mass.center, from.mass.inertia);
   };
   add(tree.root, root);
-  for (const UrdfJoint& joint : tree.joints) {
+  for (const TreeJoint& joint : tree.joints) {
     Eigen::Isometry3d place = places->at(tree.links[static_cast<size_t>(joint.parent)].name);
     place.translate(joint.origin.position);
     place.rotate(joint.origin.rotation);
     const double position = at.count(joint.name) != 0 ? at.at(joint.name) : 0;
-    if (joint.type == UrdfJoint::Type::kPrismatic) place.translate(position * joint.axis);
-    if (joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kContinuous) {
+    if (joint.type == TreeJoint::Type::kPrismatic) place.translate(position * joint.axis);
+    if (joint.type == TreeJoint::Type::kRevolute || joint.type == TreeJoint::Type::kContinuous) {
       place.rotate(Eigen::AngleAxisd(position, joint.axis));
     }
     add(joint.child, place);
@@ -106,10 +107,10 @@ int IndexOf(const v1::Model& model, const std::string& joint) {
 }
 
 TEST(UrdfModelTest, MovesAndWeighsAsTheUrdfInEveryPosture) {
-  const UrdfTree tree = ReadUrdfText("x.urdf", kTwistedRobot);
+  const LinkTree tree = ReadLinkTreeText("x.urdf", kTwistedRobot);
   const v1::ModelSideFile side = TwistedSide();
   CheckSideFile("x.json", side, tree);
-  const v1::Model model = ModelOfUrdf(tree, "x.json", side).model;
+  const v1::Model model = ModelOfTree(tree, "x.json", side).model;
   ASSERT_EQ(model.joints_size(), 9);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -155,8 +156,8 @@ TEST(UrdfModelTest, MovesAndWeighsAsTheUrdfInEveryPosture) {
 }
 
 TEST(UrdfModelTest, RangesCountFromTheReference) {
-  const UrdfTree tree = ReadUrdfText("x.urdf", kTwistedRobot);
-  const UrdfModel urdf = ModelOfUrdf(tree, "x.json", TwistedSide());
+  const LinkTree tree = ReadLinkTreeText("x.urdf", kTwistedRobot);
+  const ImportedModel urdf = ModelOfTree(tree, "x.json", TwistedSide());
   const v1::Joint& hip = urdf.model.joints(IndexOf(urdf.model, "hip"));
   EXPECT_DOUBLE_EQ(hip.position_min(), -1.3);
   EXPECT_DOUBLE_EQ(hip.position_max(), 1.7);
@@ -173,9 +174,9 @@ TEST(UrdfModelTest, RangesCountFromTheReference) {
 
 std::string RefusalOf(const std::string& urdf, const v1::ModelSideFile& side) {
   try {
-    const UrdfTree tree = ReadUrdfText("x.urdf", urdf);
+    const LinkTree tree = ReadLinkTreeText("x.urdf", urdf);
     CheckSideFile("x.json", side, tree);
-    ModelOfUrdf(tree, "x.json", side);
+    ModelOfTree(tree, "x.json", side);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::kUsage);
     return failure.what();
@@ -234,7 +235,7 @@ std::string Floating(const std::string& beside) {
 }
 
 TEST(UrdfModelTest, AFloatingJointAtTheRootIsTheBase) {
-  const UrdfModel urdf_model = ModelOfUrdf(ReadUrdfText("x.urdf", Floating("")), "x.json", TwistedSide());
+  const ImportedModel urdf_model = ModelOfTree(ReadLinkTreeText("x.urdf", Floating("")), "x.json", TwistedSide());
   EXPECT_EQ(urdf_model.model.joints_size(), 9);
   EXPECT_EQ(urdf_model.model.joints(5).link_name(), "base");
   EXPECT_THAT(urdf_model.read, Contains(HasSubstr("joint \"free\" is the floating base")));
@@ -279,8 +280,8 @@ TEST(UrdfModelTest, ALongNameOfTheRobotStaysUtf8) {
   for (int i = 0; i < 120; ++i) name += "ü";
   v1::ModelSideFile side = TwistedSide();
   side.set_name("twisted");
-  const UrdfTree tree = ReadUrdfText("x.urdf", With("robot name=\"twisted\"", "robot name=\"" + name + "\""));
-  EXPECT_EQ(ModelOfUrdf(tree, "x.json", side).model.summary().description(), "Robot " + name + ", read from a URDF.");
+  const LinkTree tree = ReadLinkTreeText("x.urdf", With("robot name=\"twisted\"", "robot name=\"" + name + "\""));
+  EXPECT_EQ(ModelOfTree(tree, "x.json", side).model.summary().description(), "Robot " + name + ", read from URDF.");
 }
 
 }  // namespace

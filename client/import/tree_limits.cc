@@ -1,9 +1,8 @@
-#include "client/import/urdf_limits.h"
+#include "client/import/tree_limits.h"
 
 #include <cmath>
 #include <limits>
 
-#include "client/failure.h"
 #include "client/formats/urdf.h"
 #include "client/import/side_file.h"
 #include "client/text.h"
@@ -11,28 +10,26 @@
 namespace rollgait::client {
 namespace {
 
-[[noreturn]] void RefuseJoint(const UrdfTree& tree, const UrdfJoint& joint, const std::string& reason) {
-  throw Failure(ExitCode::kUsage, tree.document.path + ": <joint name=\"" + joint.name + "\">: " + reason);
-}
+// Of joints whose format states none: what human29's fastest joints have, well above walking.
+constexpr double kAssumedTurn_rad_s = 20, kAssumedSlide_m_s = 2;
 
 }  // namespace
 
-void RequireReference(const UrdfTree& tree, const UrdfJoint& joint, const std::string& side_path,
+void RequireReference(const LinkTree& tree, const TreeJoint& joint, const std::string& side_path,
                       const v1::SideJoint& said, double least, double most) {
-  const bool bounded = joint.type == UrdfJoint::Type::kRevolute || joint.type == UrdfJoint::Type::kPrismatic;
+  const bool bounded = joint.type == TreeJoint::Type::kRevolute || joint.type == TreeJoint::Type::kPrismatic;
   const double at = said.reference();
   if (bounded ? at >= least && at <= most : std::abs(at) <= 2 * kPi) return;
-  RefuseJoint(tree, joint,
-              "its reference in " + side_path + " is " + FormatNumber(at) + ", out of its range " +
-                  (bounded ? FormatNumber(least) + " to " + FormatNumber(most) : std::string("±2π")));
+  tree.RefuseJoint(joint.name, "its reference in " + side_path + " is " + FormatNumber(at) + ", out of its range " +
+                                   (bounded ? FormatNumber(least) + " to " + FormatNumber(most) : std::string("±2π")));
 }
 
-void SetLimits(const UrdfTree& tree, const UrdfJoint& joint, const std::string& side_path, const v1::SideJoint& said,
-               v1::Joint* to, UrdfModel* result) {
+void SetLimits(const LinkTree& tree, const TreeJoint& joint, const std::string& side_path, const v1::SideJoint& said,
+               v1::Joint* to, ImportedModel* result) {
   constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   const bool base = IsBaseRole(said.role());
   double least = joint.lower, most = joint.upper;
-  if (joint.type == UrdfJoint::Type::kContinuous) {
+  if (joint.type == TreeJoint::Type::kContinuous) {
     least = base ? -kUnbounded : said.reference() - kPi;
     most = base ? kUnbounded : said.reference() + kPi;
     if (!base && !(said.has_position_min() && said.has_position_max())) {
@@ -45,27 +42,28 @@ void SetLimits(const UrdfTree& tree, const UrdfJoint& joint, const std::string& 
   if (said.has_position_min()) least = said.position_min();
   if (said.has_position_max()) most = said.position_max();
   if (!(least < most)) {
-    RefuseJoint(tree, joint,
-                "its range with " + side_path + " is " + FormatNumber(least) + " to " + FormatNumber(most) +
-                    "; the lower end must be below the upper");
+    tree.RefuseJoint(joint.name, "its range with " + side_path + " is " + FormatNumber(least) + " to " +
+                                     FormatNumber(most) + "; the lower end must be below the upper");
   }
   RequireReference(tree, joint, side_path, said, least, most);
   to->set_position_min(least - said.reference());
   to->set_position_max(most - said.reference());
-  const bool actuated = said.has_actuated() ? said.actuated() : !base;
+  const bool actuated = said.has_actuated() ? said.actuated() : !base && joint.driven;
   to->set_actuated(actuated);
   double velocity = said.has_velocity_max() ? said.velocity_max() : joint.velocity;
+  if (!said.has_velocity_max() && !base && !tree.states_velocity) {
+    velocity = to->type() == v1::Joint::TYPE_PRISMATIC ? kAssumedSlide_m_s : kAssumedTurn_rad_s;
+  }
   if (!said.has_velocity_max() && (unlimited(velocity) || (!actuated && velocity == 0))) velocity = kUnbounded;
   to->set_velocity_max(velocity);
   if (actuated) {
-    to->set_effort_min(said.has_effort_min() ? said.effort_min() : 0.0 - joint.effort);
-    to->set_effort_max(said.has_effort_max() ? said.effort_max() : joint.effort);
+    to->set_effort_min(said.has_effort_min() ? said.effort_min() : joint.effort_min);
+    to->set_effort_max(said.has_effort_max() ? said.effort_max() : joint.effort_max);
     if (!(to->effort_min() < 0 && to->effort_max() > 0 && velocity > 0)) {
-      RefuseJoint(tree, joint,
-                  "effort is limited to " + FormatNumber(to->effort_min()) + " … " + FormatNumber(to->effort_max()) +
-                      " and velocity to " + FormatNumber(velocity) +
-                      "; give effortMin < 0 < effortMax and velocityMax > 0 in " + side_path +
-                      ", or \"actuated\": false");
+      tree.RefuseJoint(joint.name, "effort is limited to " + FormatNumber(to->effort_min()) + " … " +
+                                       FormatNumber(to->effort_max()) + " and velocity to " + FormatNumber(velocity) +
+                                       "; give effortMin < 0 < effortMax and velocityMax > 0 in " + side_path +
+                                       ", or \"actuated\": false");
     }
   }
   const bool range = said.has_position_min() || said.has_position_max();

@@ -1,0 +1,55 @@
+#include "client/import/mjcf_joint.h"
+
+#include <limits>
+#include <utility>
+
+namespace rollgait::client {
+namespace {
+
+void Omit(const MjcfElement& joint, LeftOut* left_out) {
+  constexpr std::pair<const char*, const char*> kReasons[] = {
+      {"armature", "armature: links have the inertia of their masses only"},
+      {"frictionloss", "frictionloss: joints of a model have no dry friction"}};
+  for (const auto& [attribute, reason] : kReasons) {
+    if (joint.Number(attribute, 0) != 0) left_out->Add(joint.xml(), reason);
+  }
+  if (joint.Has("springdamper")) left_out->Add(joint.xml(), "springdamper: give stiffness and damping");
+}
+
+}  // namespace
+
+std::string MjcfJointType(const MjcfElement& joint) {
+  const std::string type = joint.Has("type") ? joint.Get("type") : "hinge";
+  if (type != "free" && type != "ball" && type != "hinge" && type != "slide") {
+    joint.Refuse("type \"" + type.substr(0, 40) + "\" is unknown; must be free, ball, slide or hinge");
+  }
+  return type;
+}
+
+TreeJoint ReadMjcfJoint(const MjcfElement& from, LeftOut* left_out) {
+  const bool turns = MjcfJointType(from) == "hinge";
+  const auto angle = [&](double value) { return turns ? from.compiler().Angle(value) : value; };
+  const bool limited = from.IsLimited("limited", "range");
+  TreeJoint joint;
+  joint.type = !turns    ? TreeJoint::Type::kPrismatic
+               : limited ? TreeJoint::Type::kRevolute
+                         : TreeJoint::Type::kContinuous;
+  joint.origin.position = from.Vector("pos", Eigen::Vector3d::Zero());
+  joint.axis = from.Vector("axis", Eigen::Vector3d::UnitZ());
+  joint.zero = angle(from.Number("ref", 0));
+  joint.lower = -std::numeric_limits<double>::infinity();
+  joint.upper = std::numeric_limits<double>::infinity();
+  if (limited) {
+    const std::vector<double> range = from.Numbers("range", 2, 2);
+    if (range.empty()) from.Refuse("is limited, but has no range");
+    joint.lower = angle(range[0]);
+    joint.upper = angle(range[1]);
+  }
+  joint.stiffness = from.Number("stiffness", 0);
+  joint.rest = angle(from.Number("springref", 0));
+  joint.damping = from.Number("damping", 0);
+  Omit(from, left_out);
+  return joint;
+}
+
+}  // namespace rollgait::client
