@@ -49,6 +49,7 @@ struct Case {
   PlacedPlane plane;
   SurfacePair pair{surface_1, surface_2};
   Surface superellipsoid = Superellipsoid(Vector3(0.3, 0.2, 0.4), 0.6, 0.8);
+  Surface smooth = SmoothSuperellipsoid(Vector3(0.3, 0.2, 0.4), 0.6, 0.8, 0.1);
   Surface implicit = FlattenedSuperellipsoid::Create({0.3, 0.2, 0.4}, 0.6, 0.8, 0.05).value();
   Vector3 nu{2.0 / 7, 3.0 / 7, 6.0 / 7};
   SupportJet jet;
@@ -60,6 +61,8 @@ const std::map<std::string, void (*)(Case&)> kFunctions = {
     {"jet_4/ellipsoid", [](Case& c) { c.surface_1.surface.Evaluate(c.nu, 4, &c.jet); }},
     {"jet_2/superellipsoid", [](Case& c) { c.superellipsoid.Evaluate(c.nu, 2, &c.jet); }},
     {"jet_4/superellipsoid", [](Case& c) { c.superellipsoid.Evaluate(c.nu, 4, &c.jet); }},
+    {"jet_2/smooth_superellipsoid", [](Case& c) { c.smooth.Evaluate(c.nu, 2, &c.jet); }},
+    {"jet_4/smooth_superellipsoid", [](Case& c) { c.smooth.Evaluate(c.nu, 4, &c.jet); }},
     {"jet_2/implicit", [](Case& c) { c.implicit.Evaluate(c.nu, 2, &c.jet); }},
     {"jet_4/implicit", [](Case& c) { c.implicit.Evaluate(c.nu, 4, &c.jet); }},
     {"plane/kinematics",

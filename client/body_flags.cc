@@ -40,6 +40,23 @@ void RemoveLoads(const std::string& segment, v1::ModelSelection& selection) {
               loads.end());
 }
 
+// "heel_l=0.035,0.03,0.02:0.8"; either part may be left out.
+void ApplyFoot(const std::string& text, v1::ModelSelection& selection) {
+  const std::string form = "SURFACE=A,B,C[:EXPONENT] or SURFACE=:EXPONENT, A,B,C in m";
+  const size_t colon = text.find(':');
+  const std::string axes = text.substr(0, colon);
+  std::string surface = axes.substr(0, axes.find('='));
+  if (colon == std::string::npos || !axes.ends_with('=')) {
+    const auto [name, numbers] = ParseNamedNumbers("--foot", axes, form, {3});
+    SetVector(numbers, 0, (*selection.mutable_foot_semi_axes_m())[name]);
+  } else if (surface.empty()) {
+    throw Failure(ExitCode::kUsage, "--foot " + text + ": must be " + form);
+  }
+  if (colon == std::string::npos) return;
+  const std::vector<double> exponent = ParseNumbers("--foot " + axes + ":", text.substr(colon + 1), form, {1});
+  (*selection.mutable_foot_exponents())[surface] = exponent[0];
+}
+
 void ApplyChanges(const SpecFlags& flags, v1::ModelSelection& selection) {
   for (const std::string& text : flags.loads) {
     const auto [segment, numbers] = ParseNamedNumbers("--load", text, "SEGMENT=KG or SEGMENT=KG,X,Y,Z", {1, 4});
@@ -62,8 +79,7 @@ void ApplyChanges(const SpecFlags& flags, v1::ModelSelection& selection) {
     if (numbers.size() > 2) spring.set_damping_n_m_s_rad(numbers[2]);
   }
   for (const std::string& text : flags.foot_axes) {
-    const auto [surface, numbers] = ParseNamedNumbers("--foot", text, "SURFACE=A,B,C in m", {3});
-    SetVector(numbers, 0, (*selection.mutable_foot_semi_axes_m())[surface]);
+    ApplyFoot(text, selection);
   }
 }
 
@@ -90,10 +106,11 @@ void AddBodyFlags(CLI::App& command, SpecFlags& flags) {
   AddRepeatedFlag(command, "--segment", flags.segments,
                   "SEGMENT=LENGTH in m, for example thigh=0.45, of one side thigh_l=0.42", "segment")
       ->group("Body");
-  command.add_option("--feet", flags.feet, "Ellipsoids of each foot: one or two (heel and forefoot)")->group("Body");
+  command.add_option("--feet", flags.feet, "Surfaces of each foot: one or two (heel and forefoot)")->group("Body");
   AddRepeatedFlag(command, "--foot", flags.foot_axes,
-                  "SURFACE=A,B,C: semi-axes of an ellipsoid of the feet in m, forward, left, up; foot, or heel and "
-                  "forefoot, of one side heel_l",
+                  "SURFACE=A,B,C[:EXPONENT] or SURFACE=:EXPONENT: semi-axes of a surface of the feet in m, forward, "
+                  "left, up, and its exponent, [0.4, 1.8], 1 an ellipsoid, less boxier; foot, or heel and forefoot, of "
+                  "one side heel_l",
                   "surface")
       ->group("Body");
   command.add_option("--ranges", flags.ranges, "Ranges of the joints: anatomical or walking")->group("Body");

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/base/check.h"
+#include "bench/verdict_audit/smooth_body.h"
 
 namespace rollgait::audit {
 
@@ -27,16 +27,11 @@ std::vector<LinkPose> Poses(const Model& model, const VectorX& q, const VectorX&
 }
 
 LowestPoint FindLowestPoint(const ContactSurface& contact, const std::vector<LinkPose>& poses) {
-  const Ellipsoid* const ellipsoid = contact.surface.ellipsoid();
-  ROLLGAIT_CHECK(ellipsoid != nullptr);
   const LinkPose& link = poses[static_cast<size_t>(contact.joint)];
   const Matrix3 R_WE = link.R_WL * contact.R_LE;
-  // The plane under the body with normal −z touches it at −R A² Rᵀz / |A Rᵀz|, A the semi-axes.
-  const Vector3 up = R_WE.transpose() * Vector3::UnitZ();
-  const Vector3 scaled = ellipsoid->semi_axes().cwiseProduct(up);
-  const Vector3 below = ellipsoid->semi_axes().cwiseProduct(scaled) / scaled.norm();
+  const Vector3 above = BodyOf(contact.surface).Furthest(R_WE.transpose() * Vector3::UnitZ());
   LowestPoint lowest;
-  lowest.point = link.p_WL + link.R_WL * contact.p_LE - R_WE * below;
+  lowest.point = link.p_WL + link.R_WL * contact.p_LE - R_WE * above;
   lowest.velocity = link.v_WL + link.w_WL.cross(lowest.point - link.p_WL);
   return lowest;
 }

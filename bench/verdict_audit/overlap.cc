@@ -10,18 +10,16 @@
 namespace rollgait::audit {
 namespace {
 
-double Support(const WorldEllipsoid& body, const Vector3& nu) {
-  return body.semi_axes.cwiseProduct(body.R_WE.transpose() * nu).norm();
-}
+double Support(const WorldBody& body, const Vector3& nu) { return body.shape.Support(body.R_WE.transpose() * nu); }
 
 // Distance between the two tangent planes with normal ν; positive for some ν: the bodies do not meet.
-double Gap(const WorldEllipsoid& first, const WorldEllipsoid& second, const Vector3& nu) {
+double Gap(const WorldBody& first, const WorldBody& second, const Vector3& nu) {
   return nu.dot(second.center - first.center) - Support(first, nu) - Support(second, nu);
 }
 
 // Compass search on the sphere for the largest gap: tries turns in four directions and halves them where none is
 // better.
-double Climb(const WorldEllipsoid& first, const WorldEllipsoid& second, Vector3* nu) {
+double Climb(const WorldBody& first, const WorldBody& second, Vector3* nu) {
   double best = Gap(first, second, *nu);
   for (double turn = 0.2; turn > 1e-9 && best <= 0;) {
     const Vector3 u = nu->unitOrthogonal(), w = nu->cross(u);
@@ -53,7 +51,7 @@ std::vector<Vector3> Spread(int count) {
 
 }  // namespace
 
-double Overlap(const WorldEllipsoid& first, const WorldEllipsoid& second, Vector3* direction) {
+double Overlap(const WorldBody& first, const WorldBody& second, Vector3* direction) {
   if (Gap(first, second, *direction) > 0) return 0;
   static const std::vector<Vector3> spread = Spread(400);
   Vector3 best_direction = *direction;

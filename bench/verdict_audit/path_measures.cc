@@ -7,7 +7,6 @@
 #include "bench/verdict_audit/measures.h"
 #include "bench/verdict_audit/overlap.h"
 #include "bench/verdict_audit/second_judge.h"
-#include "core/base/check.h"
 
 namespace rollgait::audit {
 namespace {
@@ -64,18 +63,17 @@ class PairMeasures {
 
   void Measure(const std::vector<LinkPose>& poses, Measures* measures) {
     for (size_t i = 0; i < scene_.pairs.size(); ++i) {
-      const WorldEllipsoid first = Place(scene_.pairs[i].first, poses), second = Place(scene_.pairs[i].second, poses);
+      const WorldBody first = Place(scene_.pairs[i].first, poses), second = Place(scene_.pairs[i].second, poses);
       measures->Raise(Criterion::kOverlap, Overlap(first, second, &directions_[i]));
     }
   }
 
  private:
-  WorldEllipsoid Place(int body, const std::vector<LinkPose>& poses) const {
+  WorldBody Place(int body, const std::vector<LinkPose>& poses) const {
     const BodySurface& surface = scene_.bodies[static_cast<size_t>(body)];
     const LinkPose& pose = poses[static_cast<size_t>(surface.joint)];
-    const Ellipsoid* const ellipsoid = surface.placed.surface.ellipsoid();
-    ROLLGAIT_CHECK(ellipsoid != nullptr);
-    return {pose.p_WL + pose.R_WL * surface.placed.p_BE, pose.R_WL * surface.placed.R_BE, ellipsoid->semi_axes()};
+    return {pose.p_WL + pose.R_WL * surface.placed.p_BE, pose.R_WL * surface.placed.R_BE,
+            BodyOf(surface.placed.surface)};
   }
 
   const Scene& scene_;

@@ -27,6 +27,18 @@ std::string Vector(const v1::Vector3& v) {
          FormatVisible(v.z(), kLeast) + ")";
 }
 
+std::string SemiAxes(const v1::Surface& surface) {
+  return Vector(surface.has_superellipsoid() ? surface.superellipsoid().semi_axes_m()
+                                             : surface.ellipsoid().semi_axes_m());
+}
+
+// "0.8, 0.8"; "-" of an ellipsoid.
+std::string Exponents(const v1::Surface& surface) {
+  if (!surface.has_superellipsoid()) return "-";
+  return FormatNumber(surface.superellipsoid().exponent_1()) + ", " +
+         FormatNumber(surface.superellipsoid().exponent_2());
+}
+
 // "-30 … 120 °", or "free".
 std::string PositionRange(const v1::Joint& joint) {
   const bool angle = joint.type() == v1::Joint::TYPE_REVOLUTE;
@@ -77,6 +89,9 @@ Rows ChangeRows(const v1::ModelSelection& selection) {
   for (const auto& [surface, axes] : feet) {
     rows.push_back({"semi-axes of " + surface, Vector(axes) + " m", "forward, left, up"});
   }
+  for (const auto& [surface, exponent] : InOrder(selection.foot_exponents())) {
+    rows.push_back({"exponent of " + surface, FormatNumber(exponent), "1 is the ellipsoid"});
+  }
   for (const auto& [joint, angle] : InOrder(selection.locked_joints_rad())) {
     rows.push_back({"locked " + joint, FormatVisible(angle * 180 / kPi, 1e-9) + "°", ""});
   }
@@ -111,11 +126,11 @@ std::string ModelText(const v1::Model& model) {
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
   }
   text += "\n" + FormatTable(joints, "");
-  Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "CENTRE m", "MIRROR IMAGE"}};
+  Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "EXPONENTS", "CENTRE m", "MIRROR IMAGE"}};
   for (const v1::ContactSurface& contact : model.contacts()) {
     const bool known = contact.joint() >= 0 && contact.joint() < model.joints_size();
     contacts.push_back({contact.name(), known ? model.joints(contact.joint()).link_name() : "?",
-                        Vector(contact.surface().ellipsoid().semi_axes_m()), Vector(contact.center_m()),
+                        SemiAxes(contact.surface()), Exponents(contact.surface()), Vector(contact.center_m()),
                         contact.mirror_contact()});
   }
   text += "\n" + FormatTable(contacts, "") + "\nSources\n";

@@ -14,8 +14,13 @@ namespace {
 // ContactSurface and BodySurface have the same fields.
 template <typename Placed>
 LinkShape ShapeOf(LinkShape::Kind kind, const Placed& placed, const v1::Model& model) {
-  if (placed.joint() < 0 || placed.joint() >= model.joints_size() || !placed.surface().has_ellipsoid()) {
-    throw Failure(ExitCode::kUsage, "surface " + placed.name() + ": no such joint, or not an ellipsoid");
+  if (placed.joint() < 0 || placed.joint() >= model.joints_size()) {
+    throw Failure(ExitCode::kUsage, "surface " + placed.name() + ": the model has no joint of its index");
+  }
+  if (!placed.surface().has_ellipsoid()) {
+    throw Failure(ExitCode::kUsage, "surface " + placed.name() +
+                                        " is not an ellipsoid, and this format shows no other surface; choose one of "
+                                        "motion alone, such as stride, or solve without exponents of the feet");
   }
   return {kind,
           placed.name(),

@@ -157,10 +157,14 @@ class SideCheck {
         Refuse(At(list, i, "link"), "of \"" + part.name() + "\" is \"" + part.link().substr(0, 64) + "\", no link of " +
                                         tree_.path + DidYouMean(part.link(), known));
       }
-      const Eigen::Vector3d axes = ToVector(part.surface().ellipsoid().semi_axes_m());
-      if (!part.surface().has_ellipsoid() || !axes.allFinite() || axes.minCoeff() < 0.001 || axes.maxCoeff() > 1) {
+      // Exponents and smoothing are the server's to check.
+      const bool super = part.surface().has_superellipsoid();
+      const Eigen::Vector3d axes =
+          ToVector(super ? part.surface().superellipsoid().semi_axes_m() : part.surface().ellipsoid().semi_axes_m());
+      if (!(super || part.surface().has_ellipsoid()) || !axes.allFinite() || axes.minCoeff() < 0.001 ||
+          axes.maxCoeff() > 1) {
         Refuse(At(list, i, "surface"),
-               "of \"" + part.name() + "\" must be an ellipsoid with semi-axes in [0.001, 1] m");
+               "of \"" + part.name() + "\" must be an ellipsoid or a superellipsoid with semi-axes in [0.001, 1] m");
       }
       RequirePlace(At(list, i, "centerM"), part.center_m());
       if (part.has_orientation()) RequireUnit(At(list, i, "orientation"), part.orientation());

@@ -21,19 +21,6 @@ std::string Words(std::string name) {
   return name;
 }
 
-Vector3d SemiAxes(const v1::Surface& surface) {
-  switch (surface.shape_case()) {
-    case v1::Surface::kEllipsoid:
-      return ToVector(surface.ellipsoid().semi_axes_m());
-    case v1::Surface::kSuperellipsoid:
-      return ToVector(surface.superellipsoid().semi_axes_m());
-    case v1::Surface::kSphere:
-      return Vector3d::Constant(surface.sphere().radius_m());
-    default:
-      throw Failure(ExitCode::kUsage, "a surface of the model has no shape that this client knows");
-  }
-}
-
 // Adds what is drawn for the links of one model.
 class Drawing {
  public:
@@ -74,14 +61,15 @@ class Drawing {
     Side side = sides_[placed.joint()];
     const double y = placed.center_m().y();
     if (side == Side::kMiddle && y != 0 && model_.stature_m() > 0) side = y < 0 ? Side::kRight : Side::kLeft;
+    const SurfaceShape shape = ShapeOf(placed.surface());
     shapes_.push_back({Words(placed.name()), placed.joint(),
-                       Pose{ToRotation(placed.orientation()), ToVector(placed.center_m())}, SemiAxes(placed.surface()),
-                       side, kind});
+                       Pose{ToRotation(placed.orientation()), ToVector(placed.center_m())}, shape.semi_axes, side, kind,
+                       shape.super});
   }
 
   // An ellipsoid with axes along those of the link.
   void Draw(const std::string& part, int joint, const Vector3d& center, const Vector3d& semi_axes, Side side) {
-    shapes_.push_back({part, joint, Pose{Eigen::Matrix3d::Identity(), center}, semi_axes, side, ShapeKind::kDrawn});
+    shapes_.push_back({part, joint, Pose{Eigen::Matrix3d::Identity(), center}, semi_axes, side, ShapeKind::kDrawn, {}});
   }
 
   // The next links with mass beyond a link.
@@ -154,7 +142,8 @@ class Drawing {
                     Pose{Eigen::Matrix3d::Identity(), end / 2},
                     {radius, radius, 0.54 * length},
                     sides_[link],
-                    ShapeKind::kDrawn};
+                    ShapeKind::kDrawn,
+                    {}};
     shape.pose.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), end).toRotationMatrix();
     shapes_.push_back(shape);
   }
@@ -210,7 +199,7 @@ class Drawing {
     for (const v1::BodySurface& body : model_.bodies()) {
       if (body.joint() != link || !body.name().ends_with("forearm")) continue;
       const Vector3d center = ToVector(body.center_m());
-      const double elbow = center.z() + SemiAxes(body.surface()).z();
+      const double elbow = center.z() + ShapeOf(body.surface()).semi_axes.z();
       const bool right = center.y() < 0;
       Draw(right ? "right upper arm" : "left upper arm", link, {center.x(), center.y(), elbow + length / 2},
            {0.16 * length, 0.16 * length, 0.54 * length}, right ? Side::kRight : Side::kLeft);

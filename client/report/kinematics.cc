@@ -3,29 +3,9 @@
 #include <cmath>
 
 #include "client/failure.h"
+#include "client/report/surface_shape.h"
 
 namespace rollgait::client {
-namespace {
-
-// The ellipsoid { c + R diag(axes) u : |u| ≤ 1 }, with the shape matrix R diag(axes²) Rᵀ; a projection has that of the
-// kept rows.
-struct PlacedEllipsoid {
-  Eigen::Vector3d center;
-  Eigen::Matrix3d shape;
-};
-
-PlacedEllipsoid Place(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
-  if (contact.joint() < 0 || contact.joint() >= static_cast<int>(poses.size()) || !contact.surface().has_ellipsoid()) {
-    throw Failure(ExitCode::kUsage, "contact " + contact.name() + ": no such joint, or not an ellipsoid");
-  }
-  const Pose& link = poses[contact.joint()];
-  const Eigen::Vector3d center = link.position + link.rotation * ToVector(contact.center_m());
-  const Eigen::Matrix3d rotation = link.rotation * ToRotation(contact.orientation());
-  const Eigen::Vector3d axes = ToVector(contact.surface().ellipsoid().semi_axes_m());
-  return {center, rotation * axes.array().square().matrix().asDiagonal() * rotation.transpose()};
-}
-
-}  // namespace
 
 Eigen::Matrix3d ToRotation(const v1::Quaternion& q) {
   const Eigen::Quaterniond quaternion(q.w(), q.x(), q.y(), q.z());
@@ -63,8 +43,14 @@ std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& p
 }
 
 Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses) {
-  const PlacedEllipsoid placed = Place(contact, poses);
-  return placed.center - placed.shape.col(2) / std::sqrt(placed.shape(2, 2));
+  if (contact.joint() < 0 || contact.joint() >= static_cast<int>(poses.size())) {
+    throw Failure(ExitCode::kUsage, "contact " + contact.name() + ": the model has no joint of its index");
+  }
+  const Pose& link = poses[contact.joint()];
+  const Eigen::Matrix3d rotation = link.rotation * ToRotation(contact.orientation());
+  const Eigen::Vector3d down = -rotation.row(2).transpose();
+  return link.position + link.rotation * ToVector(contact.center_m()) +
+         rotation * ShapeOf(contact.surface()).FurthestPoint(down);
 }
 
 std::string PositiveDirection(const v1::Model& model, int joint) {

@@ -28,8 +28,8 @@ struct Pose {
 // a joint's parent does not come before it.
 std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& positions);
 
-// The lowest point of an ellipsoid in the world; the contact point if the surface touches the ground. Throws
-// Failure(kUsage) for a contact that is on no joint of the poses, or not an ellipsoid.
+// The lowest point of a surface in the world; the contact point if the surface touches the ground. Throws
+// Failure(kUsage) for a contact that is on no joint of the poses, or as ShapeOf.
 Eigen::Vector3d LowestPoint(const v1::ContactSurface& contact, const std::vector<Pose>& poses);
 
 // In which direction a positive position moves what hangs on the joint, at the zero posture: "forward", "backward",

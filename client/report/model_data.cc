@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "client/report/sides.h"
+#include "client/report/surface_shape.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -26,8 +27,11 @@ nlohmann::json ModelData(const v1::Model& model) {
   }
   nlohmann::json contacts = nlohmann::json::array();
   for (const v1::ContactSurface& contact : model.contacts()) {
-    const v1::Vector3& axes = contact.surface().ellipsoid().semi_axes_m();
+    const Eigen::Vector3d axes = ShapeOf(contact.surface()).semi_axes;
     contacts.push_back({{"name", contact.name()}, {"semi_axes", {axes.x(), axes.y(), axes.z()}}});
+    if (!contact.surface().has_superellipsoid()) continue;
+    const v1::Superellipsoid& super = contact.surface().superellipsoid();
+    contacts.back()["exponents"] = {super.exponent_1(), super.exponent_2()};
   }
   return {{"name", model.summary().name()},
           {"description", model.summary().description()},

@@ -57,6 +57,10 @@ class Scene {
                       {"axes", Numbers(shape.semi_axes)},
                       {"side", static_cast<int>(shape.side)},
                       {"kind", static_cast<int>(shape.kind)}});
+      if (shape.super) {
+        list.back()["super"] = {
+            {"along", shape.super->q_1}, {"around", shape.super->q_2}, {"smoothing", shape.super->smoothing}};
+      }
     }
     return list;
   }
@@ -129,7 +133,8 @@ class Scene {
       for (const BodyShape& shape : shapes_) {
         const Pose placed = Compose(links[shape.joint], shape.pose);
         const Vector3d up = placed.rotation.transpose().col(2);
-        height = std::max(height, placed.position.z() + up.cwiseProduct(shape.semi_axes).norm());
+        const SurfaceShape surface{shape.semi_axes, shape.super};
+        height = std::max(height, placed.position.z() + up.dot(surface.FurthestPoint(up)));
       }
     }
     return height;

@@ -81,12 +81,33 @@ void Surface::Evaluate(const Vector3& nu, int order, SupportJet* jet) const {
   jet->x += center_;
 }
 
+const Vector3* Surface::semi_axes() const {
+  if (const auto* body = plain<Ellipsoid>()) return &body->semi_axes();
+  if (const auto* body = plain<SmoothSuperellipsoid>()) return &body->semi_axes();
+  return nullptr;
+}
+
 double Surface::Size() const {
   double size = 0;
   for (int i = 0; i < 3; ++i) {
     for (double sign : {1.0, -1.0}) size = std::max(size, Support(sign * Vector3::Unit(i)));
   }
   return size;
+}
+
+double SupportDifference(const Surface& first, const Matrix3& R_first, const Surface& second, const Matrix3& R_second) {
+  double largest = 0;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const Vector3 nu = Vector3(x, y, z).normalized();
+        const double difference = first.Support(R_first.transpose() * nu) - second.Support(R_second.transpose() * nu);
+        if (!(std::abs(difference) <= largest)) largest = std::abs(difference);
+      }
+    }
+  }
+  return largest;
 }
 
 }  // namespace rollgait

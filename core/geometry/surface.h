@@ -1,12 +1,14 @@
 #ifndef ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 #define ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "core/base/result.h"
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/implicit_surface.h"
+#include "core/geometry/smooth_superellipsoid.h"
 #include "core/geometry/sphere.h"
 #include "core/geometry/superellipsoid.h"
 #include "core/geometry/support_jet.h"
@@ -20,13 +22,11 @@ namespace rollgait {
 // kinds, no virtual call.
 class Surface {
  public:
-  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, ImplicitSurface>;
+  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, SmoothSuperellipsoid, ImplicitSurface>;
 
-  Surface(Kind kind) : kind_(std::move(kind)) {}                            // NOLINT: a surface of that kind
-  Surface(const Ellipsoid& ellipsoid) : kind_(ellipsoid) {}                 // NOLINT
-  Surface(const Sphere& sphere) : kind_(sphere) {}                          // NOLINT
-  Surface(const Superellipsoid& superellipsoid) : kind_(superellipsoid) {}  // NOLINT
-  Surface(const ImplicitSurface& implicit) : kind_(implicit) {}             // NOLINT
+  Surface(Kind kind) : kind_(std::move(kind)) {}  // NOLINT: a surface of that kind
+  template <typename Body>
+  requires std::is_constructible_v<Kind, const Body&> Surface(const Body& body) : kind_(body) {}  // NOLINT
 
   // The same body with its origin at `center` (m) of the axes it is described in; and rounded by `radius` (m, ≥ 0,
   // added to what it has). Contract: finite.
@@ -36,8 +36,16 @@ class Surface {
   const Kind& kind() const { return kind_; }
   const Vector3& center() const { return center_; }
   double rounding() const { return rounding_; }
-  // The ellipsoid if the body is one about the origin and not rounded; otherwise null.
-  const Ellipsoid* ellipsoid() const { return plain_ ? std::get_if<Ellipsoid>(&kind_) : nullptr; }
+  // The body if it is of that kind, about the origin and not rounded; otherwise null.
+  template <typename Body>
+  const Body* plain() const {
+    return plain_ ? std::get_if<Body>(&kind_) : nullptr;
+  }
+  const Ellipsoid* ellipsoid() const { return plain<Ellipsoid>(); }
+  // Of a body that can walk: an ellipsoid or a smooth superellipsoid, about the origin and not rounded; otherwise null.
+  // Of their kind are the surfaces that have four derivatives at every normal and a second implementation in
+  // core/validation.
+  const Vector3* semi_axes() const;
 
   double Support(const Vector3& nu) const;          // h, m
   Vector3 SupportPoint(const Vector3& nu) const;    // x, m
@@ -63,6 +71,10 @@ class Surface {
   double rounding_ = 0;
   bool plain_ = true;  // center_ and rounding_ are zero
 };
+
+// The largest difference of the support functions of two bodies over a fixed set of directions, m; R maps the axes of a
+// body to common ones and may be a reflection. 0: they have the same shape, up to what those directions do not see.
+double SupportDifference(const Surface& first, const Matrix3& R_first, const Surface& second, const Matrix3& R_second);
 
 }  // namespace rollgait
 

@@ -59,9 +59,12 @@ struct SubjectChanges {
   // passive torque: what is left is its spring.
   std::map<std::string, double> strengths;
   std::map<std::string, JointSpring> springs;  // of joints by name
-  // m, of the ellipsoids of the feet: "foot", or "heel" and "forefoot"; with "_l" or "_r" of one side alone, which
+  // m, of the surfaces of the feet: "foot", or "heel" and "forefoot"; with "_l" or "_r" of one side alone, which
   // wins. Length and breadth 0.5 to 1.5 times, height 0.25 to 2 times what the foot's length gives.
   std::map<std::string, Vector3> foot_semi_axes;
+  // Of the same surfaces, [0.4, 1.8]: below 1 the surface is boxier than the ellipsoid that it is without an exponent,
+  // above 1 more pointed.
+  std::map<std::string, double> foot_exponents;
 };
 
 // Which body, as validated: see rollgait.v1.ModelSelection.

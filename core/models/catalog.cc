@@ -71,6 +71,7 @@ Violations RefuseHumanFields(const BodyRequest& request, const std::string& what
   refuse(!request.changes.strengths.empty(), "joint_strengths");
   refuse(!request.changes.springs.empty(), "joint_springs");
   refuse(!request.changes.foot_semi_axes.empty(), "foot_semi_axes_m");
+  refuse(!request.changes.foot_exponents.empty(), "foot_exponents");
   refuse(request.ranges.has_value(), "ranges");
   return violations;
 }

@@ -17,18 +17,28 @@ constexpr double kToesMass = 0.08;
 // Half height of an ellipsoid of the given half length and sole radius.
 double HalfHeight(double half_length, double radius) { return half_length * half_length / radius; }
 
+Surface SurfaceOf(const Vector3& semi_axes, const std::optional<double>& exponent) {
+  if (!exponent) return Ellipsoid(semi_axes);
+  return SmoothSuperellipsoid(semi_axes, *exponent, *exponent, kFootSmoothing);
+}
+
 }  // namespace
 
-std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape, const FootAxes& axes) {
+std::vector<FootSurface> FootSurfaces(const SegmentTable& table, FootShape shape, const FootOutlines& outlines) {
   const double length = table.FootLength(), heel = -table.HeelToAnkle(), sole = -table.AnkleHeight();
   const double radius = kRollingRadius * table.LegLength();
   // `place`: x of the centre for a half length.
   const auto surface = [&](const std::string& name, FootPart part, double half_length, double half_breadth,
                            double sole_radius, auto place) {
-    const auto given = axes.find(name);
+    const auto given = outlines.find(name);
+    const FootOutline outline = given != outlines.end() ? given->second : FootOutline{};
     const Vector3 semi_axes =
-        given != axes.end() ? given->second : Vector3(half_length, half_breadth, HalfHeight(half_length, sole_radius));
-    return FootSurface{name, part, Ellipsoid(semi_axes), Vector3(place(semi_axes.x()), 0, sole + semi_axes.z()),
+        outline.semi_axes.value_or(Vector3(half_length, half_breadth, HalfHeight(half_length, sole_radius)));
+    return FootSurface{name,
+                       part,
+                       semi_axes,
+                       SurfaceOf(semi_axes, outline.exponent),
+                       Vector3(place(semi_axes.x()), 0, sole + semi_axes.z()),
                        part == FootPart::kToe};
   };
   if (shape == FootShape::kOneEllipsoid) {
@@ -45,7 +55,7 @@ FootBodies SplitFoot(const SegmentTable& table, BodySide side) {
   const RigidBody whole = table.Body(Segment::kFoot, side);
   const Vector3 joint = table.AnkleToToes();
   const double half_length = (table.FootLength() - table.HeelToAnkle() - joint.x()) / 2;
-  const double half_height = FootSurfaces(table, FootShape::kTwoEllipsoids)[1].surface.semi_axes().z();
+  const double half_height = FootSurfaces(table, FootShape::kTwoEllipsoids)[1].semi_axes.z();
   const Vector3 squares = Vector3(half_length, kHalfFootBreadth * table.FootLength(), half_height).cwiseAbs2();
   RigidBody toes;
   toes.mass = kToesMass * whole.mass;
@@ -66,6 +76,9 @@ std::vector<std::string> FootSources() {
       "sole radius 0.05 × leg length, forefoot of half length 0.2 and half breadth 0.187 × foot length with sole "
       "radius "
       "0.3 × leg length.",
+      "Feet of a request with an exponent (own choice of shape): superellipsoids of that exponent along and around "
+      "their "
+      "height, smoothed by 0.1 so that they have a curvature everywhere.",
       "Toe joint: at the middle of the metatarsal heads 1 and 5, at 0.3 of the ankle height (assumption). Toes: 0.08 "
       "of the "
       "mass of the foot (OpenSim's gait2392 has 0.14, from memory; with 0.1 or more the rest of the table's female "

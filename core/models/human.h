@@ -15,7 +15,7 @@ struct HumanOptions {
   FootShape feet = FootShape::kOneEllipsoid;
   JointRanges ranges = JointRanges::kAnatomical;
   bool toes = false;  // a toe joint in each foot; contract: with feet of two ellipsoids only
-  FootAxes left_foot = {}, right_foot = {};
+  FootOutlines left_foot = {}, right_foot = {};
 };
 
 struct HumanBody {

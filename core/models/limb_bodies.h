@@ -14,7 +14,7 @@ namespace rollgait {
 // m from the joint centre at the upper end of the segment. Thickness is proportional to stature, length to the length
 // of the segment; neither depends on the mass of the body, so that bodies of different mass and equal size walk alike.
 struct LimbBody {
-  Ellipsoid surface;
+  Surface surface;
   Vector3 center;
 };
 LimbBody ThighBody(const SegmentTable& table);    // from the hip: from 0.15 to 1.15 times the length of the thigh

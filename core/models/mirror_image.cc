@@ -40,15 +40,10 @@ class Comparison {
 
   bool IsMirrored(const ContactSurface& contact) const {
     const ContactSurface& image = contacts_[static_cast<size_t>(contact.mirror_contact)];
-    const Matrix3 mirror = Mirror();
     const Matrix3 R = Rotation(contact.joint) * contact.R_LE, R_image = Rotation(image.joint) * image.R_LE;
-    // Of an ellipsoid by its shape: axes may point either way.
-    const auto shape = [](const Matrix3& axes, const ContactSurface& of) {
-      const Vector3 squares = of.surface.ellipsoid()->semi_axes().cwiseAbs2();
-      return Matrix3(axes * squares.asDiagonal() * axes.transpose());
-    };
+    // Of a surface by its shape: axes may point either way.
     return IsPlace(At(contact.joint, contact.p_LE), At(image.joint, image.p_LE)) &&
-           (shape(R, contact) - mirror * shape(R_image, image) * mirror).norm() <= kTolerance &&
+           SupportDifference(contact.surface, R, image.surface, Mirror() * R_image) <= kTolerance &&
            contact.part == image.part;
   }
 

@@ -36,9 +36,9 @@ struct OwnModel {
 //   units                       total mass and leg length out of range, radii of gyration longer than twice the leg
 //   joints                      a missing or infinite range, velocity or effort of a joint that is not of the base
 //   roles                       no hip; an axis across the role; a passive torque of people on another joint
-//   feet                        no contact on a side, surfaces that are not ellipsoids, soles above the hip, beside
-//   each
-//                               other by more than a fifth of the leg, or above the centre of mass of a link
+//   feet                        no contact on a side, surfaces that are neither ellipsoids nor smooth superellipsoids,
+//                               soles above the hip, beside each other by more than a fifth of the leg, or above the
+//                               centre of mass of a link
 //   mirror                      links, joints, limits or contacts that are not the mirror images they name
 // Violations name fields of rollgait.v1.Model, "joints[3].mass_kg", with link or joint, value and limit.
 Result<Scene> OwnScene(const OwnModel& model);

@@ -164,11 +164,12 @@ void CheckOwnMirror(double leg_length, OwnModelCheck* check) {
       return Vector3(check->p_WL[of.joint] + check->R_WL[of.joint] * of.p_LE);
     };
     const Vector3 expected = Vector3(1, -1, 1).cwiseProduct(center(image));
-    const bool same_axes = contact.surface.ellipsoid()->semi_axes() == image.surface.ellipsoid()->semi_axes();
-    if ((center(contact) - expected).norm() > tolerance || !same_axes || contact.part != image.part) {
+    const Matrix3 same = Matrix3::Identity();
+    const bool same_shape = SupportDifference(contact.surface, same, image.surface, same) == 0;
+    if ((center(contact) - expected).norm() > tolerance || !same_shape || contact.part != image.part) {
       check->Refuse("contacts", c, "mirror_contact", "of \"", contact.name, "\" is \"", image.name,
                     "\", which differs in centre (", center(contact).transpose(), " and mirrored ",
-                    expected.transpose(), " m), semi-axes or part");
+                    expected.transpose(), " m), shape or part");
     }
   }
 }

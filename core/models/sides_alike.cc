@@ -104,6 +104,7 @@ BodyRequest WithSidesAlike(BodyRequest request) {
   const Model human = WholeHuman();
   KeepAlike(&request.segment_lengths);
   KeepAlike(&request.changes.foot_semi_axes);
+  KeepAlike(&request.changes.foot_exponents);
   KeepAlike(&request.changes.loads);
   KeepAlike(
       human, [](double share, double) { return share; }, &request.changes.strengths);
@@ -123,6 +124,7 @@ std::vector<std::string> OneSidedFields(const BodyRequest& request) {
   AddChanged("segment_lengths_m", request.segment_lengths, alike.segment_lengths, &fields);
   AddChanged("locked_joints_rad", request.locked_joints, alike.locked_joints, &fields);
   AddChanged("foot_semi_axes_m", request.changes.foot_semi_axes, alike.changes.foot_semi_axes, &fields);
+  AddChanged("foot_exponents", request.changes.foot_exponents, alike.changes.foot_exponents, &fields);
   AddChanged("joint_strengths", request.changes.strengths, alike.changes.strengths, &fields);
   AddChanged("joint_springs", request.changes.springs, alike.changes.springs, &fields);
   const std::vector<char> have = HaveImages(request.changes.loads);

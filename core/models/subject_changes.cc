@@ -140,6 +140,41 @@ bool CheckSpring(const JointSpring& spring, const std::string& path, Violations*
   return violations->size() == before;
 }
 
+// Names of surfaces that a request gives, by field.
+struct NamedField {
+  const char* field;
+  const std::string& name;
+};
+
+// Visits the surfaces of these feet that have the name, of the side that it ends with or of both, as they are without
+// what the request says of feet; `left` says of which side. The visit returns what is wrong, or nothing; one violation
+// though both sides may refuse it. Violations name field["NAME"].
+template <typename Visit>
+void ForSurfaces(const NamedField& named, const BodySelection& selection, const SidedTables& tables,
+                 Violations* violations, Visit visit) {
+  const std::string& name = named.name;
+  const std::string field = Keyed(named.field, name);
+  const bool left = !name.ends_with("_r"), right = !name.ends_with("_l");
+  const std::string part = left && right ? name : name.substr(0, name.size() - 2);
+  std::vector<std::string> known;
+  std::string problem;
+  for (const bool on_left : {true, false}) {
+    if (on_left ? !left : !right) continue;
+    known.clear();
+    for (const FootSurface& surface : FootSurfaces(on_left ? tables.left : tables.right, selection.feet)) {
+      known.push_back(surface.name);
+      if (surface.name != part) continue;
+      const std::string wrong = visit(surface, on_left);
+      if (problem.empty()) problem = wrong;
+    }
+  }
+  if (std::find(known.begin(), known.end(), part) == known.end()) {
+    problem = "is no surface of these feet" + DidYouMean(part, known) + "; choose from " + Listed(known) +
+              " (see `feet`), with _l or _r that of one side";
+  }
+  if (!problem.empty()) violations->push_back({field, problem});
+}
+
 }  // namespace
 
 std::string NoSuchJoint(const std::string& name, const std::vector<std::string>& known) {
@@ -179,35 +214,27 @@ SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Viol
   SidedFeet feet;
   // In the order of names: of a surface both sides before one of them.
   for (const auto& [name, axes] : selection.changes.foot_semi_axes) {
-    const std::string field = Keyed("foot_semi_axes_m", name);
-    const bool left = !name.ends_with("_r"), right = !name.ends_with("_l");
-    const std::string part = left && right ? name : name.substr(0, name.size() - 2);
-    std::vector<std::string> known;
-    bool refused = false;  // once, though both sides may be too large for it
-    for (const bool on_left : {true, false}) {
-      if (on_left ? !left : !right) continue;
-      known.clear();
-      for (const FootSurface& surface : FootSurfaces(on_left ? tables.left : tables.right, selection.feet)) {
-        known.push_back(surface.name);
-        if (surface.name != part) continue;
-        const Vector3 usual = surface.surface.semi_axes(), low = usual.cwiseProduct(least),
-                      high = usual.cwiseProduct(most);
-        const bool inside = (axes.array() >= low.array()).all() && (axes.array() <= high.array()).all();
-        if (inside) {
-          (on_left ? feet.left : feet.right)[part] = axes;
-        } else if (!refused) {
-          refused = true;
-          violations->push_back(
-              {field, Text("are (", Numbers(axes), ") m; must be between (", Numbers(low), ") and (", Numbers(high),
-                           ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest, " to ", kHighest,
-                           " times what the lengths of foot and leg give")});
-        }
+    ForSurfaces({"foot_semi_axes_m", name}, selection, tables, violations, [&](const FootSurface& usual, bool left) {
+      const Vector3 low = usual.semi_axes.cwiseProduct(least), high = usual.semi_axes.cwiseProduct(most);
+      if ((axes.array() >= low.array()).all() && (axes.array() <= high.array()).all()) {
+        (left ? feet.left : feet.right)[usual.name].semi_axes = axes;
+        return std::string();
       }
-    }
-    if (std::find(known.begin(), known.end(), part) == known.end()) {
-      violations->push_back({field, "is no surface of these feet" + DidYouMean(part, known) + "; choose from " +
-                                        Listed(known) + " (see `feet`), with _l or _r that of one side"});
-    }
+      return Text("are (", Numbers(axes), ") m; must be between (", Numbers(low), ") and (", Numbers(high),
+                  ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest, " to ", kHighest,
+                  " times what the lengths of foot and leg give");
+    });
+  }
+  for (const auto& [name, exponent] : selection.changes.foot_exponents) {
+    ForSurfaces({"foot_exponents", name}, selection, tables, violations, [&](const FootSurface& usual, bool left) {
+      if (IsWithin(exponent, kLeastFootExponent, kMostFootExponent)) {
+        (left ? feet.left : feet.right)[usual.name].exponent = exponent;
+        return std::string();
+      }
+      return Text("is ", exponent, "; must be between ", kLeastFootExponent, " and ", kMostFootExponent,
+                  " (1 is the ellipsoid): ", exponent < kLeastFootExponent ? "boxier" : "more pointed",
+                  " feet are not known to walk");
+    });
   }
   return feet;
 }

@@ -23,10 +23,10 @@ struct SidedTables {
 // out of range.
 SidedTables TablesOf(const BodySelection& selection, Violations* violations);
 
-// The semi-axes of the feet's surfaces on each side. Violations name foot_semi_axes_m["NAME"]: no surface of such feet,
-// a semi-axis out of range. Contract: the tables are those of the selection.
+// The surfaces of the feet on each side. Violations name foot_semi_axes_m["NAME"] and foot_exponents["NAME"]: no
+// surface of such feet, a semi-axis or an exponent out of range. Contract: the tables are those of the selection.
 struct SidedFeet {
-  FootAxes left, right;
+  FootOutlines left, right;
 };
 SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Violations* violations);
 

@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/trajectory/sampling.h"
-#include "core/validation/ellipsoid_overlap.h"
+#include "core/validation/body_overlap.h"
 #include "core/validation/residuals.h"
 
 namespace rollgait {
@@ -16,7 +16,20 @@ constexpr int kTimeSteps = 40;  // of the search in time: each shortens the brac
 constexpr double kGolden = 0.6180339887498949;
 
 // All bodies at one instant.
-using Posture = std::vector<PosedEllipsoid>;
+using Posture = std::vector<PosedBody>;
+
+PosedBody ShapeOf(const Surface& surface) {
+  PosedBody body;
+  ROLLGAIT_CHECK(surface.semi_axes() != nullptr);
+  body.semi_axes = *surface.semi_axes();
+  if (const auto* super = surface.plain<SmoothSuperellipsoid>()) {
+    body.norm.emplace(body.semi_axes, super->exponent_1(), super->exponent_2(), super->smoothing());
+  }
+  return body;
+}
+
+// No point of the body is further from its centre. A superellipsoid may fill the box around it.
+double Reach(const PosedBody& body) { return body.norm ? body.semi_axes.norm() : body.semi_axes.maxCoeff(); }
 
 class IntervalSearch {
  public:
@@ -24,6 +37,7 @@ class IntervalSearch {
     postures_.resize(kSamples + 1);
     moved_.resize(kSamples);
     last_normal_.resize(scene.pairs.size(), Vector3::UnitY());
+    for (const BodySurface& body : scene.bodies) shapes_.push_back(ShapeOf(body.placed.surface));
   }
 
   struct Deepest {
@@ -66,30 +80,30 @@ class IntervalSearch {
     posture->resize(scene_.bodies.size());
     for (size_t b = 0; b < scene_.bodies.size(); ++b) {
       const BodySurface& body = scene_.bodies[b];
-      const Ellipsoid* ellipsoid = body.placed.surface.ellipsoid();
-      ROLLGAIT_CHECK(ellipsoid != nullptr);
       const BodyDynamics::Link& link = state_[body.joint];
-      (*posture)[b] = {link.R_WL * body.placed.R_BE, link.p_WL + link.R_WL * body.placed.p_BE, ellipsoid->semi_axes()};
+      (*posture)[b] = shapes_[b];
+      (*posture)[b].R_WE = link.R_WL * body.placed.R_BE;
+      (*posture)[b].p_WE = link.p_WL + link.R_WL * body.placed.p_BE;
     }
   }
 
   // No point of the body moves further than this.
-  static double Moved(const PosedEllipsoid& from, const PosedEllipsoid& to) {
-    return (to.p_WE - from.p_WE).norm() + from.semi_axes.maxCoeff() * (to.R_WE - from.R_WE).norm();
+  static double Moved(const PosedBody& from, const PosedBody& to) {
+    return (to.p_WE - from.p_WE).norm() + Reach(from) * (to.R_WE - from.R_WE).norm();
   }
 
   // Whether the pair may touch between sample k and the samples next to it. An instant in between is within half of
   // what the bodies move from one sample to the next; the other half is for paths that are not straight.
   bool Near(int pair, int k) {
     const int first = scene_.pairs[pair].first, second = scene_.pairs[pair].second;
-    const PosedEllipsoid &a = postures_[k][first], &b = postures_[k][second];
+    const PosedBody &a = postures_[k][first], &b = postures_[k][second];
     double reach = 0;
     for (const int step : {k - 1, k}) {
       if (step >= 0 && step < kSamples) reach = std::max(reach, moved_[step][first] + moved_[step][second]);
     }
     const double centres = (b.p_WE - a.p_WE).norm();
     // A NaN is near, so that it cannot hide.
-    if (centres - a.semi_axes.maxCoeff() - b.semi_axes.maxCoeff() > reach) return false;
+    if (centres - Reach(a) - Reach(b) > reach) return false;
     if (PlaneDistance(a, b, last_normal_[pair]) > reach) return false;
     last_normal_[pair] = FindScaledContact(a, b).nu;
     return !(PlaneDistance(a, b, last_normal_[pair]) > reach);
@@ -97,7 +111,7 @@ class IntervalSearch {
 
   // At the scaled contact.
   double Distance(int pair, const Posture& posture) const {
-    const PosedEllipsoid &a = posture[scene_.pairs[pair].first], &b = posture[scene_.pairs[pair].second];
+    const PosedBody &a = posture[scene_.pairs[pair].first], &b = posture[scene_.pairs[pair].second];
     const double distance = PlaneDistance(a, b, FindScaledContact(a, b).nu);
     return std::isnan(distance) ? -kInfinity : distance;
   }
@@ -137,6 +151,7 @@ class IntervalSearch {
 
   const Scene& scene_;
   const BodyDynamics& dynamics_;
+  std::vector<PosedBody> shapes_;  // of the bodies, without their place
   Closest closest_;
   const IntervalPolynomials* interval_ = nullptr;
   std::vector<Posture> postures_;

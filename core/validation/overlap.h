@@ -22,7 +22,7 @@ struct OverlapFindings {
 
 // Samples every interval, leaves out pairs whose bodies cannot meet before the next sample, as far as both of them move
 // between two samples, and follows the others in time to every local minimum of the plane distance at their scaled
-// contact (ellipsoid_overlap.h), which is negative when they overlap and only then, and differs from the depth by its
+// contact (body_overlap.h), which is negative when they overlap and only then, and differs from the depth by its
 // square over a radius. There the depth is measured. Half a cycle stands for both halves: the other is its mirror
 // image. Contract: `dynamics` of the scene's model; bodies are ellipsoids.
 OverlapFindings MeasureOverlap(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory);

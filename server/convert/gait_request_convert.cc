@@ -106,6 +106,7 @@ SubjectChanges DecodeChanges(const v1::ModelSelection& selection) {
   for (const auto& [name, axes] : selection.foot_semi_axes_m()) {
     changes.foot_semi_axes[name] = DecodeComponents(axes);
   }
+  changes.foot_exponents = DecodeNumbers(selection.foot_exponents());
   return changes;
 }
 

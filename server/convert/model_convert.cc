@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/check.h"
+#include "server/convert/surface_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -77,12 +78,6 @@ void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_damping(joint.damping);
 }
 
-void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
-  const Ellipsoid* const ellipsoid = surface.ellipsoid();
-  ROLLGAIT_CHECK(ellipsoid != nullptr);  // every model of the catalogue stands on ellipsoids
-  EncodeVector(ellipsoid->semi_axes(), encoded->mutable_ellipsoid()->mutable_semi_axes_m());
-}
-
 void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::ContactSurface* encoded) {
   encoded->set_name(contact.name);
   encoded->set_joint(contact.joint);
@@ -124,6 +119,7 @@ void EncodeChanges(const SubjectChanges& changes, v1::ModelSelection* encoded) {
   for (const auto& [name, axes] : changes.foot_semi_axes) {
     EncodeVector(axes, &(*encoded->mutable_foot_semi_axes_m())[name]);
   }
+  encoded->mutable_foot_exponents()->insert(changes.foot_exponents.begin(), changes.foot_exponents.end());
 }
 
 void EncodeSelection(const BodySelection& selection, v1::ModelSelection* encoded) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "server/convert/surface_convert.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -92,12 +94,8 @@ class Decoder {
   }
 
   Surface DecodeSurface(const std::string& field, const v1::Surface& surface) {
-    const Vector3 axes = Vector(surface.ellipsoid().semi_axes_m());
-    if (surface.has_ellipsoid() && surface.rounding_m() == 0 && axes.allFinite() && axes.minCoeff() > 0) {
-      return Ellipsoid(axes);
-    }
-    Refuse(field, "is not an ellipsoid of finite semi_axes_m > 0 without rounding; no other surface walks");
-    return Ellipsoid(Vector3::Constant(0.1));
+    return rollgait::server::DecodeSurface(prefix_ + field, surface, violations_)
+        .value_or(Ellipsoid(Vector3::Constant(0.1)));
   }
 
   Joint DecodeJoint(int i) {

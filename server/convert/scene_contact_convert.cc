@@ -1,15 +1,9 @@
-#include <optional>
-#include <sstream>
 #include <variant>
 
-#include "core/geometry/flattened_superellipsoid.h"
 #include "server/convert/scene_decoding.h"
 
 namespace rollgait::server {
 namespace {
-
-constexpr double kPointRadius = 1e-15;  // m; a sphere of radius 0 is computed as one of this radius
-constexpr double kMaxRadius = 1e6;      // m
 
 class ContactDecoder {
  public:
@@ -17,73 +11,15 @@ class ContactDecoder {
   SceneContact Decode(const v1::SceneContact& encoded, int k);
 
  private:
-  Surface DecodeSurface(const std::string& field, const v1::Surface& surface);
-  // Nothing if it was refused.
-  std::optional<Surface> DecodeSuperellipsoid(const std::string& field, const v1::Superellipsoid& shape);
-  void RefuseAxes(const std::string& field, const Vector3& axes);
   rollgait::PlacedSurface DecodePlaced(const std::string& field, const v1::PlacedSurface& placed);
   void DecodeOther(const std::string& path, const v1::SceneContact& encoded, TreeContact* contact);
 
   SceneDecoding& decoding_;
 };
 
-Surface ContactDecoder::DecodeSurface(const std::string& field, const v1::Surface& surface) {
-  std::optional<Surface> decoded;
-  switch (surface.shape_case()) {
-    case v1::Surface::kEllipsoid: {
-      const Vector3 axes = DecodeVector(surface.ellipsoid().semi_axes_m());
-      if (axes.allFinite() && axes.minCoeff() > 0 && axes.maxCoeff() <= kMaxRadius) {
-        decoded = Ellipsoid(axes);
-      } else {
-        RefuseAxes(field + ".ellipsoid.semi_axes_m", axes);
-      }
-      break;
-    }
-    case v1::Surface::kSphere: {
-      const double radius = surface.sphere().radius_m();
-      if (radius >= 0 && radius <= kMaxRadius) {
-        decoded = Sphere(radius > 0 ? radius : kPointRadius);
-      } else {
-        decoding_.Refuse(field + ".sphere.radius_m", "is " + std::to_string(radius) + "; must be within [0, 1e6] m");
-      }
-      break;
-    }
-    case v1::Surface::kSuperellipsoid: {
-      decoded = DecodeSuperellipsoid(field + ".superellipsoid", surface.superellipsoid());
-      break;
-    }
-    case v1::Surface::SHAPE_NOT_SET:
-      decoding_.Refuse(field, "is not set; give an ellipsoid, a sphere or a superellipsoid");
-  }
-  if (!(surface.rounding_m() >= 0 && surface.rounding_m() <= kMaxRadius)) {
-    decoding_.Refuse(field + ".rounding_m",
-                     "is " + std::to_string(surface.rounding_m()) + "; must be within [0, 1e6] m");
-    return Sphere(1);
-  }
-  if (!decoded) return Sphere(1);
-  return surface.rounding_m() > 0 ? decoded->Rounded(surface.rounding_m()) : *decoded;
-}
-
-std::optional<Surface> ContactDecoder::DecodeSuperellipsoid(const std::string& field, const v1::Superellipsoid& shape) {
-  const Vector3 axes = DecodeVector(shape.semi_axes_m());
-  const auto take = [&](const auto& created) -> std::optional<Surface> {
-    if (created.ok()) return Surface(created.value());
-    for (const Violation& violation : created.violations()) decoding_.Refuse(violation.field, violation.message);
-    return std::nullopt;
-  };
-  if (shape.flattening() == 0) return take(Superellipsoid::Create(axes, shape.exponent_1(), shape.exponent_2(), field));
-  return take(FlattenedSuperellipsoid::Create(axes, shape.exponent_1(), shape.exponent_2(), shape.flattening(), field));
-}
-
-void ContactDecoder::RefuseAxes(const std::string& field, const Vector3& axes) {
-  std::ostringstream message;
-  message << "is " << axes.transpose() << "; every semi-axis must be larger than 0 and at most 1e6 m";
-  decoding_.Refuse(field, message.str());
-}
-
 rollgait::PlacedSurface ContactDecoder::DecodePlaced(const std::string& field, const v1::PlacedSurface& placed) {
   rollgait::PlacedSurface decoded;
-  decoded.surface = DecodeSurface(field + ".surface", placed.surface());
+  decoded.surface = decoding_.Shape(field + ".surface", placed.surface());
   decoded.p_BE = decoding_.Point(field + ".center_m", placed.center_m());
   decoded.R_BE =
       decoding_.Rotation(field + ".orientation", placed.has_orientation(), placed.orientation()).toRotationMatrix();

@@ -52,6 +52,10 @@ Vector3 SceneDecoding::Direction(const std::string& field, bool given, const v1:
   return direction / norm;
 }
 
+Surface SceneDecoding::Shape(const std::string& field, const v1::Surface& surface) {
+  return DecodeSurface(field, surface, &violations_).value_or(Sphere(1));
+}
+
 Vector3 SceneDecoding::Point(const std::string& field, const v1::Vector3& v) {
   const Vector3 point = DecodeVector(v);
   if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kMaxSceneNumber) {

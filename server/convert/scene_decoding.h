@@ -9,6 +9,7 @@
 #include "core/base/types.h"
 #include "core/simulation/scene.h"
 #include "rollgait/v1/simulation.pb.h"
+#include "server/convert/surface_convert.h"
 
 namespace rollgait::server {
 
@@ -30,6 +31,7 @@ class SceneDecoding {
 
   // Not given: the identity.
   Eigen::Quaterniond Rotation(const std::string& field, bool given, const v1::Quaternion& q);
+  Surface Shape(const std::string& field, const v1::Surface& surface);
   // Of unit length.
   Vector3 Direction(const std::string& field, bool given, const v1::Vector3& v, const Vector3& otherwise);
   Vector3 Point(const std::string& field, const v1::Vector3& v);

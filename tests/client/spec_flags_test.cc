@@ -90,7 +90,7 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
                                       "walking --toes --sagittal --drop-arms --rigid-trunk "
                                       "--lock knee_l=20 --lock elbow_r=-1.5 --load hand_l=10 --load torso=5,0.1,-0.2,0 "
                                       "--strength hip_l=0.3 --spring ankle_l=340 --spring ankle_r=300,18,2 "
-                                      "--foot heel_l=0.03,0.02,0.025")
+                                      "--foot heel_l=0.03,0.02,0.025:0.8 --foot forefoot=:1.2")
                                       .model();
   EXPECT_EQ(body.segment_lengths_m().at("thigh"), 0.45);
   EXPECT_EQ(body.segment_lengths_m().at("foot"), 0.3);
@@ -108,13 +108,18 @@ TEST(SpecFlagsTest, BodyFlagsReachTheirFields) {
   EXPECT_EQ(body.joint_strengths().at("hip_l"), 0.3);
   EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").x(), 0.03);
   EXPECT_EQ(body.foot_semi_axes_m().at("heel_l").z(), 0.025);
+  EXPECT_EQ(body.foot_semi_axes_m().size(), 1u);
+  EXPECT_EQ(body.foot_exponents().at("heel_l"), 0.8);
+  EXPECT_EQ(body.foot_exponents().at("forefoot"), 1.2);
   EXPECT_EQ(body.joint_springs().at("ankle_l").stiffness_n_m_rad(), 340);
   EXPECT_NEAR(body.joint_springs().at("ankle_r").rest_rad(), M_PI / 10, 1e-15);
   EXPECT_EQ(body.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);
   EXPECT_FALSE(Parse("--drop-arms").model().toes());
-  for (const char* line : {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg",
-                           "--segment thigh=", "--load hand_l", "--load hand_l=1,2", "--load =3", "--foot heel=1,2",
-                           "--foot heel", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
+  for (const char* line :
+       {"--lock knee_l", "--lock =3", "--lock knee_l=x", "--lock knee_l=3deg", "--segment thigh=", "--load hand_l",
+        "--load hand_l=1,2", "--load =3", "--foot heel=1,2", "--foot heel",
+        "--foot heel=0.03,0.02,0.025:", "--foot heel=:", "--foot =:1", "--foot heel:0.8", "--foot heel=1,2:0.8",
+        "--foot heel=:0.8,1", "--strength hip_l", "--spring ankle_l=", "--spring ankle_l=1,2,3,4"}) {
     EXPECT_THROW(Parse(line), Failure) << line;
   }
 }

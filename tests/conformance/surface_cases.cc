@@ -70,6 +70,14 @@ SurfaceCase SuperellipsoidCase(const std::string& name, const Vector3& axes, dou
           [=](const Vector3& x) { return Barr(x, axes, eps1, eps2); }, 0.3, angle};
 }
 
+// Normals of any direction: no flats, edges or tips.
+SurfaceCase SmoothCase(const std::string& name, double eps1, double eps2, double angle) {
+  const Vector3 axes(0.8, 1.2, 0.5);
+  return {name,
+          [=](double scale) { return Surface(SmoothSuperellipsoid::Create(scale * axes, eps1, eps2, 0.2).value()); },
+          nullptr, 0, angle};
+}
+
 SurfaceCase FlattenedCase(const std::string& name, double eps1, double eps2, double delta, double angle) {
   const Vector3 axes(0.8, 1.2, 0.5);
   return {
@@ -104,6 +112,9 @@ std::vector<SurfaceCase> MakeCases() {
          return Surface(Superellipsoid::Create(scale * axes, 1.4, 1.2).value()).Rounded(scale * 0.1);
        },
        nullptr, 0.3, 0.3},
+      SmoothCase("SmoothBoxySuperellipsoid", 0.6, 0.6, 0.15),
+      SmoothCase("SmoothPinchedSuperellipsoid", 1.6, 1.6, 0.1),
+      SmoothCase("SmoothMixedSuperellipsoid", 0.7, 1.4, 0.15),
       FlattenedCase("FlattenedSuperellipsoid", 0.5, 0.8, 0.05, 0.2),
       FlattenedCase("FlattenedBox", 0.25, 0.25, 0.02, 0.12),
       {"ImplicitQuartic",

@@ -1,4 +1,4 @@
-// Poses of the scene's ellipsoids, and their outlines.
+// Poses of the scene's ellipsoids and superellipsoids, and their outlines.
 
 function multiply(a, b) {
   // quaternions w, x, y, z
@@ -61,6 +61,51 @@ function outline(center, quaternion, axes, [u, v]) {
     b: Math.sqrt(Math.max(middle - apart, 0)),
     angle: Math.atan2(2 * uv, uu - vv) / 2,
   };
+}
+
+// Gradient of a superellipsoid's support function (rollgait.v1.Superellipsoid with smoothing, `form` as the scene has it)
+// before its axes are scaled.
+function slopeOf(form, t) {
+  const round = form.smoothing ** 2,
+    whole = round * (t[0] ** 2 + t[1] ** 2 + t[2] ** 2);
+  const n = t.map((c) => Math.sqrt(c * c + whole));
+  const m = (n[0] ** form.around + n[1] ** form.around) ** (1 / form.around),
+    h = (m ** form.along + n[2] ** form.along) ** (1 / form.along),
+    side = (m / h) ** (form.along - 1);
+  const slopes = [
+    (side * (n[0] / m) ** (form.around - 1)) / n[0],
+    (side * (n[1] / m) ** (form.around - 1)) / n[1],
+    (n[2] / h) ** (form.along - 1) / n[2],
+  ];
+  const common = round * (slopes[0] + slopes[1] + slopes[2]);
+  return slopes.map((s, k) => (s + common) * t[k]);
+}
+
+// The point of a shape furthest along a direction, in its own axes.
+function furthestPoint(axes, form, direction) {
+  const stretched = direction.map((d, k) => d * axes[k]);
+  if (!form) {
+    const size = Math.hypot(...stretched);
+    return axes.map((a, k) => (a * stretched[k]) / size);
+  }
+  const scales = [0, 1, 2].map((k) => 1 / slopeOf(form, [+(k === 0), +(k === 1), +(k === 2)])[k]);
+  const slope = slopeOf(
+    form,
+    stretched.map((c, k) => c * scales[k]),
+  );
+  return axes.map((a, k) => a * scales[k] * slope[k]);
+}
+
+// The outline of any shape seen along an axis: points around it.
+const OUTLINE_POINTS = 72;
+function outlinePoints(center, quaternion, shape, [u, v]) {
+  const r = rotationOf(quaternion);
+  return Array.from({ length: OUTLINE_POINTS }, (_, i) => {
+    const angle = (2 * Math.PI * i) / OUTLINE_POINTS,
+      direction = [0, 1, 2].map((k) => Math.cos(angle) * r[u][k] + Math.sin(angle) * r[v][k]);
+    const offset = turn(r, furthestPoint(shape.axes, shape.super, direction));
+    return [center[u] + offset[u], center[v] + offset[v]];
+  });
 }
 
 // Rows of `tracks` from the first on, at a percentage; null where the first one is unknown.

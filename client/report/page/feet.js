@@ -20,7 +20,11 @@ function footMap(scene, side) {
   });
   const outlines = scene.shapes
     .filter((shape) => links.has(shape.link))
-    .map((shape) => ({ ...outline(shape.center, shape.rotation, shape.axes, PLANES.top), part: shape.part }));
+    .map((shape) => ({
+      ...outline(shape.center, shape.rotation, shape.axes, PLANES.top),
+      points: shape.super ? outlinePoints(shape.center, shape.rotation, shape, PLANES.top) : null,
+      part: shape.part,
+    }));
   return { parts, outlines };
 }
 
@@ -56,10 +60,12 @@ function reach({ name, points }) {
 function drawFoot(maps, name, width) {
   const { outlines } = maps[0];
   const extent = (o, axis) =>
-    Math.hypot(
-      o.a * (axis ? Math.sin(o.angle) : Math.cos(o.angle)),
-      o.b * (axis ? Math.cos(o.angle) : Math.sin(o.angle)),
-    );
+    o.points
+      ? Math.max(...o.points.map((p) => Math.abs(p[axis] - (axis ? o.v : o.u))))
+      : Math.hypot(
+          o.a * (axis ? Math.sin(o.angle) : Math.cos(o.angle)),
+          o.b * (axis ? Math.cos(o.angle) : Math.sin(o.angle)),
+        );
   const low = [0, 1].map((k) => Math.min(...outlines.map((o) => (k ? o.v : o.u) - extent(o, k)))),
     high = [0, 1].map((k) => Math.max(...outlines.map((o) => (k ? o.v : o.u) + extent(o, k))));
   const scale = Math.min((width - 20) / (high[0] - low[0]), 190 / (high[1] - low[1])),
@@ -74,6 +80,12 @@ function drawFoot(maps, name, width) {
       `${maps[0].parts.map(reach).join("; ")}.`,
   });
   for (const o of outlines) {
+    const title = svg("title", {}, o.part);
+    if (o.points) {
+      const points = o.points.map(([u, v]) => `${px(u).toFixed(1)},${py(v).toFixed(1)}`).join(" ");
+      root.append(svg("polygon", { class: "sole", points }, title));
+      continue;
+    }
     root.append(
       svg(
         "ellipse",
@@ -83,7 +95,7 @@ function drawFoot(maps, name, width) {
           ry: o.b * scale,
           transform: `translate(${px(o.u)} ${py(o.v)}) rotate(${(-o.angle * 180) / Math.PI})`,
         },
-        svg("title", {}, o.part),
+        title,
       ),
     );
   }

@@ -1,4 +1,4 @@
-// The body without WebGL: outlines of its ellipsoids from the side or from behind, and snapshots.
+// The body without WebGL: outlines of its shapes from the side or from behind, and snapshots.
 const FORCE_M = 0.006; // metres of arrow for one per cent of body weight
 const LONGEST_FORCE = 200; // % of body weight; longer arrows are cut
 
@@ -29,7 +29,7 @@ function figure(solve, view, withForces) {
   const order = scene.shapes.map((shape, i) => ({ shape, i })).sort((a, b) => depth(a.shape) - depth(b.shape));
   const group = svg("g"),
     marks = order.map(({ shape, i }) => {
-      const mark = svg("ellipse", {
+      const mark = svg(shape.super ? "polygon" : "ellipse", {
         "data-part": shape.part,
         style: `${sidePaint(shape.side, color)};stroke-width:0.006`,
       });
@@ -46,6 +46,11 @@ function figure(solve, view, withForces) {
   const update = (percent) => {
     const poses = shapePoses(scene, percent);
     for (const { mark, shape, i } of marks) {
+      if (shape.super) {
+        const points = outlinePoints(poses[i].center, poses[i].quaternion, shape, plane);
+        mark.setAttribute("points", points.map((p) => p.map((c) => c.toFixed(4)).join(",")).join(" "));
+        continue;
+      }
       const o = outline(poses[i].center, poses[i].quaternion, shape.axes, plane);
       mark.setAttribute("rx", o.a.toFixed(4));
       mark.setAttribute("ry", o.b.toFixed(4));

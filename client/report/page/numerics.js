@@ -127,7 +127,8 @@ function convergence() {
 }
 
 function contactText(contact) {
-  return `${words(contact.name)} with semi-axes ${contact.semi_axes.map((a) => fmt(a * 1e3, 3)).join(" × ")} mm`;
+  const size = `${words(contact.name)} with semi-axes ${contact.semi_axes.map((a) => fmt(a * 1e3, 3)).join(" × ")} mm`;
+  return contact.exponents ? `${size} and exponents ${contact.exponents.map((e) => fmt(e, 3)).join(", ")}` : size;
 }
 
 function model() {

@@ -73,7 +73,7 @@ class WalkerMesh {
     this.ground.add(lane, this.marks);
   }
 
-  // Everything that is an ellipsoid is one mesh, drawn at once: the body, the centre of mass, the points of contact and
+  // Everything of one form is one mesh, drawn at once; ellipsoids are most of it: the body, the centre of mass, the points of contact and
   // the centres of pressure. Surfaces that touch the ground are glass where there are few gaits, so that the tracks on
   // them are seen; those of a rolling body show its rotation.
   addBody() {
@@ -87,17 +87,31 @@ class WalkerMesh {
       paint: paints[shape.side] + (shape.kind === 0 ? "Foot" : ""),
     }));
     const apart = shapes.filter(({ shape }) => (glass || rolls) && shape.kind === 0);
-    this.beads = this.addBeads(this.shapes.sphere, {}, [
+    const solid = this.addForms(this.shapes.sphere, {}, [
       ...shapes.filter((bead) => !apart.includes(bead)),
       ...(this.travels ? [{ kind: "center", paint: "center" }] : []),
       ...this.scene.contacts.map((contact) => ({ kind: "point", contact, paint: "point" })),
       ...this.scene.feet.map((foot) => ({ kind: "pressure", foot, paint: "pressure" })),
     ]);
     const feet = rolls ? quartered(this.three, this.shapes.sphere) : this.shapes.sphere;
-    this.feet = apart.length
-      ? this.addBeads(feet, glass ? { transparent: true, opacity: 0.62 } : {}, apart, rolls)
-      : null;
+    this.beads = [
+      ...solid,
+      ...this.addForms(feet, glass ? { transparent: true, opacity: 0.62 } : {}, apart, rolls),
+    ];
     this.off = new Set(); // kinds that are switched off
+  }
+
+  // A mesh for the ellipsoids among the beads, and for each other form.
+  addForms(sphere, options, beads, painted = false) {
+    const forms = new Map();
+    for (const bead of beads) {
+      const form = bead.shape?.super,
+        key = JSON.stringify(form ?? null);
+      forms.set(key, { form, beads: [...(forms.get(key)?.beads ?? []), bead] });
+    }
+    return [...forms.values()].map(({ form, beads: alike }) =>
+      this.addBeads(form ? superellipsoid(sphere, form) : sphere, options, alike, painted),
+    );
   }
 
   // Instances of a shape in colours of their own, or in those of the shape.
@@ -181,7 +195,7 @@ class WalkerMesh {
       marks: colorValue("var(--mark)"),
     };
     for (const [name, material] of Object.entries(this.materials)) material.color.set(colors[name]);
-    for (const { mesh, beads, painted } of [this.beads, this.feet].filter(Boolean)) {
+    for (const { mesh, beads, painted } of this.beads) {
       if (painted) continue;
       const attribute = mesh.geometry.attributes.color;
       beads.forEach((bead, k) => new this.three.Color(colors[bead.paint]).toArray(attribute.array, 3 * k));
@@ -208,7 +222,7 @@ class WalkerMesh {
     this.world.position.x = -x;
     this.marks.position.x = -(((x % MARK) + MARK) % MARK);
     const poses = shapePoses(this.scene, percent);
-    for (const { mesh, beads } of [this.beads, this.feet].filter(Boolean))
+    for (const { mesh, beads } of this.beads)
       beads.forEach((bead, k) => this.placeBead(mesh, k, bead, poses, percent));
     this.scene.contacts.forEach((contact, k) => this.placeForce(contact, k, percent));
     for (const { own, shape } of this.onFeet) {
@@ -276,6 +290,17 @@ class WalkerMesh {
     const xs = Array.from(this.scene.tracks[this.scene.center]).filter(known);
     return (Math.min(...xs) + Math.max(...xs)) / 2;
   }
+}
+
+// The superellipsoid of a form with semi-axes 1, from the unit sphere, whose normals it keeps.
+function superellipsoid(sphere, form) {
+  const shape = sphere.clone(),
+    place = shape.attributes.position;
+  for (let i = 0; i < place.count; ++i) {
+    const normal = [place.getX(i), place.getY(i), place.getZ(i)];
+    place.setXYZ(i, ...furthestPoint([1, 1, 1], form, normal));
+  }
+  return shape;
 }
 
 // A sphere whose eighths are light and dark in turn, so that its rotation is seen.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "bench/verdict_audit/interval_motion.h"
@@ -20,8 +22,9 @@ struct Gait {
   Trajectory trajectory;
 };
 
-Gait Solve(GaitRequest::TouchDown touch_down) {
+Gait Solve(GaitRequest::TouchDown touch_down, const std::map<std::string, double>& exponents = {}) {
   GaitRequest request;
+  request.body.changes.foot_exponents = exponents;
   request.body.model = "planar";
   request.motion.speed = 1.3;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
@@ -39,6 +42,11 @@ const Gait& Smooth() {
 }
 const Gait& Plastic() {
   static const Gait gait = Solve(GaitRequest::TouchDown::kPlastic);
+  return gait;
+}
+
+const Gait& OnSuperellipsoids() {
+  static const Gait gait = Solve(GaitRequest::TouchDown::kSmooth, {{"foot", 0.8}});
   return gait;
 }
 
@@ -86,7 +94,7 @@ int JointOf(const Gait& gait, const char* name) {
 // positive and negative parts meet between instants.
 TEST(SecondJudge, FindsWhatTheFirstFindsInASoundGait) {
   using enum Criterion;
-  for (const Gait* gait : {&Smooth(), &Plastic()}) {
+  for (const Gait* gait : {&Smooth(), &Plastic(), &OnSuperellipsoids()}) {
     const CriterionValues first = First(*gait), second = Second(*gait);
     for (const CriterionTraits& traits : Criteria()) {
       const double found = first[traits.criterion], rounding = 1e-4 * traits.standard;

@@ -66,5 +66,28 @@ TEST(FormatTableTest, SaysWhatIsMissing) {
   EXPECT_EQ(ExportSolve(solve, FindFormat("json")).size(), 1u);
 }
 
+// What shows bodies says no to feet that it cannot show as they are; what does not shows the motion.
+TEST(FormatTableTest, FormatsThatShowBodiesRefuseSuperellipsoids) {
+  v1::Solve solve = SampleSolve("solves/a", 0.1);
+  v1::Surface& surface = *solve.mutable_result()->mutable_model()->mutable_contacts(0)->mutable_surface();
+  const v1::Vector3 axes = surface.ellipsoid().semi_axes_m();
+  v1::Superellipsoid& super = *surface.mutable_superellipsoid();
+  *super.mutable_semi_axes_m() = axes;
+  super.set_exponent_1(0.8);
+  super.set_exponent_2(0.8);
+  super.set_smoothing(0.1);
+  std::set<std::string> refused;
+  for (const Format& format : Formats()) {
+    try {
+      ExportSolve(solve, format);
+    } catch (const Failure& failure) {
+      refused.insert(format.name);
+      EXPECT_EQ(failure.code(), ExitCode::kUsage);
+      EXPECT_THAT(failure.what(), HasSubstr("surface left_foot is not an ellipsoid, and this format shows no other"));
+    }
+  }
+  EXPECT_EQ(refused, (std::set<std::string>{"glb", "gltf", "mcap", "mjcf", "opensim", "osim"}));
+}
+
 }  // namespace
 }  // namespace rollgait::client

@@ -124,7 +124,7 @@ TEST(LimbBodiesTest, ThicknessIsThatOfPeople) {
   const LimbBody shank = ShankBody(table);
   const double length = table.Length(Segment::kShank);
   const auto radius = [](const LimbBody& limb, double height) {  // at a height over the joint centre, m
-    const Vector3 axes = limb.surface.semi_axes();
+    const Vector3 axes = *limb.surface.semi_axes();
     const double along = (height - limb.center.z()) / axes.z();
     return axes.y() * std::sqrt(1 - along * along);
   };
@@ -134,7 +134,7 @@ TEST(LimbBodiesTest, ThicknessIsThatOfPeople) {
   const double thigh = table.Length(Segment::kThigh);
   EXPECT_NEAR(2 * pi * radius(ThighBody(table), -thigh), 0.386 * 0.77, 0.02);  // knee, flesh yields
   // Mass does not make limbs thicker: gaits of equal people of different mass are the same.
-  EXPECT_EQ(ShankBody(SegmentTable(Sex::kMale, 1.756, 120)).surface.semi_axes(), shank.surface.semi_axes());
+  EXPECT_EQ(*ShankBody(SegmentTable(Sex::kMale, 1.756, 120)).surface.semi_axes(), *shank.surface.semi_axes());
 }
 
 TEST(LimbBodiesTest, ReductionsKeepThePairsThatMove) {

@@ -62,6 +62,22 @@ INSTANTIATE_TEST_SUITE_P(Models, ReadBackTest,
                                            std::pair{"human29", FootShape::kOneEllipsoid},
                                            std::pair{"human29", FootShape::kTwoEllipsoids}));
 
+// A model on superellipsoids reads back; of which sides differ in an exponent alone are no mirror images.
+TEST(OwnModelTest, StandsOnSuperellipsoids) {
+  BodyRequest request;
+  request.model = "planar";
+  request.changes.foot_exponents = {{"foot", 0.8}};
+  OwnModel model = DataOf(BuildScene(request).value());
+  const Result<Scene> scene = OwnScene(model);
+  ASSERT_TRUE(scene.ok()) << scene.violations()[0].field << " " << scene.violations()[0].message;
+  EXPECT_TRUE(scene.value().symmetric);
+  ASSERT_NE(scene.value().contacts[0].surface.plain<SmoothSuperellipsoid>(), nullptr);
+  model.contacts[0].surface = SmoothSuperellipsoid(*model.contacts[0].surface.semi_axes(), 0.8, 0.9, 0.1);
+  const Result<Scene> uneven = OwnScene(model);
+  ASSERT_FALSE(uneven.ok());
+  EXPECT_EQ(uneven.violations()[0].field, "contacts[0].mirror_contact");
+}
+
 TEST(OwnModelTest, MeasuresTheLegWhereItIsNotGiven) {
   OwnModel model = Human();
   const double given = *model.leg_length;
@@ -169,6 +185,21 @@ INSTANTIATE_TEST_SUITE_P(
                "contacts", "none on the left"},
         Broken{"SphericalFoot", [](OwnModel* m) { m->contacts[0].surface = Sphere(0.03); }, "contacts[0].surface",
                "ellipsoid"},
+        Broken{"SharpFoot",
+               [](OwnModel* m) {
+                 m->contacts[0].surface = Superellipsoid(*m->contacts[0].surface.semi_axes(), 0.8, 0.8);
+               },
+               "contacts[0].surface", "with smoothing"},
+        Broken{"FlatFoot",
+               [](OwnModel* m) {
+                 m->contacts[0].surface = SmoothSuperellipsoid(*m->contacts[0].surface.semi_axes(), 0.1, 1, 0.1);
+               },
+               "contacts[0].surface.superellipsoid.exponent_1", "is 0.1"},
+        Broken{"EdgedFoot",
+               [](OwnModel* m) {
+                 m->contacts[0].surface = SmoothSuperellipsoid(*m->contacts[0].surface.semi_axes(), 0.8, 1, 0.02);
+               },
+               "contacts[0].surface.superellipsoid.smoothing", "between 0.1 and 1"},
         Broken{"ThickFoot", [](OwnModel* m) { m->contacts[0].surface = Ellipsoid(Vector3(2, 0.1, 0.1)); },
                "contacts[0].surface", "0.001"},
         Broken{"FeetAboveTheHip",

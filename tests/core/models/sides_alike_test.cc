@@ -143,6 +143,7 @@ TEST(OneSidedFields, AreNoneOfABodyWhoseSidesAreAlike) {
   EXPECT_THAT(OneSidedFields(request), IsEmpty());
   request.segment_lengths = {{"thigh", 0.45}, {"foot_l", 0.26}, {"foot_r", 0.26}};
   request.changes.foot_semi_axes = {{"foot", Vector3(0.13, 0.05, 0.05)}};
+  request.changes.foot_exponents = {{"foot_l", 0.8}, {"foot_r", 0.8}};
   request.locked_joints = {{"knee_l", 0.1}, {"knee_r", 0.1}, {"trunk_flexion", 0.1}, {"trunk_bending", 0}};
   request.changes.strengths = {{"hip_l", 0.5}, {"hip_r", 0.5}};
   request.changes.springs = {{"ankle_l", {300, 0.1, 2}}, {"ankle_r", {300, 0.1, 2}}};
@@ -180,6 +181,8 @@ TEST(OneSidedFields, NameWhatDiffers) {
               ElementsAre("joint_springs[\"trunk_rotation\"]"));
   EXPECT_THAT(of([](BodyRequest* r) { r->changes.foot_semi_axes["foot_r"] = Vector3(0.13, 0.05, 0.05); }),
               ElementsAre("foot_semi_axes_m[\"foot_r\"]"));
+  EXPECT_THAT(of([](BodyRequest* r) { r->changes.foot_exponents["foot_r"] = 0.8; }),
+              ElementsAre("foot_exponents[\"foot_r\"]"));
   EXPECT_THAT(of([](BodyRequest* r) {
                 r->changes.loads = {{.segment = "torso", .mass = 1, .position = {}},
                                     {.segment = "hand_l", .mass = 1, .position = {}}};

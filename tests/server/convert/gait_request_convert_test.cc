@@ -300,7 +300,7 @@ TEST(DecodeBody, EveryReductionArrives) {
       "sagittal: true drop_arms: true rigid_trunk: true locked_joints_rad { key: 'knee_l' value: 0.2 } "
       "loads { segment: 'hand_l' mass_kg: 10 position_m { x: 1 y: 2 z: 3 } moments_kg_m2 { x: 4 y: 5 z: 6 } } "
       "loads { segment: 'torso' mass_kg: 2 } joint_strengths { key: 'hip_l' value: 0.3 } "
-      "foot_semi_axes_m { key: 'heel_l' value { x: 7 y: 8 z: 9 } } "
+      "foot_semi_axes_m { key: 'heel_l' value { x: 7 y: 8 z: 9 } } foot_exponents { key: 'heel_r' value: 0.8 } "
       "joint_springs { key: 'ankle_r' value { stiffness_n_m_rad: 300 rest_rad: 0.1 damping_n_m_s_rad: 2 } } }");
   const BodyRequest body = DecodeBody(spec.model()).value();
   EXPECT_EQ(body.segment_lengths.at("thigh"), 0.45);
@@ -317,6 +317,7 @@ TEST(DecodeBody, EveryReductionArrives) {
   EXPECT_TRUE(body.changes.loads[1].moments.isZero(0));
   EXPECT_EQ(body.changes.strengths.at("hip_l"), 0.3);
   EXPECT_EQ(body.changes.foot_semi_axes.at("heel_l"), Vector3(7, 8, 9));
+  EXPECT_EQ(body.changes.foot_exponents.at("heel_r"), 0.8);
   const JointSpring& spring = body.changes.springs.at("ankle_r");
   EXPECT_EQ(Vector3(spring.stiffness, spring.rest, spring.damping), Vector3(300, 0.1, 2));
   const BodyRequest unset = DecodeBody(v1::ModelSelection()).value();

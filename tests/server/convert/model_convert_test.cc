@@ -4,7 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <string>
+
+#include "core/models/foot.h"
+#include "server/convert/surface_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -163,6 +167,43 @@ TEST(EncodeSummary, IsTheSameForTheCatalogueAndTheModel) {
   }
 }
 
+// A superellipsoid arrives with everything that makes its shape, and is read back as it was.
+TEST(EncodeModel, TellsTheSuperellipsoidsOfFeet) {
+  BodyRequest body;
+  body.model = "planar";
+  body.changes.foot_exponents = {{"foot", 0.8}};
+  const Scene scene = BuildScene(body).value();
+  const v1::Model encoded = EncodeModel(scene, 9.81);
+  const v1::Surface& surface = encoded.contacts(0).surface();
+  ASSERT_TRUE(surface.has_superellipsoid());
+  EXPECT_EQ(Decode(surface.superellipsoid().semi_axes_m()), *scene.contacts[0].surface.semi_axes());
+  EXPECT_EQ(surface.superellipsoid().exponent_1(), 0.8);
+  EXPECT_EQ(surface.superellipsoid().exponent_2(), 0.8);
+  EXPECT_EQ(surface.superellipsoid().smoothing(), kFootSmoothing);
+  EXPECT_EQ(surface.superellipsoid().flattening(), 0);
+  Violations violations;
+  const std::optional<Surface> back = DecodeSurface("surface", surface, &violations);
+  ASSERT_TRUE(back && violations.empty());
+  const Matrix3 none = Matrix3::Identity();
+  EXPECT_EQ(SupportDifference(*back, none, scene.contacts[0].surface, none), 0);
+}
+
+TEST(DecodeSurface, RefusesSmoothingBesideFlattening) {
+  v1::Surface surface;
+  v1::Superellipsoid& super = *surface.mutable_superellipsoid();
+  super.mutable_semi_axes_m()->set_x(1), super.mutable_semi_axes_m()->set_y(1), super.mutable_semi_axes_m()->set_z(1);
+  super.set_exponent_1(0.8), super.set_exponent_2(0.8), super.set_flattening(0.1), super.set_smoothing(0.1);
+  Violations violations;
+  EXPECT_FALSE(DecodeSurface("body", surface, &violations));
+  ASSERT_EQ(violations.size(), 1u);
+  EXPECT_EQ(violations[0].field, "body.superellipsoid.smoothing");
+  EXPECT_EQ(violations[0].message, "is set together with flattening; give one of the two");
+  super.set_flattening(0), super.set_smoothing(-1);
+  violations.clear();
+  EXPECT_FALSE(DecodeSurface("body", surface, &violations));
+  EXPECT_EQ(violations[0].message, "The smoothing is -1; it must lie in 0.01 … 1.");
+}
+
 // What comes back selects the same body again.
 TEST(EncodeModel, SelectionNamesTheReductions) {
   BodyRequest body;
@@ -176,6 +217,7 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
   body.changes.strengths = {{"knee_l", 0.5}};
   body.changes.springs = {{"ankle_r", {300, 0.1, 2}}};
   body.changes.foot_semi_axes = {{"heel_l", Vector3(0.035, 0.03, 0.02)}};
+  body.changes.foot_exponents = {{"heel_l", 0.8}};
   const v1::ModelSelection selection = EncodeModel(BuildScene(body).value(), 9.81).selection();
   EXPECT_EQ(selection.feet(), v1::ModelSelection::FEET_TWO_ELLIPSOIDS);
   EXPECT_TRUE(selection.toes() && selection.rigid_trunk());
@@ -192,6 +234,7 @@ TEST(EncodeModel, SelectionNamesTheReductions) {
   EXPECT_EQ(selection.joint_strengths().at("knee_l"), 0.5);
   EXPECT_EQ(selection.foot_semi_axes_m().at("heel_l").x(), 0.035);
   EXPECT_EQ(selection.foot_semi_axes_m().at("heel_l").z(), 0.02);
+  EXPECT_EQ(selection.foot_exponents().at("heel_l"), 0.8);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").stiffness_n_m_rad(), 300);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").rest_rad(), 0.1);
   EXPECT_EQ(selection.joint_springs().at("ankle_r").damping_n_m_s_rad(), 2);

@@ -117,7 +117,8 @@ TEST(SceneConvert, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(FirstField([](auto& s) { s.set_travel_joint("nobody"); }), "travel_joint");
 }
 
-// A boxy body that rocks on its face: flat, the rolling constraint does not exist there; with a flattening it does.
+// A boxy body that rocks on its face: flat, the rolling constraint does not exist there; with a flattening or a
+// smoothing it does.
 TEST(SceneConvert, AFlatteningLetsABoxRockOnItsFace) {
   v1::SimulationScene scene = ReadShipped("triaxial_ellipsoid.json");
   v1::Quaternion* const upright = scene.mutable_joints(0)->mutable_initial()->mutable_orientation();
@@ -137,7 +138,9 @@ TEST(SceneConvert, AFlatteningLetsABoxRockOnItsFace) {
   EXPECT_EQ(end(), SimulationEnd::kNotFinite);
   box->set_flattening(0.05);
   EXPECT_EQ(end(), SimulationEnd::kDuration);
-  box->set_flattening(1e-9);
+  box->set_flattening(0), box->set_smoothing(0.1);
+  EXPECT_EQ(end(), SimulationEnd::kDuration);
+  box->set_smoothing(0), box->set_flattening(1e-9);
   const Result<SimulationScene> refused = DecodeScene(scene);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.violations()[0].field, "contacts[0].body.surface.superellipsoid.flattening");

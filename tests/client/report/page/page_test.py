@@ -78,6 +78,21 @@ class PageTest(unittest.TestCase):
         for error in browser.evaluate("outlineError()"):
             self.assertAlmostEqual(error, 1, delta=1e-3)
 
+    def test_superellipsoids_are_drawn_as_they_are(self):
+        self.open(reports.shaped())
+        # Where the solver says that a surface bears, its outline touches the ground, to the step between points and the packing.
+        heights = browser.evaluate("heightsOfBearingOutlines()")
+        self.assertGreater(len(heights), 50)
+        for height in heights:
+            self.assertAlmostEqual(height, 0, delta=5e-4)
+        self.assertEqual(browser.evaluate("all('polygon.sole').length"), 4)
+        text = browser.evaluate("document.body.textContent")
+        self.assertIn("and exponents 0.6, 0.6", text)
+        self.assertIn("and exponents 1.6, 1.6", text)
+        self.open(reports.shaped(), flat)
+        self.assertEqual(flat.evaluate("all('.flat polygon').map((p) => p.dataset.part).sort().join()"),
+                         "left forefoot,left heel,right forefoot,right heel")
+
     def test_labels_do_not_overlap_and_are_large_enough(self):
         for width in (390, 1280):
             self.open(reports.one(), width=width)

@@ -67,6 +67,22 @@ const forceSums = () =>
     contactValues(i, 7).reduce((sum, f) => sum + f, 0),
   ]);
 
+// Heights of the lowest point of each outline of a superellipsoid while its contact bears the body, in metres.
+function heightsOfBearingOutlines() {
+  const scene = SOLVES[0].motion.scene,
+    heights = [];
+  for (let percent = 0; percent <= 100; percent += 2) {
+    const poses = shapePoses(scene, percent);
+    for (const contact of scene.contacts) {
+      const shape = scene.shapes[contact.shape],
+        { center, quaternion } = poses[contact.shape];
+      if (!shape.super || !trackAt(scene, contact.rows, 8, percent)) continue;
+      heights.push(Math.min(...outlinePoints(center, quaternion, shape, PLANES.side).map((p) => p[1])));
+    }
+  }
+  return heights;
+}
+
 // The largest value of an outline's equation at points of an ellipsoid that is turned: 1 if it just bounds them.
 function outlineError() {
   const axes = [0.13, 0.05, 0.06],

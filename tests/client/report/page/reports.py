@@ -48,6 +48,14 @@ class Reports:
         self.run("report", *map(str, files), "-q", "-o", str(page))
         return page
 
+    def shaped(self) -> pathlib.Path:
+        """On boxy heels and pointed forefeet."""
+        solve, page = WORK / "shaped.json", WORK / "shaped.html"
+        feet = ["--feet", "two", "--foot", "heel=:0.6", "--foot", "forefoot=:1.6"]
+        self.run("solve", "--model", "planar", "--speed", "1.3", "--slope", "0", *feet, "-q", "-o", str(solve))
+        self.run("report", str(solve), "-q", "-o", str(page))
+        return page
+
     def ball(self) -> pathlib.Path:
         solve, page = WORK / "ball.json", WORK / "ball.html"
         motion = ["--model", "ball", "--from", "0,0", "--to", "1,0.5", "--duration", "2", "--semi-axes", "0.15,0.1,0.1"]

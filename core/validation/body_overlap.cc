@@ -1,4 +1,4 @@
-#include "core/validation/ellipsoid_overlap.h"
+#include "core/validation/body_overlap.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -14,24 +14,27 @@ constexpr double kLastStep = 1e-6;  // rad; g is flat to the square of it at a m
 constexpr int kBracketSteps = 200;
 constexpr double kBracketWidth = 1e-14;
 
-Matrix3 ShapeOf(const PosedEllipsoid& body) {
+Matrix3 ShapeOf(const PosedBody& body) {
   return body.R_WE * body.semi_axes.cwiseAbs2().asDiagonal() * body.R_WE.transpose();
 }
 
-double Support(const PosedEllipsoid& body, const Vector3& nu) {
-  return body.semi_axes.cwiseProduct(body.R_WE.transpose() * nu).norm();
+double Support(const PosedBody& body, const Vector3& nu) {
+  const Vector3 local = body.R_WE.transpose() * nu;
+  return body.norm ? (*body.norm)(local) : body.semi_axes.cwiseProduct(local).norm();
 }
 
+// The eight directions of direct searches in a plane.
+constexpr double kDiagonal = 0.70710678118654752;
+constexpr double kCos[] = {1, -1, 0, 0, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
+constexpr double kSin[] = {0, 0, 1, -1, kDiagonal, -kDiagonal, -kDiagonal, kDiagonal};
+
 // Climbs from nu in eight directions of the tangent plane, with steps that double on success and halve on failure.
-double Climb(const PosedEllipsoid& a, const PosedEllipsoid& b, Vector3 nu) {
+double Climb(const PosedBody& a, const PosedBody& b, Vector3 nu) {
   double best = PlaneDistance(a, b, nu);
   for (double step = kFirstStep; step > kLastStep;) {
     const Vector3 t_1 = nu.unitOrthogonal(), t_2 = nu.cross(t_1);
     bool climbed = false;
     for (int i = 0; i < 8 && !climbed; ++i) {
-      constexpr double kDiagonal = 0.70710678118654752;
-      constexpr double kCos[] = {1, -1, 0, 0, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
-      constexpr double kSin[] = {0, 0, 1, -1, kDiagonal, -kDiagonal, -kDiagonal, kDiagonal};
       const Vector3 next = (nu + step * (kCos[i] * t_1 + kSin[i] * t_2)).normalized();
       const double value = PlaneDistance(a, b, next);
       if (!(value > best)) continue;  // nor where it is no number
@@ -46,13 +49,29 @@ double Climb(const PosedEllipsoid& a, const PosedEllipsoid& b, Vector3 nu) {
 
 }  // namespace
 
-double PlaneDistance(const PosedEllipsoid& a, const PosedEllipsoid& b, const Vector3& nu) {
+double PlaneDistance(const PosedBody& a, const PosedBody& b, const Vector3& nu) {
   return nu.dot(b.p_WE - a.p_WE) - Support(a, nu) - Support(b, nu);
 }
 
+SmoothNorm::SmoothNorm(const Vector3& semi_axes, double exponent_1, double exponent_2, double smoothing)
+    : q_1_(2 / (2 - exponent_1)), q_2_(2 / (2 - exponent_2)), square_(smoothing * smoothing) {
+  for (int i = 0; i < 3; ++i) scales_[i] = semi_axes[i] / Unscaled(Vector3::Unit(i));
+}
+
+double SmoothNorm::operator()(const Vector3& nu) const { return Unscaled(scales_.cwiseProduct(nu)); }
+
+double SmoothNorm::Unscaled(const Vector3& t) const {
+  const double round = square_ * t.squaredNorm();
+  const auto smoothed = [&](double of) { return std::sqrt(of * of + round); };
+  const double around = std::pow(std::pow(smoothed(t.x()), q_2_) + std::pow(smoothed(t.y()), q_2_), 1 / q_2_);
+  return std::pow(std::pow(around, q_1_) + std::pow(smoothed(t.z()), q_1_), 1 / q_1_);
+}
+
+namespace {
+
 // The derivative of the concave function is  (1 − s)² xᵀ Q_a x − s² xᵀ Q_b x  with x = M(s)⁻¹ r: regula falsi with
 // Illinois' rule.
-ScaledContact FindScaledContact(const PosedEllipsoid& a, const PosedEllipsoid& b) {
+ScaledContact FindScaledContactOfEllipsoids(const PosedBody& a, const PosedBody& b) {
   const Matrix3 Q_a = ShapeOf(a), Q_b = ShapeOf(b);
   const Vector3 r = b.p_WE - a.p_WE;
   ScaledContact contact;
@@ -86,12 +105,38 @@ ScaledContact FindScaledContact(const PosedEllipsoid& a, const PosedEllipsoid& b
   return contact;
 }
 
-double OverlapDepth(const PosedEllipsoid& a, const PosedEllipsoid& b) {
+}  // namespace
+
+ScaledContact FindScaledContact(const PosedBody& a, const PosedBody& b) {
+  ScaledContact contact = FindScaledContactOfEllipsoids(a, b);
+  const Vector3 r = b.p_WE - a.p_WE;
+  if ((!a.norm && !b.norm) || r.isZero(0)) return contact;
+  const auto sum = [&](const Vector3& nu) { return Support(a, nu) + Support(b, nu); };
+  Vector3 nu = contact.nu / contact.nu.dot(r);
+  const Vector3 t_1 = r.unitOrthogonal(), t_2 = r.normalized().cross(t_1);
+  const double unit = nu.norm();
+  double least = sum(nu);
+  for (double step = kFirstStep; step > kLastStep;) {
+    bool fell = false;
+    for (int i = 0; i < 8 && !fell; ++i) {
+      const Vector3 next = nu + step * unit * (kCos[i] * t_1 + kSin[i] * t_2);
+      const double value = sum(next);
+      if (!(value < least)) continue;
+      least = value;
+      nu = next;
+      fell = true;
+    }
+    step = fell ? std::min(2 * step, kFirstStep) : step / 2;
+  }
+  return {1 / least, nu.normalized()};
+}
+
+double OverlapDepth(const PosedBody& a, const PosedBody& b) {
   const ScaledContact contact = FindScaledContact(a, b);
   if (PlaneDistance(a, b, contact.nu) >= 0) return 0;
   double best = Climb(a, b, contact.nu);
   if (best < -kDeep) {
-    for (const PosedEllipsoid* body : {&a, &b}) {
+    for (const PosedBody* body : {&a, &b}) {
       for (int axis = 0; axis < 3; ++axis) {
         for (const double sign : {-1.0, 1.0}) best = std::max(best, Climb(a, b, sign * body->R_WE.col(axis)));
       }
