@@ -127,6 +127,7 @@ check_packages() {
     [ $number != 1 ] || inside touch installed
     [ $number != 1 ] || check "systemd finds nothing wrong with the units" units_are_right
   done
+  check "the units are enabled" inside ls /etc/systemd/system/multi-user.target.wants/rollgait{d,-door,-gateway}.service
   check "the state is the server's alone" equal "$(inside stat -c '%U:%G %a' /var/lib/rollgait)" 'rollgait:rollgait 700'
   check "the server's key is for root and the door" equal "$(inside stat -c '%U:%G %a' /etc/rollgait/tls/server.key)" 'root:rollgait 640'
   check "the authority's key is root's alone" equal "$(inside stat -c '%U:%G %a' /etc/rollgait/tls/ca.key)" 'root:root 600'
