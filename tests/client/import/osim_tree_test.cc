@@ -182,7 +182,7 @@ TEST(OsimTreeTest, ActuatorsWithoutLimitsAreDrivenByPlusMinusOne) {
   EXPECT_THAT(tree.assumed, Contains(HasSubstr("±1")));
 }
 
-// gait10dof18musc's structure with numbers of gait2392: a planar pelvis, and a knee whose shank slides as it bends.
+// gait10dof18musc's structure: a planar pelvis, and a knee whose shank slides as it bends.
 TEST(OsimTreeTest, TheWalkerIsReadWithWhatIsLeftOutTold) {
   const LinkTree tree = ReadLinkTree(kWalker);
   EXPECT_TRUE(tree.base_in_plane);
@@ -194,7 +194,7 @@ TEST(OsimTreeTest, TheWalkerIsReadWithWhatIsLeftOutTold) {
         "<ContactSphere name=\"heel_r\"> and 3 more: the ground is met", "<Marker name=\"sacrum\">"}) {
     EXPECT_THAT(tree.left_out, Contains(HasSubstr(line))) << line;
   }
-  // Where the shank is with a straight leg: of the splines of gait2392 at 0.
+  // Where the shank is with a straight leg: of the splines of walker.osim at 0.
   const int knee = tree.FindJoint("knee_angle_r");
   const TreePosture posture = PostureOf(tree, kNoMotion, {}, std::vector<bool>(tree.joints.size(), false));
   const Eigen::Vector3d to_knee =
