@@ -35,7 +35,9 @@ struct Case {
     for (const ContactSurface& surface : scene->contacts) {
       TreeContact& foot = contacts.emplace_back();
       foot.link = surface.joint;
-      foot.surface = {surface.surface, surface.p_LE, surface.R_LE};
+      foot.surface.surface = surface.surface;
+      foot.surface.p_BE = surface.p_LE;
+      foot.surface.R_BE = surface.R_LE;
       if (surface.directions.size() == 2) foot.grip = Grip::kRollingAlong;
     }
     contact = std::make_unique<ContactDynamics>(BodyDynamics(scene->model), contacts);
