@@ -113,7 +113,10 @@ class MhdServer final : public HttpServer {
   // At most so long. Whoever has no request on its way, or half of one, is closed.
   void WaitForAnswers(milliseconds at_most) {
     for (const auto end = Clock::now() + at_most; Clock::now() < end; std::this_thread::sleep_for(milliseconds(10))) {
-      for (const auto& exchange : Exchanges()) exchange->OnStop();
+      // All of them close before the first listener hears of the stop: what it does may let others answer.
+      const auto exchanges = Exchanges();
+      for (const auto& exchange : exchanges) exchange->CloseAfterAnswer();
+      for (const auto& exchange : exchanges) exchange->OnStop();
       Close(IsIdle);
       if (Exchanges().empty()) return;
     }

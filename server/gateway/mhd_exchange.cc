@@ -242,11 +242,15 @@ bool MhdExchange::IsSuspended() {
   return suspended_;
 }
 
+void MhdExchange::CloseAfterAnswer() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  closes_ = true;
+}
+
 void MhdExchange::OnStop() {
   std::function<void()> tell;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    closes_ = true;
     if (!told_stop_ && listener_.on_stop) {
       told_stop_ = true;
       tell = listener_.on_stop;

@@ -37,7 +37,9 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
   bool IsUnderWay();
   // The library looks at neither reading nor writing.
   bool IsSuspended();
-  // on_stop, when there is a listener; its connection has no further request.
+  // Its connection has no request after this one.
+  void CloseAfterAnswer();
+  // on_stop, when there is a listener, once.
   void OnStop();
   // Of the server itself, instead of an answer.
   void SendProblem(int status, grpc::StatusCode code, const std::string& message, int retry_after_s);
