@@ -1,6 +1,7 @@
 #include "core/nlp/kkt_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rollgait {
@@ -13,6 +14,10 @@ constexpr double kLargestThreshold = 1e-6;
 constexpr int kMostRefinements = 6;
 // Backward error that is acceptable after all refinements.
 constexpr double kPoorResidual = 1e-6;
+// The least d of a row with a slack in the factors, relative to the square of its largest entry; what is smaller counts
+// in refinement alone. The row adds 1 / d times the product of its entries to the reduced matrix, and the rounding of
+// that, 2e-16 / 1e-14, is an error of the other entries of the same variables, which refinement has to contract.
+constexpr double kLeastCompliance = 1e-14;
 // A refinement that does not even halve the error is the last one.
 constexpr double kStagnation = 0.5;
 
@@ -129,8 +134,11 @@ void KktSystem::AssignReduced() {
   double* value = reduced_values_.data();
   for (const int e : reduced_source_) *value++ = matrix_.values()[e];
   const double* derivative = jacobian();
-  for (const Condensed& row : condensed_) {
-    const double weight = -1 / values_(dual_start_ + row.row);
+  for (Condensed& row : condensed_) {
+    double largest = 0;
+    for (const int e : row.entries) largest = std::max(largest, std::abs(derivative[e]));
+    row.compliance = std::max(kLeastCompliance * largest * largest, -values_(dual_start_ + row.row));
+    const double weight = 1 / row.compliance;
     for (size_t i = 0; i < row.entries.size(); ++i) {
       const double scaled = weight * derivative[row.entries[i]];
       for (size_t j = 0; j <= i; ++j) *value++ = scaled * derivative[row.entries[j]];
@@ -145,7 +153,7 @@ void KktSystem::SolveReduced(const VectorX& right, VectorX* solution) {
     if (place_[i] >= 0) reduced_(place_[i]) = right(i);
   }
   for (const Condensed& row : condensed_) {
-    const double share = -right(variables_ + row.row) / values_(dual_start_ + row.row);
+    const double share = right(variables_ + row.row) / row.compliance;
     for (const int e : row.entries) reduced_(jacobian_pattern_.columns[e]) += derivative[e] * share;
   }
   factors_.Solve(reduced_.data());
@@ -155,7 +163,7 @@ void KktSystem::SolveReduced(const VectorX& right, VectorX* solution) {
   for (const Condensed& row : condensed_) {
     double sum = -right(variables_ + row.row);
     for (const int e : row.entries) sum += derivative[e] * reduced_(jacobian_pattern_.columns[e]);
-    (*solution)(variables_ + row.row) = -sum / values_(dual_start_ + row.row);
+    (*solution)(variables_ + row.row) = sum / row.compliance;
   }
 }
 

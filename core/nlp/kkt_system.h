@@ -47,10 +47,11 @@ class KktSystem {
   void set_threshold(double threshold) { threshold_ = threshold; }
 
  private:
-  // A row with a slack: entries of the Jacobian that are not of fixed variables.
+  // A row with a slack.
   struct Condensed {
     int row = 0;
-    std::vector<int> entries;
+    std::vector<int> entries;  // of the Jacobian, that are not of fixed variables
+    double compliance = 0;     // d in the factors
   };
 
   static SparsityPattern MakePattern(const NlpProblem& problem);

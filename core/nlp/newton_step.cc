@@ -149,11 +149,11 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
     if (barrier_.has_lower(i)) sigma_(i) += multipliers.lower(i) / (point.w(i) - barrier_.lower(i));
     if (barrier_.has_upper(i)) sigma_(i) += multipliers.upper(i) / (barrier_.upper(i) - point.w(i));
   }
-  constexpr int kMostTrials = 5;
-  for (int trial = 0; trial < kMostTrials; ++trial) {
+  // Where the factors were too coarse KktSystem raises its threshold, up to its largest.
+  for (double threshold = 0; kkt_.threshold() > threshold;) {
+    threshold = kkt_.threshold();
     if (!Factorise(mu)) return false;
     if (Solve(point, multipliers, point.c, mu, step)) return true;
-    // The factors were too coarse; KktSystem pivots more carefully next time.
   }
   return false;
 }

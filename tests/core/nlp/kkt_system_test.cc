@@ -76,7 +76,7 @@ TEST_F(KktSystemTest, TakesFixedVariablesOut) {
 
 // From a row that is far from its bounds to one that is at them.
 TEST_F(KktSystemTest, EliminatesRowsWithSlacks) {
-  for (const double d : {1e6, 0.5, 1e-6, 1e-12}) {
+  for (const double d : {1e6, 0.5, 1e-6, 1e-12, 1e-15, 1e-18}) {
     dual_(0) = d;
     Fill({0, 0, 0, 0}, {0});
     ExpectDenseSolution();
