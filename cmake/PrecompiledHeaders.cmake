@@ -1,6 +1,5 @@
 # ROLLGAIT_PRECOMPILE: whose headers of other projects are parsed once for all targets. ALL takes a third of the time off the build with
-# sanitizers. TESTS is for Release: the tests of core; libraries and programs stay without, so a missing include still fails there, and
-# so do the tests of the server, where g++ 12 takes std::string out of a precompiled header for overlong copies.
+# sanitizers. TESTS is for Release: libraries and programs stay without, so a missing include still fails there.
 
 set(ROLLGAIT_PRECOMPILE "" CACHE STRING "Precompile the headers of Eigen, GoogleTest and gRPC: empty, TESTS or ALL")
 set_property(CACHE ROLLGAIT_PRECOMPILE PROPERTY STRINGS "" TESTS ALL)
@@ -16,22 +15,20 @@ if(ROLLGAIT_PRECOMPILE)
   endif()
   set(source "${CMAKE_BINARY_DIR}/precompiled.cc")
   file(CONFIGURE OUTPUT "${source}" CONTENT "")
-  set(parts numeric_tests)
-  if(ROLLGAIT_PRECOMPILE STREQUAL "ALL")
-    list(APPEND parts core wire)
-  endif()
-  foreach(part ${parts})
+  foreach(part numeric_tests core wire)
     add_library(rollgait_precompiled_${part} OBJECT "${source}")
     target_link_libraries(rollgait_precompiled_${part} PRIVATE rollgait_options Eigen3::Eigen GTest::gtest GTest::gmock)
     target_precompile_headers(rollgait_precompiled_${part} PRIVATE
       <Eigen/Dense> <functional> <memory> <optional> <random> <string> <variant> <vector> <gmock/gmock.h> <gtest/gtest.h>)
   endforeach()
-  target_compile_options(rollgait_precompiled_numeric_tests PRIVATE ${ROLLGAIT_TEST_OPTIMISATION} ${ROLLGAIT_NUMERIC_TEST_OPTIONS})
-  if(TARGET rollgait_precompiled_wire)
-    target_link_libraries(rollgait_precompiled_wire PRIVATE rollgait::proto)
-    target_precompile_headers(rollgait_precompiled_wire PRIVATE
-      <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h>)
+  target_compile_options(rollgait_precompiled_numeric_tests PRIVATE ${ROLLGAIT_NUMERIC_TEST_OPTIONS})
+  if(ROLLGAIT_PRECOMPILE STREQUAL "TESTS")
+    target_compile_options(rollgait_precompiled_core PRIVATE ${ROLLGAIT_TEST_OPTIONS})
+    target_compile_options(rollgait_precompiled_wire PRIVATE ${ROLLGAIT_TEST_OPTIONS})
   endif()
+  target_link_libraries(rollgait_precompiled_wire PRIVATE rollgait::proto)
+  target_precompile_headers(rollgait_precompiled_wire PRIVATE
+    <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h>)
 endif()
 
 # rollgait_precompile(TARGET): the target uses the precompiled headers of its part of the project.
@@ -42,7 +39,7 @@ function(rollgait_precompile TARGET)
   file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
   if(path MATCHES "${ROLLGAIT_NUMERIC_TESTS}")
     set(part numeric_tests)
-  elseif(ROLLGAIT_PRECOMPILE STREQUAL "TESTS")
+  elseif(ROLLGAIT_PRECOMPILE STREQUAL "TESTS" AND NOT path MATCHES "^tests/")
     return()
   elseif(path MATCHES "^(tests/)?(server/rpc|client|e2e)")
     set(part wire)
