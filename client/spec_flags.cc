@@ -127,6 +127,7 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.scheme) {
     spec.mutable_discretization()->set_scheme(Lookup("--scheme", *flags.scheme, SchemeWords()));
   }
+  if (flags.solver) spec.set_nlp_solver(Lookup("--solver", *flags.solver, SolverWords()));
   if (flags.intervals) spec.mutable_discretization()->set_single_support_intervals(*flags.intervals);
   if (flags.double_intervals) spec.mutable_discretization()->set_double_support_intervals(*flags.double_intervals);
   if (flags.accuracy) {
@@ -189,6 +190,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--warm-start", flags.warm_start, "Numerics",
       "Start from a stored solve, solves/ID, or from the nearest one: nearest");
   add("--scheme", flags.scheme, "Numerics", "radau2, radau3 or hermite-simpson");
+  add("--solver", flags.solver, "Numerics", "interior-point, or ipopt for the same search by Ipopt alone");
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");
   add("--accuracy", flags.accuracy, "Numerics", "draft, standard or fine");

@@ -18,7 +18,7 @@ namespace rollgait::client {
 struct SpecFlags {
   std::string file;
   std::string side_file;  // of a model in a URDF file; empty: none
-  std::optional<std::string> model, sex, scheme, cycle, accuracy, normalization;
+  std::optional<std::string> model, sex, scheme, solver, cycle, accuracy, normalization;
   std::optional<std::string> preset, warm_start;
   std::optional<double> duty_factor;
   std::optional<int> starts;

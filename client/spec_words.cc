@@ -87,6 +87,12 @@ const WordTable<v1::Discretization::Scheme>& SchemeWords() {
   return words;
 }
 
+const WordTable<v1::NlpSolver>& SolverWords() {
+  static const WordTable<v1::NlpSolver> words = {{"interior-point", v1::NLP_SOLVER_INTERIOR_POINT},
+                                                 {"ipopt", v1::NLP_SOLVER_IPOPT}};
+  return words;
+}
+
 const WordTable<v1::Accuracy::Level>& AccuracyWords() {
   static const WordTable<v1::Accuracy::Level> words = {{"draft", v1::Accuracy::LEVEL_DRAFT},
                                                        {"standard", v1::Accuracy::LEVEL_STANDARD},
@@ -149,6 +155,7 @@ std::vector<std::string> FlagWords(const std::string& flag) {
   if (flag == "--cost") return Keys(CostWords());
   if (flag == "--normalize") return Keys(NormalizationWords());
   if (flag == "--scheme") return Keys(SchemeWords());
+  if (flag == "--solver") return Keys(SolverWords());
   if (flag == "--accuracy") return Keys(AccuracyWords());
   if (flag == "--bound") return BoundNames();
   if (flag == "--format") return FormatWords();

@@ -21,6 +21,7 @@ const WordTable<v1::TouchDown>& TouchDownWords();
 const WordTable<v1::Preset>& PresetWords();
 const WordTable<v1::CostNormalization>& NormalizationWords();
 const WordTable<v1::Discretization::Scheme>& SchemeWords();
+const WordTable<v1::NlpSolver>& SolverWords();
 const WordTable<v1::Accuracy::Level>& AccuracyWords();
 // Terms without weight or parameters.
 const WordTable<v1::CostTerm>& CostWords();

@@ -236,6 +236,7 @@ Result<GaitSpec> Check(const GaitRequest& given, Symmetric with) {
                   .max_refinements = accuracy.max_refinements,
                   .estimate_errors = request.accuracy.estimate_errors || accuracy.max_error.has_value(),
                   .max_error = accuracy.max_error,
+                  .nlp_solver = request.nlp_solver,
                   .max_iterations = max_iterations,
                   .max_wall_time = max_wall_time,
                   .starts = request.warm_start ? 1 : starts,

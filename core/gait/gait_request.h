@@ -9,6 +9,7 @@
 
 #include "core/gait/manoeuvre_request.h"
 #include "core/models/catalog.h"
+#include "core/nlp/nlp_solver.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
 
@@ -121,6 +122,7 @@ struct GaitRequest {
     std::optional<int> max_iterations;
     std::optional<double> max_wall_time;  // s
   } solver_limits;
+  NlpSolver nlp_solver = NlpSolver::kInteriorPoint;
   std::optional<int> starts;
   bool warm_start = false;        // that one is wanted; GaitSpec::warm_start is filled where solutions are stored
   std::optional<double> gravity;  // m/s²

@@ -54,6 +54,7 @@ struct GaitSpec {
   std::optional<MaxError> max_error;  // at least one is set
   // Its solution only starts another program: what it violates is left to that one (LeaveTheRest).
   bool is_only_a_start = false;
+  NlpSolver nlp_solver;
   int max_iterations;
   double max_wall_time;
   int starts;

@@ -66,6 +66,7 @@ NlpOptions SettingsFor(StartOf start, const GaitSpec& spec) {
   for (const Settings& row : kTable) {
     if (row.start != start || (row.costs != Costs::kAny && row.costs != costs)) continue;
     NlpOptions options;
+    options.solver = spec.nlp_solver;
     options.tolerance = spec.kkt_tolerance;
     options.max_iterations = spec.max_iterations;
     options.initial_barrier = row.initial_barrier;

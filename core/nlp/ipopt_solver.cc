@@ -27,6 +27,7 @@ class Adapter : public Ipopt::TNLP {
       : problem_(problem), start_(start), options_(options), control_(control), result_(result), begin_(Clock::now()) {}
 
   bool out_of_time() const { return out_of_time_; }
+  bool is_rough() const { return is_rough_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_h, IndexStyleEnum& style) override {
     n = problem_.variables();
@@ -65,6 +66,7 @@ class Adapter : public Ipopt::TNLP {
       std::copy(problem_.jacobian_pattern().columns.begin(), problem_.jacobian_pattern().columns.end(), columns);
       return true;
     }
+    point_ = Eigen::Map<const VectorX>(x, problem_.variables());
     return problem_.Jacobian(x, values);
   }
   bool eval_h(Index, const Number* x, bool, Number sigma, Index, const Number* lambda, bool, Index, Index* rows,
@@ -79,7 +81,8 @@ class Adapter : public Ipopt::TNLP {
 
   bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number objective, Number primal, Number dual,
                              Number mu, Number step_norm, Number regularization, Number dual_step, Number primal_step,
-                             Index trials, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+                             Index trials, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities* quantities) override {
     const double elapsed = Seconds(Clock::now() - begin_);
     // The point where its restoration phase ends is given twice with one index, once by that phase.
     if (iteration > last_iteration_ && control_.observer) {
@@ -97,12 +100,19 @@ class Adapter : public Ipopt::TNLP {
       info.restoration = mode == Ipopt::RestorationPhaseMode;
       info.elapsed_s = elapsed;
       info.mesh = options_.mesh;
+      info.x = point_.data();
       control_.observer(info);
     }
     last_iteration_ = std::max(last_iteration_, iteration);
     if (elapsed > options_.max_wall_time_s) {
       out_of_time_ = true;
       return false;
+    }
+    if (!has_asked_ && options_.worth_finishing && mode == Ipopt::RegularMode &&
+        quantities->curr_nlp_error() <= options_.rough_tolerance) {
+      has_asked_ = true;
+      is_rough_ = !options_.worth_finishing(point_);
+      if (is_rough_) return false;
     }
     return control_.stop == nullptr || !control_.stop->requested();
   }
@@ -128,7 +138,8 @@ class Adapter : public Ipopt::TNLP {
   const SolveControl& control_;
   NlpResult* result_;
   Clock::time_point begin_;
-  bool out_of_time_ = false;
+  bool out_of_time_ = false, has_asked_ = false, is_rough_ = false;
+  VectorX point_;  // of the present iteration: derivatives are asked for nowhere else
   Index last_iteration_ = -1;
 };
 
@@ -171,6 +182,7 @@ Termination Interpret(Ipopt::ApplicationReturnStatus status, const Adapter& adap
     case Ipopt::Solve_Succeeded:
       return Termination::kOptimal;
     case Ipopt::User_Requested_Stop:
+      if (adapter.is_rough()) return Termination::kOptimal;
       return adapter.out_of_time() ? Termination::kTimeLimit : Termination::kCancelled;
     case Ipopt::Infeasible_Problem_Detected:
       return Termination::kInfeasible;
@@ -201,6 +213,7 @@ NlpResult SolveWithIpopt(NlpProblem& problem, const NlpStart& start, const NlpOp
   const Ipopt::SmartPtr<Ipopt::TNLP> keep = adapter;
   if (status == Ipopt::Solve_Succeeded) status = app->OptimizeTNLP(keep);
   result.termination = Interpret(status, *adapter, control, options, result);
+  result.rough = adapter->is_rough();
   result.message = Explain(result.termination);
   result.wall_time_s = Seconds(Clock::now() - begin);
   return result;

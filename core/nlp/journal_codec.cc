@@ -12,7 +12,7 @@ namespace rollgait {
 namespace {
 
 // "RGJ" and the version of the format: to be raised with every change of what is written here or of what it means.
-constexpr int64_t kFinished = 0x4a475201'0001, kStarted = 0x4a475202'0003;
+constexpr int64_t kFinished = 0x4a475201'0002, kStarted = 0x4a475202'0004;
 constexpr size_t kChecksumBytes = sizeof(uint64_t);
 constexpr double kLargestNumber = 1e19;  // beyond: no bound
 
@@ -128,11 +128,11 @@ NlpFingerprint FingerprintOf(NlpProblem& problem, const NlpStart& start, const N
   NlpFingerprint fingerprint;
   fingerprint.sizes = {problem.variables(), problem.constraints(), problem.jacobian_pattern().size(),
                        problem.hessian_pattern().size()};
-  fingerprint.options.resize(13);
-  fingerprint.options << options.tolerance, options.max_iterations, options.initial_barrier, options.barrier_tolerance,
-      options.warm_push, options.barrier_exponent, options.recentre, options.step_residual, options.first_shift,
-      options.worth_finishing != nullptr, options.rough_tolerance, options.mesh,
-      static_cast<double>(start.constraint_multipliers.size());
+  fingerprint.options.resize(14);
+  fingerprint.options << static_cast<double>(options.solver), options.tolerance, options.max_iterations,
+      options.initial_barrier, options.barrier_tolerance, options.warm_push, options.barrier_exponent, options.recentre,
+      options.step_residual, options.first_shift, options.worth_finishing != nullptr, options.rough_tolerance,
+      options.mesh, static_cast<double>(start.constraint_multipliers.size());
   VectorX values = VectorX::Zero(problem.constraints() + 1);
   // Where the functions have no finite value the sums are 0, each time.
   const bool finite = problem.Constraints(start.x.data(), values.data()) &&

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/base/types.h"
+#include "core/nlp/nlp_solver.h"
 
 namespace rollgait {
 
@@ -17,6 +18,7 @@ struct NlpStart {
 };
 
 struct NlpOptions {
+  NlpSolver solver = NlpSolver::kInteriorPoint;  // whom SolveNlp asks
   double tolerance = 1e-6;
   int max_iterations = 1000;
   double max_wall_time_s = 600;

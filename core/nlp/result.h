@@ -36,7 +36,7 @@ struct IterationInfo {
   bool restoration = false;  // of a restoration phase, or of Ipopt where it has taken over
   double elapsed_s = 0;
   int mesh = 0;
-  // The point of the iteration, scaled as the NLP is, for as long as the observer runs; null in Ipopt's iterations.
+  // The point of the iteration, scaled as the NLP is, for as long as the observer runs.
   const double* x = nullptr;
 };
 

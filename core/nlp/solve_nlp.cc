@@ -10,11 +10,13 @@ namespace {
 
 NlpResult SolveInTurn(NlpProblem& problem, const NlpStart& start, const NlpOptions& options,
                       const SolveControl& control, const Resumption& resumption) {
+  if (options.solver == NlpSolver::kIpopt) return SolveWithIpopt(problem, start, options, control);
   const InteriorPointResult first = SolveWithInteriorPoint(problem, start, options, control, resumption);
   if (!first.needs_restoration || first.result.iterations >= options.max_iterations) return first.result;
   NlpOptions rest = options;
   rest.max_iterations = options.max_iterations - first.result.iterations;
   rest.max_wall_time_s = options.max_wall_time_s - first.result.wall_time_s;
+  rest.worth_finishing = nullptr;  // what restoration leads to has not been asked for
   SolveControl numbered = control;
   if (control.observer) {
     numbered.observer = [&](IterationInfo info) {

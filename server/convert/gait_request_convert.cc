@@ -24,6 +24,7 @@ class RequestDecoder {
   GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization, bool manoeuvre);
   std::optional<Preset> DecodePreset(v1::Preset preset);
   Scheme DecodeScheme(v1::Discretization::Scheme scheme);
+  NlpSolver DecodeSolver(v1::NlpSolver solver);
   GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
   GaitRequest::TouchDown DecodeTouchDown(v1::TouchDown touch_down);
 };
@@ -238,6 +239,11 @@ Scheme RequestDecoder::DecodeScheme(v1::Discretization::Scheme scheme) {
   }
 }
 
+NlpSolver RequestDecoder::DecodeSolver(v1::NlpSolver solver) {
+  if (!v1::NlpSolver_IsValid(solver)) RefuseEnum("nlp_solver", solver);
+  return solver == v1::NLP_SOLVER_IPOPT ? NlpSolver::kIpopt : NlpSolver::kInteriorPoint;
+}
+
 GaitRequest::AccuracyLevel RequestDecoder::DecodeLevel(v1::Accuracy::Level level) {
   switch (level) {
     case v1::Accuracy::LEVEL_DRAFT:
@@ -291,6 +297,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
                       accuracy.estimate_errors(),    DecodeMaxError(accuracy)};
   request.solver_limits = {ROLLGAIT_OPTIONAL(spec.solver_limits(), max_iterations),
                            ROLLGAIT_OPTIONAL(spec.solver_limits(), max_wall_time_s)};
+  request.nlp_solver = DecodeSolver(spec.nlp_solver());
   request.gravity = ROLLGAIT_OPTIONAL(spec, gravity_m_s2);
   return request;
 }

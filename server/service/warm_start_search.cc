@@ -42,6 +42,7 @@ std::string CommonPart(v1::SolveSpec spec) {
   for (v1::Phase& phase : *spec.mutable_phases()->mutable_phases()) phase.clear_intervals();
   spec.clear_accuracy();
   spec.clear_solver_limits();
+  spec.clear_nlp_solver();
   spec.clear_starts();
   spec.clear_warm_start();
   return CanonicalBytes(spec);

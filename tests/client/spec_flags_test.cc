@@ -36,7 +36,8 @@ TEST(SpecFlagsTest, EveryFlagReachesItsField) {
       "--max-refinements 2 --max-iterations 77 --time-limit 12.5 --duty-factor 0.61 --starts 4 "
       "--warm-start nearest --cost effort --cost muscle-work --cost passive-load "
       "--cost acceleration:1e-5 --cost force-rate:1e-7 --touch-down plastic --touch-down-point -0.9,-0.8 "
-      "--lift-off-point 0.7 --allow-overlap");
+      "--lift-off-point 0.7 --allow-overlap --solver ipopt");
+  EXPECT_EQ(spec.nlp_solver(), v1::NLP_SOLVER_IPOPT);
   EXPECT_TRUE(spec.limits().allow_body_overlap());
   EXPECT_EQ(spec.model().name(), "planar");
   EXPECT_EQ(spec.model().sex(), v1::ModelSelection::SEX_FEMALE);

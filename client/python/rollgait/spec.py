@@ -13,6 +13,7 @@ _PRESETS = {"torque": pb.PRESET_TORQUE, "transport": pb.PRESET_TRANSPORT, "human
 _LEVELS = {"draft": pb.Accuracy.LEVEL_DRAFT, "standard": pb.Accuracy.LEVEL_STANDARD, "fine": pb.Accuracy.LEVEL_FINE}
 _SCHEMES = {"radau2": pb.Discretization.SCHEME_RADAU2, "radau3": pb.Discretization.SCHEME_RADAU3,
             "hermite-simpson": pb.Discretization.SCHEME_HERMITE_SIMPSON}
+_SOLVERS = {"interior-point": pb.NLP_SOLVER_INTERIOR_POINT, "ipopt": pb.NLP_SOLVER_IPOPT}
 _CYCLES = {"half": pb.CYCLE_HALF, "full": pb.CYCLE_FULL}
 
 
@@ -33,7 +34,7 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
               scheme: Optional[str] = None, intervals: Optional[int] = None, cycle: Optional[str] = None,
               friction: Optional[float] = None, starts: Optional[int] = None, warm_start: Optional[str] = None,
               max_iterations: Optional[int] = None, time_limit_s: Optional[float] = None,
-              spec: Optional[Mapping[str, Any]] = None) -> pb.SolveSpec:
+              solver: Optional[str] = None, spec: Optional[Mapping[str, Any]] = None) -> pb.SolveSpec:
     """The request for a gait. What is left out has the default of the server.
 
     model       a name from `Client.models()`: "human29", "planar" …
@@ -45,6 +46,7 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
     max_error   refine until the estimates are within these, by the names of rollgait.v1.MaxError: {"angle_rad": 0.01}
     intervals   of the first mesh in a single-support phase
     warm_start  "solves/ID" or "nearest"
+    solver      "interior-point" or "ipopt"
     spec        any further field of rollgait.v1.SolveSpec, as in its JSON: {"groundContact": {"swingClearanceM": 0.03}}
 
     Raises ValueError for words that mean nothing; numbers are checked by the server, which names field, value and limit.
@@ -63,6 +65,8 @@ def make_spec(model: str = "human29", *, preset: Optional[str] = None, slope_deg
         message.accuracy.level = _choose("accuracy", accuracy, _LEVELS)
     if scheme is not None:
         message.discretization.scheme = _choose("scheme", scheme, _SCHEMES)
+    if solver is not None:
+        message.nlp_solver = _choose("solver", solver, _SOLVERS)
     if cycle is not None:
         message.cycle = _choose("cycle", cycle, _CYCLES)
     for name, bound in (bounds or {}).items():

@@ -53,6 +53,20 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
                                             ::testing::Values(Scheme::kRadau2, Scheme::kRadau3,
                                                               Scheme::kHermiteSimpson)));
 
+// The same search with Ipopt in place of our own solver.
+TEST(SolverOfPrograms, IpoptAnswersTheSame) {
+  GaitRequest request = Planar(0);
+  request.discretization.single_support_intervals = 8;
+  const GaitSolution own = Solve(request);
+  request.nlp_solver = NlpSolver::kIpopt;
+  const GaitSolution ipopt = Solve(request);
+  ASSERT_EQ(ipopt.termination, Termination::kOptimal) << ipopt.message;
+  EXPECT_EQ(ipopt.verdict.kind, Verdict::Kind::kWithin);
+  ASSERT_EQ(ipopt.meshes.size(), own.meshes.size());
+  EXPECT_NEAR(ipopt.objective / own.objective, 1, 1e-6);
+  EXPECT_NE(ipopt.meshes.front().iterations, own.meshes.front().iterations);
+}
+
 // The drift trap: with contact on acceleration level alone the feet of the optimum sink by centimetres. Here gap and
 // slip stay within the standard bounds between the nodes too.
 TEST(StandardAccuracy, HoldsOnAllSlopes) {

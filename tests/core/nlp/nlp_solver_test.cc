@@ -215,6 +215,48 @@ TEST_P(NlpSolverTest, ARowWithoutBoundsChangesNothing) {
 INSTANTIATE_TEST_SUITE_P(IpoptAndInteriorPointAndBoth, NlpSolverTest,
                          ::testing::Values(SolveWithIpopt, SolveAlone, SolveInTurn));
 
+TEST(IpoptSolver, SolvesAloneWhereItIsAskedFor) {
+  Hs071 problem(40);
+  NlpOptions options;
+  options.solver = NlpSolver::kIpopt;
+  std::vector<VectorX> points;
+  SolveControl control;
+  control.observer = [&points](const IterationInfo& info) {
+    EXPECT_FALSE(info.restoration);
+    points.push_back(Eigen::Map<const VectorX>(info.x, 4));
+  };
+  const NlpResult result = SolveNlp(problem, {Hs071::Start(), {}, {}, {}}, options, control);
+  const NlpResult alone = SolveWithIpopt(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+  EXPECT_EQ(result.termination, Termination::kOptimal);
+  EXPECT_EQ(result.iterations, alone.iterations);
+  EXPECT_EQ(result.x, alone.x);
+  EXPECT_NE(result.x, SolveInTurn(problem, {Hs071::Start(), {}, {}, {}}, {}, {}).x);
+  EXPECT_EQ(result.restored_from, -1);
+  ASSERT_FALSE(points.empty());
+  EXPECT_EQ(points.back(), result.x);
+}
+
+TEST(IpoptSolver, AsksOnceWhetherToGoOn) {
+  Hs071 problem(40);
+  NlpOptions options;
+  const NlpResult whole = SolveWithIpopt(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+  EXPECT_FALSE(whole.rough);
+  for (const bool answer : {true, false}) {
+    int asked = 0;
+    options.rough_tolerance = 1e-2;
+    options.worth_finishing = [&](const VectorX& x) {
+      ++asked;
+      EXPECT_LT((x - whole.x).norm(), 0.1);
+      return answer;
+    };
+    const NlpResult result = SolveWithIpopt(problem, {Hs071::Start(), {}, {}, {}}, options, {});
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(result.rough, !answer);
+    EXPECT_EQ(result.termination, Termination::kOptimal);
+    EXPECT_EQ(result.iterations == whole.iterations, answer);
+  }
+}
+
 TEST(IpoptSolver, NamesItsVersion) { EXPECT_EQ(IpoptVersion().rfind("Ipopt 3.", 0), 0u) << IpoptVersion(); }
 
 }  // namespace

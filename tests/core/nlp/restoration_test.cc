@@ -219,7 +219,7 @@ TEST(RestorationPhase, IpoptTakesOverWhereItFails) {
   ASSERT_EQ(seen.size(), static_cast<size_t>(result.iterations) + 1);
   for (size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(seen[i].index, static_cast<int>(i));
-    EXPECT_EQ(seen[i].x == nullptr, seen[i].index > result.restored_from) << i;
+    EXPECT_NE(seen[i].x, nullptr) << i;
     restored += seen[i].restoration && seen[i].index <= result.restored_from ? 1 : 0;
   }
   EXPECT_EQ(restored, 1);

@@ -69,7 +69,7 @@ TEST(DecodeRequest, EveryFieldArrives) {
       discretization { scheme: SCHEME_HERMITE_SIMPSON single_support_intervals: 21 double_support_intervals: 11 }
       accuracy { level: LEVEL_FINE kkt_tolerance: 1e-7 max_gap_m: 2e-4 max_slip_m_s: 3e-3 max_refinements: 2 }
       solver_limits { max_iterations: 321 max_wall_time_s: 44 }
-      gravity_m_s2: 1.62)"))
+      gravity_m_s2: 1.62 nlp_solver: NLP_SOLVER_IPOPT)"))
                                   .value();
   EXPECT_EQ(request.body.sex, Sex::kFemale);
   EXPECT_EQ(request.body.stature, 1.71);
@@ -108,6 +108,8 @@ TEST(DecodeRequest, EveryFieldArrives) {
   EXPECT_EQ(request.accuracy.max_refinements, 2);
   EXPECT_EQ(request.solver_limits.max_iterations, 321);
   EXPECT_EQ(request.solver_limits.max_wall_time, 44);
+  EXPECT_EQ(request.nlp_solver, NlpSolver::kIpopt);
+  EXPECT_EQ(DecodeRequest(Parse("")).value().nlp_solver, NlpSolver::kInteriorPoint);
   EXPECT_EQ(request.gravity, 1.62);
 }
 
@@ -258,10 +260,11 @@ TEST(DecodeRequest, RefusesEnumValuesWithoutAName) {
   spec.mutable_discretization()->set_scheme(static_cast<v1::Discretization::Scheme>(4));
   spec.set_preset(static_cast<v1::Preset>(4));
   spec.mutable_accuracy()->set_level(static_cast<v1::Accuracy::Level>(4));
+  spec.set_nlp_solver(static_cast<v1::NlpSolver>(3));
   const Result<GaitRequest> request = DecodeRequest(spec);
   ASSERT_FALSE(request.ok());
   EXPECT_THAT(Fields(request.violations()), ElementsAre("model.sex", "cycle", "preset", "cost_normalization",
-                                                        "discretization.scheme", "accuracy.level"));
+                                                        "discretization.scheme", "accuracy.level", "nlp_solver"));
   EXPECT_THAT(request.violations()[3].message, HasSubstr("77"));
 }
 
