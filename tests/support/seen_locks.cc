@@ -3,6 +3,7 @@
 // is done after it was taken next; nothing else is said, so races in code that takes no lock are seen as before.
 #include <absl/synchronization/mutex.h>
 #include <dlfcn.h>
+#include <grpc/grpc.h>
 
 // Of the sanitizer; missing in programs that are built without it.
 extern "C" {
@@ -83,3 +84,28 @@ bool CondVar::WaitWithDeadline(Mutex* mutex, absl::Time deadline) {
 
 ABSL_NAMESPACE_END
 }  // namespace absl
+
+// The tag of a batch is unique while it is under way.
+extern "C" {
+
+grpc_call_error grpc_call_start_batch(grpc_call* call, const grpc_op* ops, size_t count, void* tag, void* reserved) {
+  static const auto next = NextOf<decltype(&grpc_call_start_batch)>(&grpc_call_start_batch);
+  Release(tag);
+  return next(call, ops, count, tag, reserved);
+}
+
+grpc_event grpc_completion_queue_next(grpc_completion_queue* queue, gpr_timespec deadline, void* reserved) {
+  static const auto next = NextOf<decltype(&grpc_completion_queue_next)>(&grpc_completion_queue_next);
+  const grpc_event event = next(queue, deadline, reserved);
+  if (event.type == GRPC_OP_COMPLETE) Acquire(event.tag);
+  return event;
+}
+
+grpc_event grpc_completion_queue_pluck(grpc_completion_queue* queue, void* tag, gpr_timespec deadline, void* reserved) {
+  static const auto next = NextOf<decltype(&grpc_completion_queue_pluck)>(&grpc_completion_queue_pluck);
+  const grpc_event event = next(queue, tag, deadline, reserved);
+  if (event.type == GRPC_OP_COMPLETE) Acquire(tag);
+  return event;
+}
+
+}  // extern "C"
