@@ -50,10 +50,11 @@ MhdExchange::MhdExchange(const HttpLimits& limits, std::string uri, std::string 
 
 MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, const char* data, size_t* size,
                                HttpService& service) {
-  std::unique_lock<std::mutex> lock(mutex_);
+  Lock lock(mutex_);
   switch (state_) {
     case State::kHead: {
-      const MHD_Result result = OnHead(connection, verb, service);
+      const MHD_Result result = OnHead(connection, verb, service, lock);
+      if (!lock.owns_lock()) return result;  // refused
       const bool asks = state_ == State::kAsking;
       lock.unlock();
       // Nobody but this thread writes the request before the body is let in.
@@ -80,7 +81,7 @@ MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, con
       service.Handle(std::move(request_), shared_from_this());
       return MHD_YES;
     case State::kAnswered:
-      return QueueAnswer(connection);
+      return QueueAnswer(connection, lock);
     case State::kSent:
       *size = 0;  // the rest of a body that was refused
       return MHD_YES;
@@ -92,25 +93,25 @@ MHD_Result MhdExchange::OnData(MHD_Connection* connection, const char* verb, con
   return MHD_NO;
 }
 
-MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb, HttpService& service) {
+MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb, HttpService& service, Lock& lock) {
   connection_ = connection;
   request_.verb = verb;
   HeadersRead read{request_.headers};
   MHD_get_connection_values(connection, MHD_HEADER_KIND, ReadHeader, &read);
   own_headers_ = service.HeadersFor(request_);
-  if (!read.twice.empty()) return Refuse(connection, 400, "the header " + read.twice + " is given twice");
+  if (!read.twice.empty()) return Refuse(connection, 400, "the header " + read.twice + " is given twice", lock);
   if (request_.headers.count("transfer-encoding") > 0) {
-    return Refuse(connection, 411, "a body must come with Content-Length, not with Transfer-Encoding");
+    return Refuse(connection, 411, "a body must come with Content-Length, not with Transfer-Encoding", lock);
   }
   const std::string length = request_.Header("content-length");
   uint64_t bytes = 0;
   const auto parsed = std::from_chars(length.data(), length.data() + length.size(), bytes);
   if (!length.empty() && (parsed.ec != std::errc() || parsed.ptr != length.data() + length.size())) {
-    return Refuse(connection, 400, "Content-Length is no number");
+    return Refuse(connection, 400, "Content-Length is no number", lock);
   }
   if (bytes > limits_.body_bytes) {
     return Refuse(connection, 413,
-                  "the body has " + length + " bytes, the limit is " + std::to_string(limits_.body_bytes));
+                  "the body has " + length + " bytes, the limit is " + std::to_string(limits_.body_bytes), lock);
   }
   if (bytes > limits_.short_body_bytes) {
     state_ = State::kAsking;
@@ -129,44 +130,50 @@ void MhdExchange::AwaitBody() {
   deadline_ = body_since_ + limits_.body_time;
 }
 
-MHD_Result MhdExchange::Refuse(MHD_Connection* connection, int status, const std::string& message) {
+MHD_Result MhdExchange::Refuse(MHD_Connection* connection, int status, const std::string& message, Lock& lock) {
   response_ = ProblemResponse(MakeProblem(status, grpc::StatusCode::INVALID_ARGUMENT, message), own_headers_);
   closes_ = true;  // what is left of the body is not read
-  return QueueAnswer(connection);
+  return QueueAnswer(connection, lock);
 }
 
 void MhdExchange::SendProblem(int status, grpc::StatusCode code, const std::string& message, int retry_after_s) {
   Send(ProblemResponse(MakeProblem(status, code, message, retry_after_s), own_headers_));
 }
 
-MHD_Result MhdExchange::QueueAnswer(MHD_Connection* connection) {
-  state_ = State::kSent;
+MHD_Response* MhdExchange::NewAnswer() {
   if (streams_) {
     response_.content_type = "text/event-stream";
+    response_.status = 200;
     sent_ = Clock::now();
-    return Queue(connection, 200, response_.headers,
-                 MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kBlock, &ReadStream,
-                                                   new Holder(shared_from_this()), &FreeStream));
+    return MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kBlock, &ReadStream, new Holder(shared_from_this()),
+                                             &FreeStream);
   }
   deadline_ = Clock::now() + TimeToTake(response_.body->size());
   auto* body = new std::shared_ptr<const std::string>(response_.body);
-  return Queue(connection, response_.status, response_.headers,
-               MHD_create_response_from_buffer_with_free_callback_cls(
-                   (*body)->size(), const_cast<char*>((*body)->data()), &FreeBody, body));
+  return MHD_create_response_from_buffer_with_free_callback_cls((*body)->size(), const_cast<char*>((*body)->data()),
+                                                                &FreeBody, body);
 }
 
-MHD_Result MhdExchange::Queue(MHD_Connection* connection, int status, const HttpHeaders& headers,
-                              MHD_Response* response) {
-  if (response == nullptr) return MHD_NO;
-  if (!response_.content_type.empty()) {
-    MHD_add_response_header(response, "Content-Type", response_.content_type.c_str());
+MHD_Result MhdExchange::QueueAnswer(MHD_Connection* connection, Lock& lock) {
+  state_ = State::kSent;
+  MHD_Response* const answer = NewAnswer();
+  if (answer != nullptr) {
+    if (!response_.content_type.empty()) {
+      MHD_add_response_header(answer, "Content-Type", response_.content_type.c_str());
+    }
+    if (closes_) MHD_add_response_header(answer, "Connection", "close");
+    MHD_add_response_header(answer, "Cache-Control", "no-store");
+    MHD_add_response_header(answer, "X-Content-Type-Options", "nosniff");
+    for (const auto& [name, value] : response_.headers) {
+      MHD_add_response_header(answer, name.c_str(), value.c_str());
+    }
   }
-  if (closes_) MHD_add_response_header(response, "Connection", "close");
-  MHD_add_response_header(response, "Cache-Control", "no-store");
-  MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
-  for (const auto& [name, value] : headers) MHD_add_response_header(response, name.c_str(), value.c_str());
-  const MHD_Result queued = MHD_queue_response(connection, static_cast<unsigned>(status), response);
-  MHD_destroy_response(response);
+  const auto status = static_cast<unsigned>(response_.status);
+  // The library holds a lock of the answer while it calls Read, and takes it to queue one.
+  lock.unlock();
+  if (answer == nullptr) return MHD_NO;
+  const MHD_Result queued = MHD_queue_response(connection, status, answer);
+  MHD_destroy_response(answer);
   return queued;
 }
 

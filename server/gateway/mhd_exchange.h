@@ -56,13 +56,15 @@ class MhdExchange final : public HttpAnswer, public std::enable_shared_from_this
  private:
   enum class State { kHead, kAsking, kAdmitted, kBody, kWorking, kAnswered, kSent, kAborted };
 
-  MHD_Result OnHead(MHD_Connection* connection, const char* verb, HttpService& service);
-  void AwaitBody();  // mutex_ is held
-  MHD_Result Queue(MHD_Connection* connection, int status, const HttpHeaders& headers, MHD_Response* response);
-  MHD_Result QueueAnswer(MHD_Connection* connection);
-  MHD_Result Refuse(MHD_Connection* connection, int status, const std::string& message);
-  void Resume();        // mutex_ is held
-  void NotifyClosed();  // mutex_ is not held
+  // mutex_ is held by `lock`; where an answer is queued, `lock` is released.
+  using Lock = std::unique_lock<std::mutex>;
+  MHD_Result OnHead(MHD_Connection* connection, const char* verb, HttpService& service, Lock& lock);
+  MHD_Result QueueAnswer(MHD_Connection* connection, Lock& lock);
+  MHD_Result Refuse(MHD_Connection* connection, int status, const std::string& message, Lock& lock);
+  void AwaitBody();           // mutex_ is held
+  MHD_Response* NewAnswer();  // mutex_ is held
+  void Resume();              // mutex_ is held
+  void NotifyClosed();        // mutex_ is not held
   std::chrono::milliseconds TimeToTake(size_t bytes) const;
 
   const HttpLimits limits_;

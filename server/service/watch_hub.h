@@ -93,7 +93,8 @@ class WatchHub {
   ~WatchHub();
 
   // A reader from a position. `wake` is called, from any thread, when Take may have something: soon after opening too.
-  // It must not block, nor call the hub. kNotFound, kOutOfRange, kUnavailable when stopped.
+  // It must not block, nor call the hub, and may come once more after the reader's end. kNotFound, kOutOfRange,
+  // kUnavailable when stopped.
   Outcome<std::unique_ptr<Watch>> Open(const WatchPosition& position, std::function<void()> wake);
   // This process has changed a solve: look at once.
   void Changed(const std::string& id);

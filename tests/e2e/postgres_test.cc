@@ -116,8 +116,10 @@ TEST_F(PostgresTest, SeveralServersServeTheSameSolves) {
   FarAgent agent(cluster_.Url(), Directory("agent"));
   const std::string name = Create(*one->NewStub(), 40);
   Seen here, there;
-  EXPECT_TRUE(WatchOn(*two->NewStub(), name, there).ok());
-  EXPECT_TRUE(WatchOn(*one->NewStub(), name, here).ok());
+  for (const auto& [server, seen] : {std::pair(&*two, &there), std::pair(&*one, &here)}) {
+    const grpc::Status status = WatchOn(*server->NewStub(), name, *seen);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+  }
   for (const Seen& seen : {here, there}) {
     EXPECT_TRUE(seen.dense);
     EXPECT_EQ(seen.iterations, 40);

@@ -1,6 +1,7 @@
 // Stands in for rollgait-solve in tests of the whole server: as many iterations as solver_limits.max_iterations allows
 // (default 60), 10 ms apart, then an optimal result; on kCancelSignal a cancelled one. Its iterations fall from
-// objective 1.
+// objective 1. With the thread sanitizer they are 30 ms apart, so that what a test does in the middle of a solve,
+// slower then, is still in the middle.
 #include <signal.h>
 #include <unistd.h>
 
@@ -13,6 +14,12 @@
 #include "server/base/wire.pb.h"
 
 namespace {
+
+#ifdef ROLLGAIT_THREAD_SANITIZER
+constexpr useconds_t kPauseMicros = 30'000;
+#else
+constexpr useconds_t kPauseMicros = 10'000;
+#endif
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -41,7 +48,7 @@ int main(int argc, char** argv) {
     message.mutable_iteration()->set_index(i);
     message.mutable_iteration()->set_objective(1.0 / (1 + i));
     if (WriteFrame(stream, message.SerializeAsString()) != FrameStatus::kOk) return 1;
-    usleep(10'000);
+    usleep(kPauseMicros);
   }
   wire::SolverMessage message;
   message.mutable_result()->set_termination(stop_requested == 0 ? v1::TERMINATION_OPTIMAL : v1::TERMINATION_CANCELLED);

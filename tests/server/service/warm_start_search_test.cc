@@ -6,6 +6,7 @@
 #include <chrono>
 #include <numbers>
 
+#include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
 #include "server/service/solve_key.h"
 #include "tests/server/service/service_fixture.h"
@@ -182,7 +183,7 @@ TEST_F(WarmStartSearchTest, LongSpecsAreNotRead) {
   constexpr int kCalls = 20;
   for (int i = 0; i < kCalls; ++i) ASSERT_TRUE(Create(request).ok());
   const std::chrono::duration<double> each = (std::chrono::steady_clock::now() - start) / kCalls;
-  EXPECT_LT(each.count(), 0.1) << "s a call: one spec is read, not all";
+  EXPECT_LT(each.count(), kSanitized ? 0.5 : 0.1) << "s a call: one spec is read, not all";
 }
 
 TEST(PlaceOf, SeparatesQuestionsAndPrescribedFromFreeSpeeds) {

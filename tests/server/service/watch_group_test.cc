@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 #include <set>
 
 #include "tests/server/service/service_fixture.h"
@@ -15,14 +16,14 @@ namespace {
 class GroupReader {
  public:
   GroupReader(ServiceBench& bench, const std::vector<WatchPosition>& positions)
-      : group_(WatchGroup::Open(bench.hub(), positions, [this] { bell_.Ring(); }).value()) {}
+      : group_(WatchGroup::Open(bench.hub(), positions, [bell = bell_] { bell->Ring(); }).value()) {}
 
   // The next batch with something in it, or the last one.
   Outcome<WatchBatch> Next() {
     while (true) {
       Outcome<WatchBatch> batch = group_->Take();
       if (!batch.ok() || batch.value().ended || !batch.value().events.empty()) return batch;
-      bell_.Wait();
+      bell_->Wait();
     }
   }
   // All that comes until the end, by name; every batch is of one solve and no longer than a Watch's.
@@ -47,7 +48,7 @@ class GroupReader {
   }
 
  private:
-  WakeBell bell_;
+  const std::shared_ptr<WakeBell> bell_ = std::make_shared<WakeBell>();  // rings after the reader's end, too
   std::unique_ptr<EventSource> group_;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <thread>
 
 #include "tests/server/service/service_fixture.h"
@@ -15,7 +16,7 @@ namespace {
 class Reader {
  public:
   Reader(ServiceBench& bench, const std::string& id, int64_t after, int iterates_per_second = 0)
-      : watch_(bench.hub().Open({id, after, iterates_per_second}, [this] { bell_.Ring(); }).value()) {}
+      : watch_(bench.hub().Open({id, after, iterates_per_second}, [bell = bell_] { bell->Ring(); }).value()) {}
 
   // Adds what comes until `done(events)`; false if the watch ended or failed before.
   template <typename Condition>
@@ -30,7 +31,7 @@ class Reader {
       ended = batch.value().ended;
       if (ended) return done(events);
       if (!batch.value().events.empty()) continue;
-      bell_.Wait();
+      bell_->Wait();
     }
     return true;
   }
@@ -47,7 +48,7 @@ class Reader {
   std::optional<Error> failure;
 
  private:
-  WakeBell bell_;
+  const std::shared_ptr<WakeBell> bell_ = std::make_shared<WakeBell>();  // rings after the reader's end, too
   std::unique_ptr<Watch> watch_;
 };
 
