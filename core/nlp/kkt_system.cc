@@ -14,9 +14,11 @@ constexpr double kLargestThreshold = 1e-6;
 constexpr int kMostRefinements = 6;
 // Backward error that is acceptable after all refinements.
 constexpr double kPoorResidual = 1e-6;
-// The least d of a row with a slack in the factors, relative to the square of its largest entry; what is smaller counts
-// in refinement alone. The row adds 1 / d times the product of its entries to the reduced matrix, and the rounding of
-// that, 2e-16 / 1e-14, is an error of the other entries of the same variables, which refinement has to contract.
+// Where weights are bounded: the least d of a row with a slack in the factors, relative to the square of its largest
+// entry; what is smaller counts in refinement alone. The row adds 1 / d times the product of its entries to the reduced
+// matrix, and the rounding of that, 2e-16 / 1e-14, is an error of the other entries of the same variables, which
+// refinement has to contract. Not the first choice: where the row hardly depends on the variables, d decides, and
+// refinement is slow to find it.
 constexpr double kLeastCompliance = 1e-14;
 // A refinement that does not even halve the error is the last one.
 constexpr double kStagnation = 0.5;
@@ -123,7 +125,13 @@ KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const Ve
   for (int i = 0; i < variables_; ++i) {
     if (fixed_[i] != 0) matrix_.value(matrix_.place(primal_start_ + i)) = 1;
   }
+  const Outcome outcome = FactoriseReduced();
+  return outcome != Outcome::kRight && BoundWeights() ? FactoriseReduced() : outcome;
+}
+
+KktSystem::Outcome KktSystem::FactoriseReduced() {
   AssignReduced();
+  factored_threshold_ = threshold_;
   const FrontalLdlt::Inertia inertia = factors_.Factorise(reduced_values_.data(), threshold_);
   if (inertia.zero > 0) return Outcome::kSingular;
   const int condensed = static_cast<int>(condensed_.size());
@@ -134,10 +142,13 @@ void KktSystem::AssignReduced() {
   double* value = reduced_values_.data();
   for (const int e : reduced_source_) *value++ = matrix_.values()[e];
   const double* derivative = jacobian();
+  has_large_weights_ = false;
   for (Condensed& row : condensed_) {
     double largest = 0;
     for (const int e : row.entries) largest = std::max(largest, std::abs(derivative[e]));
-    row.compliance = std::max(kLeastCompliance * largest * largest, -values_(dual_start_ + row.row));
+    const double least = kLeastCompliance * largest * largest, own = -values_(dual_start_ + row.row);
+    has_large_weights_ |= own < least;
+    row.compliance = bounds_weights_ ? std::max(least, own) : own;
     const double weight = 1 / row.compliance;
     for (size_t i = 0; i < row.entries.size(); ++i) {
       const double scaled = weight * derivative[row.entries[i]];
@@ -166,6 +177,10 @@ void KktSystem::SolveReduced(const VectorX& right, VectorX* solution) {
     (*solution)(variables_ + row.row) = sum / row.compliance;
   }
 }
+
+bool KktSystem::BoundWeights() { return has_large_weights_ && !std::exchange(bounds_weights_, true); }
+
+bool KktSystem::TryHarder() { return threshold_ > factored_threshold_ || BoundWeights(); }
 
 bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v) {
   right_.head(variables_) = a;

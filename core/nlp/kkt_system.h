@@ -37,6 +37,13 @@ class KktSystem {
   // not to be trusted.
   bool Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v);
 
+  // After a solution that was too coarse: whether another factorisation may do better. It will be done with a larger
+  // threshold; where that is the largest, rows that are very close to their bounds are left to refinement, as they are
+  // where the factors had no right inertia.
+  bool TryHarder();
+  // The next factorisation leaves no row to refinement at first.
+  void TrustFactors() { bounds_weights_ = false; }
+
   // y += Jᵀ v with the present Jacobian, fixed variables included.
   void AddTransposedProduct(const VectorX& v, VectorX* y) const;
 
@@ -58,7 +65,9 @@ class KktSystem {
   std::vector<Condensed> FindCondensed(const std::vector<int>& slack_rows) const;
   std::vector<int> PlacesWithout(const std::vector<Condensed>& condensed) const;
   FrontalLdlt MakeFactors(const NlpProblem& problem);
+  Outcome FactoriseReduced();
   void AssignReduced();
+  bool BoundWeights();  // from now on; false if that changes nothing
   void SolveReduced(const VectorX& right, VectorX* solution);
 
   int variables_, rows_;
@@ -68,7 +77,8 @@ class KktSystem {
   VectorX values_;                  // of H, of J and of the two diagonals
   SymmetricMatrix matrix_;          // the same without what is fixed
   std::vector<int> fixed_entries_;  // of the matrix, with a fixed variable
-  double fine_residual_, threshold_;
+  double fine_residual_, threshold_, factored_threshold_ = 0;
+  bool bounds_weights_ = false, has_large_weights_ = false;  // of condensed rows
   std::vector<Condensed> condensed_;
   std::vector<int> place_;           // of an unknown among those that are factored; -1: condensed
   std::vector<int> reduced_source_;  // entries of the matrix that are factored as they are

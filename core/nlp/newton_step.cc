@@ -149,12 +149,11 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
     if (barrier_.has_lower(i)) sigma_(i) += multipliers.lower(i) / (point.w(i) - barrier_.lower(i));
     if (barrier_.has_upper(i)) sigma_(i) += multipliers.upper(i) / (barrier_.upper(i) - point.w(i));
   }
-  // Where the factors were too coarse KktSystem raises its threshold, up to its largest.
-  for (double threshold = 0; kkt_.threshold() > threshold;) {
-    threshold = kkt_.threshold();
+  kkt_.TrustFactors();
+  do {
     if (!Factorise(mu)) return false;
     if (Solve(point, multipliers, point.c, mu, step)) return true;
-  }
+  } while (kkt_.TryHarder());
   return false;
 }
 
