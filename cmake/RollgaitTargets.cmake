@@ -13,7 +13,9 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
-set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+# What computes, core/ and bench/, has -O3; all else waits for wires and disks, and takes a tenth less to compile.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+set(ROLLGAIT_COMPUTES "$<$<CONFIG:Release>:-O3>")
 
 include(X8664V3)
 

@@ -33,7 +33,7 @@ except ImportError:
 SOURCE = os.environ["ROLLGAIT_SOURCE"]
 ATTACKS = SOURCE + "/tests/faults/attacks.py"
 MOST_MIB = 512  # a quarter of what the Kubernetes manifest gives rollgaitd
-SECONDS = float(os.environ.get("ROLLGAIT_ATTACK_SECONDS", "4"))
+SECONDS = float(os.environ.get("ROLLGAIT_ATTACK_SECONDS", "3"))
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith("ROLLGAIT_DOOR")}
 
 
