@@ -120,10 +120,16 @@ constexpr double kD[4][16] = {
      -0.43533456590011143754432175058e+2, 0.96324553959188282948394950600e+2, -0.39177261675615439165231486172e+2,
      -0.14972683625798562581422125276e+3}};
 
+// With equal parts as one rounded product, so that one number gives what it always gave.
+double ScaleOf(const Tolerance& tolerance, double size) {
+  if (tolerance.relative == tolerance.absolute) return tolerance.relative * (1 + size);
+  return tolerance.absolute + tolerance.relative * size;
+}
+
 }  // namespace
 
-double Dop853::StepFromFirstStage(const RightSide& right_side, double t, const VectorX& x, double h, double tolerance,
-                                  VectorX* next) {
+double Dop853::StepFromFirstStage(const RightSide& right_side, double t, const VectorX& x, double h,
+                                  const Tolerance& tolerance, VectorX* next) {
   const Eigen::Index n = x.size();
   for (int i = 1; i < kStages; ++i) {
     argument_ = x;
@@ -145,7 +151,7 @@ double Dop853::StepFromFirstStage(const RightSide& right_side, double t, const V
       e5 += kE5[i] * stages_[i][k];
       e3 += kE3[i] * stages_[i][k];
     }
-    const double scale = tolerance * (1 + std::max(std::abs(x[k]), std::abs((*next)[k])));
+    const double scale = ScaleOf(tolerance, std::max(std::abs(x[k]), std::abs((*next)[k])));
     error5 += (e5 / scale) * (e5 / scale);
     error3 += (e3 / scale) * (e3 / scale);
   }
@@ -154,7 +160,7 @@ double Dop853::StepFromFirstStage(const RightSide& right_side, double t, const V
   return std::abs(h) * error5 / std::sqrt(denominator * static_cast<double>(controlled));
 }
 
-double Dop853::Step(const RightSide& right_side, double t, const VectorX& x, double h, double tolerance,
+double Dop853::Step(const RightSide& right_side, double t, const VectorX& x, double h, const Tolerance& tolerance,
                     VectorX* next) {
   stages_[0].resize(x.size());
   right_side(t, x, &stages_[0]);
@@ -173,9 +179,10 @@ void Dop853::Restart(const RightSide& right_side, double t, const VectorX& x) {
   right_side(t, x, &derivative_);
 }
 
-IntegrationStatus Dop853::Advance(const RightSide& right_side, double end, double tolerance, int max_attempts,
+IntegrationStatus Dop853::Advance(const RightSide& right_side, double end, const Tolerance& tolerance, int max_attempts,
                                   double* t, VectorX* x, int* attempts) {
-  ROLLGAIT_CHECK(tolerance > 0 && end > *t);
+  ROLLGAIT_CHECK(tolerance.relative >= 0 && tolerance.absolute >= 0 && end > *t);
+  ROLLGAIT_CHECK(tolerance.relative + tolerance.absolute > 0);
   double h = proposed_step_;
   stages_[0] = derivative_;
   while (true) {
@@ -229,6 +236,15 @@ IntegrationStatus Dop853::Integrate(const RightSide& right_side, double t, doubl
     if (observer) observer(t, *x);
   }
   return IntegrationStatus::kReachedEnd;
+}
+
+double Dop853::Error(const VectorX& a, const VectorX& b, const Tolerance& tolerance) const {
+  double error = 0;
+  for (int k = 0; k < a.size() - quadratures_; ++k) {
+    const double of_one = std::abs(a[k] - b[k]) / ScaleOf(tolerance, std::max(std::abs(a[k]), std::abs(b[k])));
+    if (!(of_one <= error)) error = std::isnan(of_one) ? kInfinity : of_one;
+  }
+  return error;
 }
 
 void Dop853::PrepareInterpolation(const RightSide& right_side) {

@@ -16,6 +16,14 @@ enum class IntegrationStatus {
   kTooManySteps,
 };
 
+// What a component of an error is compared with: absolute + relative · |x|, both >= 0 and not both 0. One number stands
+// for both.
+struct Tolerance {
+  Tolerance(double both) : relative(both), absolute(both) {}  // NOLINT: a number is a tolerance
+  Tolerance(double relative_part, double absolute_part) : relative(relative_part), absolute(absolute_part) {}
+  double relative, absolute;
+};
+
 // Explicit Runge–Kutta method of order 8 with 12 stages, an error estimate of orders 5 and 3 (DOP853) and a continuous
 // extension of order 7, with steps of variable length. Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential
 // Equations I, 2nd ed. 1993, sections II.5, II.6 and appendix. Not thread-safe: one object a thread.
@@ -46,8 +54,8 @@ class Dop853 {
   // One accepted step from (t, x), the state of the last Start, Restart or Advance, not beyond end > t. On failure t
   // and x stay what they were. kReachedEnd: the step was made (t need not be `end`). `attempts` counts accepted and
   // rejected.
-  IntegrationStatus Advance(const RightSide& right_side, double end, double tolerance, int max_attempts, double* t,
-                            VectorX* x, int* attempts);
+  IntegrationStatus Advance(const RightSide& right_side, double end, const Tolerance& tolerance, int max_attempts,
+                            double* t, VectorX* x, int* attempts);
   // ẋ at the end of the last step (or at Start).
   const VectorX& derivative() const { return derivative_; }
 
@@ -60,7 +68,11 @@ class Dop853 {
 
   // One step of length h from (t, x) without error control: `next` and an error estimate relative to the tolerance
   // (accurate enough if <= 1). `next` may not be x.
-  double Step(const RightSide& right_side, double t, const VectorX& x, double h, double tolerance, VectorX* next);
+  double Step(const RightSide& right_side, double t, const VectorX& x, double h, const Tolerance& tolerance,
+              VectorX* next);
+
+  // How far two states are apart, quadratures left out: the largest difference over the tolerance.
+  double Error(const VectorX& a, const VectorX& b, const Tolerance& tolerance) const;
 
   // Length that the last Integrate would have used next; a good first_step for a similar problem.
   double proposed_step() const { return proposed_step_; }
@@ -69,8 +81,8 @@ class Dop853 {
 
  private:
   // The first stage is at (t, x) and given; fills the others, `next` and the estimate.
-  double StepFromFirstStage(const RightSide& right_side, double t, const VectorX& x, double h, double tolerance,
-                            VectorX* next);
+  double StepFromFirstStage(const RightSide& right_side, double t, const VectorX& x, double h,
+                            const Tolerance& tolerance, VectorX* next);
 
   std::array<VectorX, 12> stages_;
   std::array<VectorX, 3> extra_;  // stages of the continuous extension

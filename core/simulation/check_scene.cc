@@ -148,6 +148,7 @@ class SceneChecker {
       Refuse("output_step_s", options.output_step, "makes more than 2000000 samples; enlarge it or shorten duration_s");
     }
     CheckRange("tolerance", options.tolerance, 1e-14, 1e-2, "");
+    if (options.absolute_tolerance) CheckRange("absolute_tolerance", *options.absolute_tolerance, 1e-30, 1e-2, "");
     CheckRange("drift.frequency_1_s", options.baumgarte.frequency, 0, 1e6, " 1/s");
     CheckRange("drift.damping", options.baumgarte.damping, 0, 1e3, "");
     CheckRange("drift.slip_rate_1_s", options.baumgarte.slip_rate, 0, 1e6, " 1/s");

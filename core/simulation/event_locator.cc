@@ -4,11 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "core/simulation/held_contacts.h"
+
 namespace rollgait {
 namespace {
 
 constexpr int kParts = 4;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// Rounding of a gap, over the bodies' size and distance from the origin.
+constexpr double kGapRounding = 64 * kEpsilon;
 
 }  // namespace
 
@@ -59,10 +63,20 @@ void EventLocator::Evaluate(Point* point) {
   }
   point->values.resize(watched_.size());
   point->rates.assign(watched_.size(), 0.0);
+  point->rounding.assign(watched_.size(), 0.0);
+  point->zero.assign(watched_.size(), 0.0);
+  double largest_force = 0;
+  for (int k : dynamics_.active()) largest_force = std::max(largest_force, dynamics_.contacts().Force(k).norm());
   for (size_t w = 0; w < watched_.size(); ++w) {
     point->values[w] = Value(watched_[w]);
     if (watched_[w].kind == SimulationEventKind::kTouchDown) {
-      point->rates[w] = dynamics_.contacts().Kinematics(watched_[w].contact).gap_rate;
+      const PairKinematics& pair = dynamics_.contacts().Kinematics(watched_[w].contact);
+      point->rates[w] = pair.gap_rate;
+      const double size = 1 + pair.p_1.norm();
+      point->rounding[w] = kGapRounding * size;
+      point->zero[w] = kTouching * size;
+    } else if (watched_[w].kind == SimulationEventKind::kLiftOff) {
+      point->rounding[w] = point->zero[w] = kForceRounding * largest_force;
     }
   }
 }
@@ -136,28 +150,44 @@ Crossing EventLocator::Polish(const Watched& watched, double root, double slope,
   return crossing;
 }
 
+EventLocator::Point EventLocator::TurnBetween(size_t w, const Point& a, const Point& b) {
+  const bool least = a.rates[w] < 0;
+  double low = a.time, high = b.time;
+  Point turn;
+  for (int i = 0; i < 40; ++i) {
+    turn = At(0.5 * (low + high));
+    if (least ? turn.values[w] < -turn.rounding[w] : turn.values[w] > turn.rounding[w]) break;
+    (least == (turn.rates[w] < 0) ? low : high) = turn.time;
+  }
+  return turn;
+}
+
+std::optional<double> EventLocator::FallsAt(size_t w, const Point& a, const Point& b) {
+  const bool is_gap = watched_[w].kind == SimulationEventKind::kTouchDown;
+  if (a.values[w] > 0 && b.values[w] <= 0) return RootBetween(w, a, b);
+  if (is_gap && a.values[w] > 0 && a.rates[w] < 0 && b.rates[w] > 0) {
+    const Point least = TurnBetween(w, a, b);
+    if (least.values[w] < -least.rounding[w]) return RootBetween(w, a, least);
+    return std::nullopt;
+  }
+  const bool from_zero = a.zero[w] > 0 && a.values[w] <= 0 && a.values[w] >= -a.zero[w];
+  if (!from_zero || !(b.values[w] < -b.zero[w])) return std::nullopt;
+  if (is_gap && a.rates[w] > 0 && b.rates[w] < 0) {
+    const Point greatest = TurnBetween(w, a, b);
+    if (greatest.values[w] > greatest.rounding[w]) return RootBetween(w, greatest, b);
+  }
+  return a.time;
+}
+
 std::optional<Crossing> EventLocator::FirstBetween(const Point& a, const Point& b, const VectorX& x) {
   std::optional<size_t> first;
   double first_root = kInfinity;
-  Point dip;
   for (size_t w = 0; w < watched_.size(); ++w) {
-    const Point* end = &b;
-    if (watched_[w].kind == SimulationEventKind::kTouchDown && a.values[w] > 0 && b.values[w] > 0 && a.rates[w] < 0 &&
-        b.rates[w] > 0) {
-      // A minimum in between; is it below the ground?
-      double low = a.time, high = b.time;
-      for (int i = 0; i < 40; ++i) {
-        dip = At(0.5 * (low + high));
-        if (dip.values[w] <= 0) break;
-        (dip.rates[w] < 0 ? low : high) = dip.time;
-      }
-      end = &dip;
-    }
-    if (!(a.values[w] > 0 && end->values[w] <= 0)) continue;
-    const double root = RootBetween(w, a, *end);
-    if (watched_[w].kind == SimulationEventKind::kTouchDown && !GatesOpen(watched_[w].contact, At(root).state))
+    const std::optional<double> root = FallsAt(w, a, b);
+    if (!root) continue;
+    if (watched_[w].kind == SimulationEventKind::kTouchDown && !GatesOpen(watched_[w].contact, At(*root).state))
       continue;
-    if (root < first_root) first_root = root, first = w;
+    if (*root < first_root) first_root = *root, first = w;
   }
   if (!first) return std::nullopt;
   const double delta = 1e-5 * (b.time - a.time);

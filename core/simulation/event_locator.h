@@ -24,7 +24,9 @@ struct Crossing {
 // direction at the start of the step (falling through zero: there it ends). Quantities are sampled at quarters of the
 // step on the continuous extension (gaps also at their minimum between samples); a change of sign is located there,
 // then with single steps of the integrator from the start of the step until the time no longer changes: to rounding of
-// the quantity over its slope.
+// the quantity over its slope. A gap or a normal force that is zero within rounding at the start of the step, as after
+// an event, and then falls below zero by more than rounding, has fallen through zero at the start; a gap that first
+// rises, where it comes back. A gap whose minimum is zero within rounding does not close.
 class EventLocator {
  public:
   EventLocator(const SimulationScene& scene, SceneDynamics* dynamics);
@@ -45,13 +47,20 @@ class EventLocator {
     double time;
     VectorX state;
     std::vector<double> values, rates;  // rates of gaps only
+    std::vector<double> rounding;       // of gaps and normal forces
+    std::vector<double> zero;           // as large as what is taken for zero after an event
   };
 
   void ChooseWatched();
   void Evaluate(Point* point);
   double Value(const Watched& watched);
   bool GatesOpen(int contact, const VectorX& x) const;
-  // Root of watched quantity w between a and b on the continuous extension; both have its values.
+  // Where watched quantity w falls through zero between a and b, if it does.
+  std::optional<double> FallsAt(size_t w, const Point& a, const Point& b);
+  // The point between a and b where the gap w is least (its rate goes from below to above zero), or greatest. Ends
+  // early where the gap is beyond zero by more than rounding.
+  Point TurnBetween(size_t w, const Point& a, const Point& b);
+  // Root of watched quantity w between a and b on the continuous extension; positive at a, not at b.
   double RootBetween(size_t w, const Point& a, const Point& b);
   Point At(double t);
   std::optional<Crossing> FirstBetween(const Point& a, const Point& b, const VectorX& x);

@@ -1,5 +1,7 @@
 #include "core/simulation/frictional_impact.h"
 
+#include "core/simulation/held_contacts.h"
+
 namespace rollgait {
 namespace {
 
@@ -22,8 +24,6 @@ bool LetSlide(const SimulationScene& scene, const Impact& impact, SceneDynamics*
   return changed;
 }
 
-}  // namespace
-
 std::optional<Impact> ResolveFrictionalImpact(const SimulationScene& scene, const std::vector<int>& touching,
                                               const std::vector<int>& must_hold, double t, const VectorX& x,
                                               SceneDynamics* dynamics) {
@@ -44,6 +44,29 @@ std::optional<Impact> ResolveFrictionalImpact(const SimulationScene& scene, cons
   }
   dynamics->SetState(t, x);
   return impact;
+}
+
+}  // namespace
+
+std::optional<Impact> ResolveTouchDown(const SimulationScene& scene, int contact, double t, const VectorX& x,
+                                       SceneDynamics* dynamics) {
+  dynamics->SetState(t, x);
+  std::vector<int> touching, must_hold, bilateral;
+  for (int k = 0; k < dynamics->contacts().contact_count(); ++k) {
+    const bool closes_too =
+        MayTouchDown(scene, k, *dynamics) && Touches(k, dynamics) && dynamics->contacts().Kinematics(k).gap_rate <= 0;
+    if (k != contact && !dynamics->IsActive(k) && !closes_too) continue;
+    touching.push_back(k);
+    const bool stays = scene.contacts[static_cast<size_t>(k)].bilateral;
+    if (stays) bilateral.push_back(k);
+    if (k == contact || stays) must_hold.push_back(k);
+  }
+  const std::optional<Impact> impact = ResolveFrictionalImpact(scene, touching, must_hold, t, x, dynamics);
+  if (!impact || impact->consistent) return impact;
+  // Others that close at the same instant may open this one again.
+  const std::optional<Impact> other = ResolveFrictionalImpact(scene, touching, bilateral, t, x, dynamics);
+  if (other && other->consistent) return other;
+  return ResolveFrictionalImpact(scene, touching, must_hold, t, x, dynamics);
 }
 
 }  // namespace rollgait

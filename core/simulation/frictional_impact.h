@@ -9,13 +9,14 @@
 
 namespace rollgait {
 
-// ResolveImpact at (t, x) for a scene whose contacts may slide. Those stick in the impact if the cone of friction holds
-// their impulse; those that cannot, slide on in the direction in which they came, with a friction impulse of μ times
-// the normal one. Leaves `dynamics` at (t, x) with contacts sliding or not as after the impact. Nothing if one of them
+// ResolveImpact at (t, x), where the gap of `contact` closes, for a scene whose contacts may slide: with the active
+// contacts and those that close at the same instant, where only `contact` and bilateral ones must be held, or, where
+// that is not consistent, only bilateral ones. Contacts stick in the impact if the cone of friction holds their
+// impulse; those that cannot, slide on in the direction in which they came, with a friction impulse of μ times the
+// normal one. Leaves `dynamics` at (t, x) with contacts sliding or not as after the impact. Nothing if one of them
 // would be turned back within the impact, or if the impulses are not determined.
-std::optional<Impact> ResolveFrictionalImpact(const SimulationScene& scene, const std::vector<int>& touching,
-                                              const std::vector<int>& must_hold, double t, const VectorX& x,
-                                              SceneDynamics* dynamics);
+std::optional<Impact> ResolveTouchDown(const SimulationScene& scene, int contact, double t, const VectorX& x,
+                                       SceneDynamics* dynamics);
 
 }  // namespace rollgait
 

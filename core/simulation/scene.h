@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_CORE_SIMULATION_SCENE_H_
 #define ROLLGAIT_CORE_SIMULATION_SCENE_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,10 @@ enum class DriftControl {
 };
 
 struct SimulationOptions {
-  double duration = 1;        // s, (0, 1e7]
-  double tolerance = 1e-9;    // of the integrator, relative and absolute, [1e-14, 1e-2]
+  double duration = 1;      // s, (0, 1e7]
+  double tolerance = 1e-9;  // of the integrator, relative, [1e-14, 1e-2]
+  // Of the integrator, in the units of positions and velocities, [1e-30, 1e-2]. Without it as `tolerance`.
+  std::optional<double> absolute_tolerance;
   double output_step = 0.01;  // s between samples, (0, duration]
   DriftControl drift = DriftControl::kProjection;
   Baumgarte baumgarte;

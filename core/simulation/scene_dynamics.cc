@@ -9,6 +9,10 @@
 namespace rollgait {
 namespace {
 
+// What rounding leaves of a slip's rate of change, over the terms that cancel in it and the accelerations that gravity
+// and the contact forces would give to the whole mechanism.
+constexpr double kSlipRateRounding = 1e-9;
+
 std::vector<TreeContact> TreeContacts(const SimulationScene& scene) {
   std::vector<TreeContact> contacts;
   for (const SceneContact& contact : scene.contacts) contacts.push_back(contact.contact);
@@ -72,12 +76,26 @@ void SceneDynamics::Slide(int k, const Vector3& direction) {
   contacts_.SetSliding(k, Sliding{scene_.contacts[static_cast<size_t>(k)].friction, direction});
 }
 
-bool SceneDynamics::TurnsBack(int k) {
-  if (TangentialSlip(k).norm() > kSlidingBlend) return false;
+double SceneDynamics::SlipRate(int k, const Vector3& direction) {
   contacts_.SlipJacobian(k, &linear_, &angular_);
   const Vector3 change = linear_ * solution_->acceleration, &drift = contacts_.Kinematics(k).drift;
-  const Vector3 direction = contacts_.SlidingDirection(k);
-  return direction.dot(change + drift) < -1e-9 * (change.norm() + drift.norm());
+  const double rate = direction.dot(change + drift);
+  double force = 0;
+  for (int i : active_) force += contacts_.Force(i).norm();
+  const double of_all = scene_.gravity.norm() + force / contacts_.dynamics().total_mass();
+  return std::abs(rate) <= kSlipRateRounding * (change.norm() + drift.norm() + of_all) ? 0 : rate;
+}
+
+bool SceneDynamics::IsAtRest(int k, double speed) {
+  contacts_.VelocityRows({k}, &jacobian_, &right_);
+  return right_.cwiseAbs().maxCoeff() <= speed;
+}
+
+// Without slip the normal's motion does not change the gap's rate.
+double SceneDynamics::GapAcceleration(int k) { return SlipRate(k, contacts_.Kinematics(k).normal); }
+
+bool SceneDynamics::TurnsBack(int k) {
+  return TangentialSlip(k).norm() <= kSlidingBlend && SlipRate(k, contacts_.SlidingDirection(k)) < 0;
 }
 
 bool SceneDynamics::FollowSlip() {
@@ -121,6 +139,19 @@ void SceneDynamics::RightSide(double t, const VectorX& x, VectorX* derivative) {
     }
   }
   (*derivative)[nq_ + nv_] = power;
+}
+
+double SceneDynamics::FirstStep(const VectorX& x, const VectorX& derivative) const {
+  constexpr double kChange = 0.01;
+  const double size = std::max(1.0, x.head(nq_).cwiseAbs().maxCoeff());
+  const double rate = derivative.head(nq_).cwiseAbs().maxCoeff();
+  const double speed = x.segment(nq_, nv_).cwiseAbs().maxCoeff();
+  const double acceleration = derivative.segment(nq_, nv_).cwiseAbs().maxCoeff();
+  const double of_position = rate > 0 ? kChange * size / rate : kInfinity;
+  const double of_velocity = acceleration == 0 ? kInfinity
+                             : speed > 0       ? kChange * speed / acceleration
+                                               : std::sqrt(2 * kChange * size / acceleration);
+  return std::min(of_position, of_velocity);
 }
 
 double SceneDynamics::KineticEnergy() const { return contacts_.dynamics().KineticEnergy(contacts_.state()); }

@@ -40,6 +40,10 @@ class SceneDynamics {
   bool IsSliding(int k) const { return contacts_.sliding(k).has_value(); }
   // True for contacts that may slide (FrictionLoss::kSlide).
   bool MaySlide(int k) const { return scene_.contacts[static_cast<size_t>(k)].friction_loss == FrictionLoss::kSlide; }
+  // True if what contact k would hold does not move faster than `speed`, m/s, at the state.
+  bool IsAtRest(int k, double speed);
+  // Second derivative of the gap of contact k, which has no slip, under the last right side, m/s²; 0 within rounding.
+  double GapAcceleration(int k);
   // True if contact k, which slides but has no slip yet, would slip against its direction under the last right side.
   bool TurnsBack(int k);
   // Turns the reference of every sliding contact into its direction of slip at the state. True if there is one.
@@ -47,6 +51,9 @@ class SceneDynamics {
 
   // ẋ at (t, x). Leaves contacts() with kinematics and forces of that instant.
   void RightSide(double t, const VectorX& x, VectorX* derivative);
+  // The time in which positions or velocities change by a hundredth of themselves at that rate, s, whatever the unit of
+  // time; infinite if nothing moves.
+  double FirstStep(const VectorX& x, const VectorX& derivative) const;
   // Kinematics alone.
   void SetState(double t, const VectorX& x);
   ContactDynamics& contacts() { return contacts_; }
@@ -66,6 +73,8 @@ class SceneDynamics {
   Drift Project(double t, bool positions_and_velocities, VectorX* x);
 
  private:
+  // Of the slip of contact k along a direction (unit, world) under the last right side, m/s²; 0 within rounding.
+  double SlipRate(int k, const Vector3& direction);
   // W, of constant efforts and dampers.
   double Power() const;
 

@@ -2,27 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/simulation/event_locator.h"
 #include "core/simulation/frictional_impact.h"
+#include "core/simulation/held_contacts.h"
 #include "core/simulation/initial_state.h"
 #include "core/simulation/recording.h"
 
 namespace rollgait {
 namespace {
 
-// A normal force this far below zero, relative to the largest force, is rounding.
-constexpr double kForceRounding = 1e-11;
-// Contacts closer than this (relative to their distance from the origin and their size) take part in an impact.
-constexpr double kTouching = 1e-10;
-// A slip below this, m/s, ends together with another one's.
-constexpr double kStopped = 1e-9;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// Samples in a step from which the continuous extension, with its check, takes fewer evaluations than a step for each.
+constexpr long kSamplesToInterpolate = 2;
 
 class SimulationRun {
  public:
   SimulationRun(const SimulationScene& scene, const SimulationObserver& observer, const StopFlag* stop)
-      : scene_(scene), observer_(observer), stop_(stop), dynamics_(scene), locator_(scene, &dynamics_) {
+      : scene_(scene),
+        observer_(observer),
+        stop_(stop),
+        tolerance_(scene.options.tolerance, scene.options.absolute_tolerance.value_or(scene.options.tolerance)),
+        dynamics_(scene),
+        locator_(scene, &dynamics_) {
     right_side_ = [this](double t, const VectorX& x, VectorX* dx) { dynamics_.RightSide(t, x, dx); };
     derivative_.resize(dynamics_.size());
     directions_.resize(scene.contacts.size());
@@ -42,19 +46,19 @@ class SimulationRun {
 
  private:
   void Loop() {
+    // Those before the end: a multiple of the step that rounding puts before the end is the end.
+    samples_ = std::lround(std::ceil(scene_.options.duration / scene_.options.output_step * (1 - 4 * kEpsilon)));
     if (!Settle() || !EmitSample(t_, x_)) return;
     ++next_sample_;
     const double end = scene_.options.duration;
-    const double speed = derivative_.cwiseAbs().maxCoeff();
-    const double first = speed > 0 ? 0.01 * std::max(1.0, x_.cwiseAbs().maxCoeff()) / speed : end;
-    integrator_.Start(right_side_, t_, x_, std::min(first, end));
+    integrator_.Start(right_side_, t_, x_, std::min(dynamics_.FirstStep(x_, derivative_), end));
     while (t_ < end) {
       if (stop_ != nullptr && stop_->requested()) return End(SimulationEnd::kStopped);
       const double step_start = t_;
       const VectorX step_from = x_;
       int attempts_before = attempts_;
-      const IntegrationStatus status = integrator_.Advance(right_side_, end, scene_.options.tolerance,
-                                                           scene_.options.max_steps, &t_, &x_, &attempts_);
+      const IntegrationStatus status =
+          integrator_.Advance(right_side_, end, tolerance_, scene_.options.max_steps, &t_, &x_, &attempts_);
       if (status != IntegrationStatus::kReachedEnd) return End(Failure(status));
       ++report_.steps;
       report_.rejected_steps += attempts_ - attempts_before - 1;
@@ -108,21 +112,35 @@ class SimulationRun {
     return true;
   }
 
+  // Samples of the step, up to t_. A sample after a single step from its start is as accurate as the step; the
+  // continuous extension takes twelve evaluations less for each and is used where it is as accurate, too.
   bool EmitSamples(double step_start, const VectorX& step_from) {
-    VectorX between;
-    for (; next_sample_ * scene_.options.output_step <= t_; ++next_sample_) {
-      const double time = static_cast<double>(next_sample_) * scene_.options.output_step;
-      if (time >= scene_.options.duration) break;  // the last sample is at the end
+    const long first = next_sample_;
+    while (SampleTime(next_sample_) <= t_ && next_sample_ < samples_) ++next_sample_;
+    bool interpolates = next_sample_ - first >= kSamplesToInterpolate;
+    if (interpolates) {
+      integrator_.PrepareInterpolation(right_side_);
+      const double middle = 0.5 * (integrator_.step_start() + integrator_.step_end());
+      single_.Step(right_side_, step_start, step_from, middle - step_start, tolerance_, &between_);
+      integrator_.Interpolate(middle, &interpolated_);
+      interpolates = integrator_.Error(between_, interpolated_, tolerance_) <= 1;
+    }
+    for (long k = first; k < next_sample_; ++k) {
+      const double time = SampleTime(k);
       if (time == t_) {
-        between = x_;
+        between_ = x_;
+      } else if (interpolates) {
+        integrator_.Interpolate(time, &between_);
       } else {
-        single_.Step(right_side_, step_start, step_from, time - step_start, 1, &between);
+        single_.Step(right_side_, step_start, step_from, time - step_start, tolerance_, &between_);
       }
-      dynamics_.Project(time, false, &between);
-      if (!EmitSample(time, between)) return false;
+      dynamics_.Project(time, false, &between_);
+      if (!EmitSample(time, between_)) return false;
     }
     return true;
   }
+
+  double SampleTime(long k) const { return static_cast<double>(k) * scene_.options.output_step; }
 
   bool EmitSample(double time, const VectorX& x) {
     dynamics_.RightSide(time, x, &derivative_);
@@ -164,7 +182,7 @@ class SimulationRun {
       case SimulationEventKind::kTouchDown:
         return HandleImpact(crossing.contact);
       case SimulationEventKind::kLiftOff:
-        return Release(crossing.contact) && Settle();
+        return Settle(crossing.contact);
       case SimulationEventKind::kFrictionLoss:
         return LoseFriction(crossing.contact);
       case SimulationEventKind::kStick:
@@ -209,43 +227,38 @@ class SimulationRun {
       dynamics_.SetState(t_, x_);
       for (int k : dynamics_.active()) {
         const bool listed = std::find(ended.begin(), ended.end(), k) != ended.end();
-        if (!listed && dynamics_.IsSliding(k) && dynamics_.TangentialSlip(k).norm() <= kStopped) ended.push_back(k);
+        if (!listed && dynamics_.IsSliding(k) && dynamics_.TangentialSlip(k).norm() <= kAtRest) ended.push_back(k);
       }
     }
     return Settle();
   }
 
-  bool Release(int contact) {
-    if (!EmitEvent(MakeEvent(SimulationEventKind::kLiftOff, contact))) return false;
-    std::vector<int> active = dynamics_.active();
-    active.erase(std::remove(active.begin(), active.end(), contact), active.end());
-    dynamics_.SetActive(std::move(active));
-    dynamics_.Stick(contact);
+  // Which contacts push, after one was let go (-1: none); then, which of them slide.
+  bool Settle(int let_go = -1) { return ChooseHeld(let_go) && ChooseSliding(); }
+
+  bool ChooseHeld(int let_go) {
+    const HeldChoice choice = ChooseHeldContacts(scene_, let_go, t_, x_, &dynamics_);
+    if (choice.outcome == HeldChoice::Outcome::kNotFinite) End(NotFinite());
+    if (choice.outcome == HeldChoice::Outcome::kNone) {
+      End(choice.may_slide ? SimulationEnd::kFrictionUndetermined : SimulationEnd::kRollingImpossible);
+    }
+    if (choice.outcome != HeldChoice::Outcome::kFound) return false;
+    for (int k : choice.let_go) {
+      if (!EmitEvent(MakeEvent(SimulationEventKind::kLiftOff, k))) return false;
+    }
+    for (int k : choice.began_to_slide) {
+      if (!EmitEvent(MakeEvent(SimulationEventKind::kFrictionLoss, k))) return false;
+    }
+    for (int k : choice.taken_up) {
+      SimulationEvent event = MakeEvent(SimulationEventKind::kTouchDown, k);
+      event.impulses.assign(scene_.contacts.size(), Vector3::Zero());
+      if (!EmitEvent(event)) return false;
+    }
     return true;
   }
 
-  // Releases unilateral contacts that would have to pull, the worst first; then looks at friction.
-  bool Settle() {
-    while (true) {
-      dynamics_.RightSide(t_, x_, &derivative_);
-      if (!derivative_.allFinite()) {
-        End(NotFinite());
-        return false;
-      }
-      int worst = -1;
-      double least = 0, size = 0;
-      for (int k : dynamics_.active()) {
-        size = std::max(size, dynamics_.contacts().Force(k).norm());
-      }
-      for (int k : dynamics_.active()) {
-        if (scene_.contacts[static_cast<size_t>(k)].bilateral) continue;
-        const double normal = dynamics_.contacts().Kinematics(k).normal.dot(dynamics_.contacts().Force(k));
-        if (normal < -kForceRounding * size && normal < least) least = normal, worst = k;
-      }
-      if (worst < 0) break;
-      if (!Release(worst)) return false;
-    }
-    // Contacts that may slide and need more friction than there is, begin to; this can make others need more, or less.
+  // Contacts that may slide and need more friction than there is, begin to; this can make others need more, or less.
+  bool ChooseSliding() {
     for (int i = 0; i <= 2 * dynamics_.contacts().contact_count(); ++i) {
       std::vector<int> lost = locator_.MarkFriction(t_, x_), slide;
       for (int k : lost) {
@@ -266,19 +279,7 @@ class SimulationRun {
   }
 
   bool HandleImpact(int contact) {
-    dynamics_.SetState(t_, x_);
-    std::vector<int> touching, must_hold;
-    for (int k = 0; k < dynamics_.contacts().contact_count(); ++k) {
-      const PairKinematics& pair = dynamics_.contacts().Kinematics(k);
-      const SceneContact& scene_contact = scene_.contacts[static_cast<size_t>(k)];
-      const double size = 1 + pair.p_1.norm();
-      const bool closes_too = !dynamics_.IsActive(k) && scene_contact.can_touch_down && scene_contact.gates.empty() &&
-                              std::abs(pair.gap) <= kTouching * size && pair.gap_rate <= 0;
-      if (k != contact && !dynamics_.IsActive(k) && !closes_too) continue;
-      touching.push_back(k);
-      if (k == contact || scene_contact.bilateral) must_hold.push_back(k);
-    }
-    const std::optional<Impact> resolved = ResolveFrictionalImpact(scene_, touching, must_hold, t_, x_, &dynamics_);
+    const std::optional<Impact> resolved = ResolveTouchDown(scene_, contact, t_, x_, &dynamics_);
     if (!resolved) {
       End(SimulationEnd::kFrictionUndetermined);
       return false;
@@ -312,22 +313,25 @@ class SimulationRun {
     report_.active_at_end = dynamics_.active();
     report_.q = dynamics_.Positions(x_);
     report_.v = dynamics_.Velocities(x_);
-    // The sample at the end, unless the observer wants no more.
-    if (report_.end != SimulationEnd::kStopped && report_.end != SimulationEnd::kNotFinite) EmitSample(t_, x_);
+    // The sample at the end, unless the observer wants no more or the instant has no accelerations.
+    const SimulationEnd end = report_.end;
+    const bool has_accelerations = end != SimulationEnd::kNotFinite && end != SimulationEnd::kRollingImpossible;
+    if (has_accelerations && end != SimulationEnd::kStopped) EmitSample(t_, x_);
   }
 
   const SimulationScene& scene_;
   const SimulationObserver& observer_;
   const StopFlag* stop_;
+  const Tolerance tolerance_;
   SceneDynamics dynamics_;
   EventLocator locator_;
   Dop853 integrator_, single_;
   Dop853::RightSide right_side_;
   SimulationReport report_;
-  VectorX x_, derivative_;
+  VectorX x_, derivative_, between_, interpolated_;
   std::vector<Vector3> directions_;
   double t_ = 0;
-  long next_sample_ = 0;
+  long next_sample_ = 0, samples_ = 0;
   int attempts_ = 0, events_ = 0;
 };
 

@@ -67,6 +67,8 @@ enum class SimulationEnd {
   kTooManyEvents,
   kFrictionUndetermined,  // Coulomb friction on rigid bodies leaves the motion undetermined: jamming, or several
                           // contacts whose friction forces are not unique (ConstrainedSolver::SolveSliding)
+  kRollingImpossible,  // a unilateral contact would have to pull to go on rolling, and closes if it is let go: friction
+                       // without limit has no continuation there
 };
 
 // How well the simulation kept what it should, over all steps and samples.
@@ -99,9 +101,9 @@ struct SimulationObserver {
 };
 
 // Simulates a scene that CheckScene found nothing wrong with. Violations: the state at t = 0 contradicts the contacts.
-// Adaptive integration by DOP853; samples are single steps of it from the last mesh point, so they are as accurate as
-// the mesh; events are bracketed on the continuous extension and then located with single steps, to rounding.
-// Deterministic.
+// Adaptive integration by DOP853; samples are single steps of it from the last mesh point, or its continuous extension
+// where that agrees with them, so they are as accurate as the mesh; events are bracketed on the continuous extension
+// and then located with single steps, to rounding. Deterministic.
 Result<SimulationReport> Simulate(const SimulationScene& scene, const SimulationObserver& observer,
                                   const StopFlag* stop = nullptr);
 

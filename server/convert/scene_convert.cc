@@ -167,6 +167,7 @@ void SceneDecoder::DecodeOptions(SimulationScene* scene) {
   options.duration = message_.duration_s();
   options.output_step = message_.has_output_step_s() ? message_.output_step_s() : message_.duration_s() / 100;
   if (message_.has_tolerance()) options.tolerance = message_.tolerance();
+  if (message_.has_absolute_tolerance()) options.absolute_tolerance = message_.absolute_tolerance();
   if (message_.has_max_steps()) options.max_steps = message_.max_steps();
   if (message_.has_max_events()) options.max_events = message_.max_events();
   options.stop_after_impacts = message_.stop_after_impacts();

@@ -58,6 +58,8 @@ v1::SimulationReport::End EncodeEnd(SimulationEnd end) {
       return v1::SimulationReport::END_TOO_MANY_EVENTS;
     case SimulationEnd::kFrictionUndetermined:
       return v1::SimulationReport::END_FRICTION_UNDETERMINED;
+    case SimulationEnd::kRollingImpossible:
+      return v1::SimulationReport::END_ROLLING_IMPOSSIBLE;
   }
   ROLLGAIT_CHECK(false);
 }
