@@ -25,8 +25,10 @@ double TorqueWeight(const GaitSpec& spec) {
 }
 
 GaitSpec WithRatesAt(double rate_weight, GaitSpec spec) {
-  spec.costs.push_back(
-      {GaitRequest::SquaredTorqueRate{}, rate_weight * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec)});
+  const double weight = rate_weight * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec);
+  GaitSpec::CostTerm& rate = spec.costs.emplace_back();
+  rate.term = GaitRequest::SquaredTorqueRate{};
+  rate.weight = weight;
   return spec;
 }
 

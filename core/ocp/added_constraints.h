@@ -2,6 +2,7 @@
 #define ROLLGAIT_CORE_OCP_ADDED_CONSTRAINTS_H_
 
 #include <compare>
+#include <cstddef>
 #include <vector>
 
 namespace rollgait {

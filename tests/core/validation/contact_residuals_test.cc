@@ -73,6 +73,8 @@ TEST_P(PlantedContacts, GapBetweenNodes) {
   Judge();
   Expect(Criterion::kGap, 2e-4, 0.5, "tread");
   EXPECT_NEAR(residuals_.max_gap, 2e-4, 1e-12);
+  // Rising is a slip, too.
+  Expect(Criterion::kSlip, 4 * 2e-4 / Length(), 0, "tread");
   trajectory_ = Coasting().MakeTrajectory(GetParam());
   PlantBump(1, -3e-4);
   Judge();
@@ -142,6 +144,9 @@ TEST_P(PlantedContacts, FrictionOfTheReturnedForcesBetweenPoints) {
   Judge();
   Expect(Criterion::kFriction, 0.5, linear ? 0 : 0.5, "tread");
   EXPECT_NEAR(forces_.max_friction_ratio(), 0.9, 1e-6);
+  bounds_.friction = 0.85;
+  Judge();
+  Expect(Criterion::kFriction, 0.9 / 0.85 - 1, linear ? 0 : 0.5, "tread");
   bounds_.friction = 0.9001;
   Judge();
   EXPECT_EQ(log_[Criterion::kFriction].value, 0);

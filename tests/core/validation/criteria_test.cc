@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -19,6 +21,16 @@ TEST_P(CriteriaTest, TheTableIsInTheOrderOfTheEnumeration) {
   EXPECT_EQ(StandardBounds()[traits.criterion], traits.standard);
   EXPECT_EQ(FineBounds()[traits.criterion], traits.fine);
   EXPECT_EQ(NoBounds()[traits.criterion], kInfinity);
+}
+
+// What "standard" promises, in the order of the enumeration (proto/rollgait/v1/accuracy.proto says the same).
+TEST(Criteria, StandardIsWhatIsPromised) {
+  const double degree = M_PI / 180;
+  const std::array<double, kCriterionCount> promised = {1e-4, 1e-3, 1e-4, 1e-6, 5e-3, 0.2,  0.05 * degree, 0.01,
+                                                        0.01, 1e-3, 0.01, 5e-6, 1e-4, 5e-3, 5e-3};
+  for (int c = 0; c < kCriterionCount; ++c) {
+    EXPECT_NEAR(Criteria()[c].standard, promised[c], 1e-12 * promised[c]) << Criteria()[c].field;
+  }
 }
 
 // Every criterion alone: at its bound, over it, not a number, not judged.

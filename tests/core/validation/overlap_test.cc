@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/contact/pair_separation.h"
 #include "core/models/catalog.h"
@@ -164,6 +165,14 @@ TEST_F(OverlapTest, NoDipIsTooShort) {
       }
     }
   }
+}
+
+// A posture that is not a number overlaps without limit.
+TEST_F(OverlapTest, NothingHidesBehindNaN) {
+  VectorX q = Posture(0);
+  q(scene_.model.Find("hip_l")) = std::numeric_limits<double>::quiet_NaN();
+  const OverlapFindings found = MeasureOverlap(scene_, dynamics_, Moving(q, VectorX::Zero(q.size()), 1, 0.02));
+  EXPECT_EQ(found.worst.value, kInfinity);
 }
 
 TEST_F(OverlapTest, NothingToJudgeInThePlane) {

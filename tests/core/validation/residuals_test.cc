@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/models/catalog.h"
 #include "core/models/planar_human.h"
 #include "tests/support/flywheel_ball.h"
 #include "tests/support/matrix_near.h"
@@ -94,6 +95,65 @@ TEST(MeasureBalances, WithoutWorkTheKineticEnergyIsTheScale) {
       0.5 * (FlywheelBall::kMass * 4 + (FlywheelBall::kBallInertia + FlywheelBall::kWheelInertia) * 25);
   EXPECT_NEAR(errors.energy, FlywheelBall::kMass * 9.81e-3, 1e-12);
   EXPECT_NEAR(errors.energy_relative, errors.energy / kinetic, 1e-12);
+}
+
+// What an impact is said to take and to push is part of both balances.
+TEST(MeasureBalances, AnImpactThatDidNotHappenIsMissed) {
+  const Scene scene = FlywheelBall::MakeScene();
+  FlywheelBall ball;
+  ball.speed = 2;
+  Trajectory trajectory = ball.MakeTrajectory(Scheme::kRadau2);
+  trajectory.phases[1].impulses = Vector3(0, 0, 4);
+  trajectory.phases[1].impact_loss = 7;
+  FindingLog log(8);
+  const BalanceErrors errors = MeasureBalances(BodyDynamics(scene.model), scene.model, trajectory, ball.gravity, &log);
+  EXPECT_NEAR(errors.energy, 7, 1e-12);
+  EXPECT_NEAR(errors.momentum, 4, 1e-12);
+  EXPECT_NEAR(log[Criterion::kMomentum].value, 4 / FlywheelBall::kMass, 1e-12);
+}
+
+// A damper in the flywheel's joint takes c ω² all the time.
+TEST(MeasureBalances, DampersTakeWork) {
+  Scene scene = FlywheelBall::MakeScene();
+  std::vector<Joint> joints = scene.model.joints();
+  joints[3].damping = 0.5;
+  scene.model = Model::Create(joints).value();
+  FlywheelBall ball;
+  ball.speed = 2;
+  Trajectory trajectory = ball.MakeTrajectory(Scheme::kRadau2);
+  for (TrajectoryPhase& phase : trajectory.phases) phase.node_velocities.row(3).setConstant(3);
+  FindingLog log(8);
+  const BalanceErrors errors = MeasureBalances(BodyDynamics(scene.model), scene.model, trajectory, ball.gravity, &log);
+  EXPECT_NEAR(errors.energy, 0.5 * 9 * FlywheelBall::kDuration, 1e-9);
+}
+
+// A ball that is not where, or not turned or turning as, it was asked to be at either end.
+TEST(EndError, EveryPartOfBothEnds) {
+  BodyRequest request;
+  request.model = "ball";
+  const Scene scene = BuildScene(request).value();
+  const BodyDynamics dynamics(scene.model);
+  const VectorX zero = VectorX::Zero(scene.model.size());
+  const Trajectory trajectory = NodesOnly(zero, zero, zero, zero);
+  BodyDynamics::State state;
+  dynamics.ComputeState(zero, zero, &state);
+  const BodyDynamics::Link& body = state[scene.contacts.front().joint];
+  BodyState there;
+  there.x = body.p_WL.x();
+  there.y = body.p_WL.y();
+  there.orientation = Eigen::Quaterniond(body.R_WL * scene.contacts.front().R_LE);
+  EXPECT_NEAR(EndError(scene, dynamics, trajectory, {there, there}), 0, 1e-12);
+  const auto expect = [&](const auto& change, double error) {
+    BodyState elsewhere = there;
+    change(&elsewhere);
+    EXPECT_NEAR(EndError(scene, dynamics, trajectory, {there, elsewhere}), error, 1e-9);
+    EXPECT_NEAR(EndError(scene, dynamics, trajectory, {elsewhere, there}), error, 1e-9);
+  };
+  expect([](BodyState* end) { *end->x += 0.03; }, 0.03);
+  expect([](BodyState* end) { *end->y -= 0.02; }, 0.02);
+  expect([](BodyState* end) { end->angular_velocity.z() = 0.4; }, 0.4);
+  expect([](BodyState* end) { *end->orientation = *end->orientation * Eigen::AngleAxisd(0.1, Vector3(0.6, 0, 0.8)); },
+         0.1);
 }
 
 // A body at rest does no work and has no kinetic energy: what rounding adds to its potential energy is no error, and
