@@ -142,7 +142,7 @@ void SceneDynamics::RightSide(double t, const VectorX& x, VectorX* derivative) {
 }
 
 double SceneDynamics::FirstStep(const VectorX& x, const VectorX& derivative) const {
-  constexpr double kChange = 0.01;
+  constexpr double kChange = 0.001;
   const double size = std::max(1.0, x.head(nq_).cwiseAbs().maxCoeff());
   const double rate = derivative.head(nq_).cwiseAbs().maxCoeff();
   const double speed = x.segment(nq_, nv_).cwiseAbs().maxCoeff();
