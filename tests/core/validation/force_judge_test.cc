@@ -72,6 +72,15 @@ TEST_F(SharedFriction, AnInternalForceIsNoFriction) {
   EXPECT_NEAR(Ratio({0, 1}, {500, 0, 300, 0.2, 0.1, -480, 0, 400, 0, 0}, false), 20.0 / 700, 1e-12);
 }
 
+// A contact that transmits no force along the line takes no share of another one's.
+TEST_F(SharedFriction, AContactWithoutFrictionTakesNoShare) {
+  Scene scene = ManyContacts(true);
+  scene.contacts[1].directions = {2};
+  const std::vector<double> rows = {150, 0, 300, 0.2, 0, 0, 0, 400, 0, 0};
+  EXPECT_NEAR(ForceJudge(scene, {0, 1}, {}, &extremes_).FrictionRatio(rows.data(), &worst_), 0.5, 1e-12);
+  EXPECT_NEAR(Ratio({0, 1}, rows), 150.0 / 700, 1e-12);
+}
+
 TEST_F(SharedFriction, BelowTheFloorTheFloorCounts) {
   // 4 N over 1 N (the floor, though the first pulls) and 3 N.
   EXPECT_NEAR(Ratio({0, 1}, {50, 0, -7, 0.2, 0, -46, 0, 3, 0, 0}), 1, 1e-12);
