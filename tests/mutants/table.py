@@ -121,7 +121,7 @@ MUTANTS = [
     # Bodies.
     ("overlaps between samples are passed over", VALIDATION + "overlap.cc", "Descend(pair, Fraction(std::max(k - 1, 0)), Fraction(std::min(k + 1, kSamples)));", ""),
     ("far bodies are nearer than they are", VALIDATION + "overlap.cc", "if (centres - Reach(a) - Reach(b) > reach) return false;", "if (centres > reach) return false;"),
-    ("bodies that are not a number apart do not overlap", VALIDATION + "overlap.cc", "std::isnan(distance) ? -kInfinity : distance", "distance"),
+    ("bodies that are not a number apart do not overlap", VALIDATION + "overlap.cc", "std::isnan(distance) ? -kInfinity", "std::isnan(distance) ? kInfinity"),
     ("overlap is the depth along the first normal", VALIDATION + "body_overlap.cc", "if (best < -kDeep) {", "if (false) {"),
     ("superellipsoids are ellipsoids", VALIDATION + "body_overlap.cc", "body.norm ? (*body.norm)(local) : ", ""),
 
