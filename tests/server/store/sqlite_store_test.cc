@@ -147,7 +147,8 @@ TEST(SqliteStoreTest, AFileOfVersion5GetsModels) {
   const std::string path = directory.path() + "/rollgait.db";
   ASSERT_TRUE(OpenStore({path}, clock).value()->Create({"old", "", "spec", ""}).ok());
   SqliteConnection(path, clock)
-      .Execute(std::string(kBackToVersion6) + "DROP TABLE models; UPDATE schema_version SET version = 5;");
+      .Execute(std::string(kBackToVersion7) + kBackToVersion6 +
+               "DROP TABLE models; UPDATE schema_version SET version = 5;");
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   EXPECT_EQ(store.value()->Get("old").value().spec, "spec");
@@ -164,10 +165,21 @@ TEST(SqliteStoreTest, AFileOfVersion6GetsWhatListsFilterBy) {
   const FakeClock clock;
   const std::string path = directory.path() + "/rollgait.db";
   FillForFilters(*OpenStore({path}, clock).value());
-  SqliteConnection(path, clock).Execute(kBackToVersion6);
+  SqliteConnection(path, clock).Execute(std::string(kBackToVersion7) + kBackToVersion6);
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   ExpectFiltersFindThem(*store.value());
+}
+
+TEST(SqliteStoreTest, AFileOfVersion7GetsTurnsAndPriorities) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  FillForTurns(*OpenStore({path}, clock).value());
+  SqliteConnection(path, clock).Execute(kBackToVersion7);
+  const auto store = OpenStore({path}, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  ExpectTurnsAndPriorities(*store.value());
 }
 
 TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {
