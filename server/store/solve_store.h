@@ -51,7 +51,8 @@ class SolveStore {
   virtual Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) = 0;
   // Queued: ends it at once as kCancelled. Running: sets the flag. Terminal: nothing. Returns the solve. kNotFound.
   virtual Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) = 0;
-  // Of a queued solve: among those of its tenant. Returns the solve. kNotFound, kFailedPrecondition: not queued.
+  // Of a queued solve: among those of its tenant; nothing if it has this one, queued or not. Returns the solve.
+  // kNotFound, kFailedPrecondition: not queued.
   virtual Outcome<SolveRecord> SetPriority(const std::string& id, int priority, const Actor& actor = {}) = 0;
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
   // beyond the newest, negative, or before the oldest held (retention), which the message names.

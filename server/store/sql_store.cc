@@ -140,13 +140,13 @@ Outcome<SolveRecord> SqlStore::SetPriority(const std::string& id, int priority, 
     std::optional<SolveRow> row = FindSolve(connection, id);
     if (!row.has_value()) return NoSuchSolve(id);
     SolveRecord& record = row->record;
+    if (record.priority == priority) return FullRecord(connection, std::move(*row));
     if (record.state != SolveState::kQueued) {
       return Error{ErrorCode::kFailedPrecondition, "solves/" + id + " is not queued, it has " +
                                                        (IsTerminal(record.state) ? "ended" : "begun to run") +
                                                        "; only the priority of a queued solve can be changed"};
     }
     const int earlier = std::exchange(record.priority, priority);
-    if (earlier == priority) return std::move(record);
     const std::string owner = OwnerUnless(actor, record);
     const std::string detail =
         owner + (owner.empty() ? "" : ", ") + std::to_string(earlier) + " to " + std::to_string(priority);

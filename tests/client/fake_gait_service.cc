@@ -109,6 +109,7 @@ grpc::Status FakeGaitService::Create(const v1::CreateSolveRequest& request, cons
   record.solve = SampleSolve("solves/" + id, request.spec().slope_rad());
   *record.solve.mutable_spec() = request.spec();
   *record.solve.mutable_labels() = request.labels();
+  record.solve.set_priority(request.priority());
   v1::SolveEvent running = NewEvent(record.solve.name(), 1);
   running.mutable_state_change()->set_state(v1::SOLVE_STATE_RUNNING);
   running.mutable_state_change()->set_attempt(1);
@@ -264,6 +265,16 @@ grpc::Status FakeGaitService::CancelSolve(grpc::ServerContext*, const v1::Cancel
   }
   *solve = found->second.solve;
   changed_.notify_all();
+  return grpc::Status::OK;
+}
+
+grpc::Status FakeGaitService::SetSolvePriority(grpc::ServerContext*, const v1::SetSolvePriorityRequest* request,
+                                               v1::Solve* solve) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(request->name());
+  if (found == records_.end()) return NotFound(request->name());
+  found->second.solve.set_priority(request->priority());
+  *solve = found->second.solve;
   return grpc::Status::OK;
 }
 

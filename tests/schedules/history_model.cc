@@ -64,6 +64,7 @@ void HistoryModel::Begin(StoreCall& call, int64_t now_us) const {
 void HistoryModel::Committed(const StoreCall& call, int64_t now_us, const std::vector<SeenSolve>& solves,
                              const EventsOf& events) {
   ++counts_["commits"];
+  if (call.kind == CallKind::kClaim) CheckTurn(solves);
   std::set<std::string> there;
   for (const SeenSolve& seen : solves) {
     there.insert(seen.id);
@@ -120,6 +121,9 @@ void HistoryModel::Change(const StoreCall& call, int64_t now_us, Solve& solve, c
   }
   if (seen.cancel_requested && !last.cancel_requested && (call.kind != CallKind::kCancel || call.id != seen.id)) {
     Violated(seen.id, "is to be cancelled, and the call does not ask for it");
+  }
+  if (seen.priority != last.priority && (call.kind != CallKind::kSetPriority || last.state != kQueued)) {
+    Violated(seen.id, "has another priority, and the call may not change it");
   }
   if (last.cancel_requested && !seen.cancel_requested) Violated(seen.id, "is not to be cancelled any more");
   if (!same_state) CheckTransition(call, now_us, solve, seen);
@@ -235,6 +239,50 @@ void HistoryModel::CheckTogether(const StoreCall& call) {
       return !entry.second.gone && entry.second.last.tag == tag;
     });
     if (!there) Violated("for " + tag, "is not there after the commit that makes it");
+  }
+}
+
+int HistoryModel::WeightOf(const std::string& tenant) const {
+  const auto place = weights_.find(tenant);
+  return place == weights_.end() ? 1 : place->second;
+}
+
+// It waited before, and no equal one ran.
+bool HistoryModel::CouldRun(const SeenSolve& waiting) const {
+  const auto place = solves_.find(waiting.id);
+  if (place == solves_.end() || place->second.last.state != kQueued || waiting.state != kQueued) return false;
+  return waiting.key.empty() || std::none_of(solves_.begin(), solves_.end(), [&waiting](const auto& entry) {
+           return !entry.second.gone && entry.second.last.state == kRunning && entry.second.last.key == waiting.key;
+         });
+}
+
+void HistoryModel::CheckTurn(const std::vector<SeenSolve>& solves) {
+  const auto claimed = std::find_if(solves.begin(), solves.end(), [this](const SeenSolve& seen) {
+    return seen.state == kRunning && StateOf(seen.id) == kQueued;
+  });
+  if (claimed == solves.end()) return;
+  const std::string& served = claimed->tenant;
+  std::set<std::string> waiting;
+  for (const SeenSolve& seen : solves) {
+    if (!CouldRun(seen)) continue;
+    if (seen.tenant != served) waiting.insert(seen.tenant);
+    // What another transaction holds at the moment is passed over.
+    const bool earlier =
+        seen.priority != claimed->priority ? seen.priority > claimed->priority : seen.number < claimed->number;
+    if (claimers_ == 1 && seen.tenant == served && earlier) {
+      Violated(seen.id, "has the turn of its tenant, and " + claimed->id + " is claimed");
+    }
+  }
+  if (!waiting.empty()) ++counts_["claims while another tenant waits"];
+  passed_.erase(served);
+  for (auto place = passed_.begin(); place != passed_.end();) {
+    place = waiting.count(place->first) == 0 ? passed_.erase(place) : std::next(place);
+  }
+  for (const std::string& tenant : waiting) {
+    const int most = WeightOf(served) / WeightOf(tenant) + claimers_;
+    if (++passed_[tenant][served] <= most) continue;
+    Violated(claimed->id, "of " + served + " is claimed while " + tenant + " waits, the last of more than " +
+                              Number(most) + " claims");
   }
 }
 
