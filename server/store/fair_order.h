@@ -18,23 +18,23 @@ inline constexpr int kMostWeight = 100;
 
 // The tenants that have queued solves and room to run one, the next first. Goes from tenant to tenant along the index
 // solves_queued, whatever the length of the queue.
-#define ROLLGAIT_TENANTS_BY_TURN                                                                            \
-  "WITH RECURSIVE waiting(tenant) AS (SELECT (SELECT MIN(q.tenant) FROM solves AS q WHERE q.state = 1) "    \
-  "UNION ALL SELECT (SELECT MIN(q.tenant) FROM solves AS q WHERE q.state = 1 AND q.tenant > w.tenant) "     \
-  "FROM waiting AS w WHERE w.tenant IS NOT NULL), now_is(tag) AS (SELECT COALESCE(MAX(start_tag), 0) FROM " \
-  "shares) SELECT w.tenant FROM waiting AS w CROSS JOIN now_is LEFT JOIN tenants AS t ON t.tenant = "       \
-  "w.tenant LEFT JOIN shares AS h ON h.tenant = w.tenant WHERE w.tenant IS NOT NULL AND "                   \
-  "(COALESCE(t.max_running, -1) < 0 OR t.max_running > (SELECT COUNT(*) FROM solves AS b WHERE b.tenant = " \
-  "w.tenant AND b.state = 2)) "                                                                             \
+#define ROLLGAIT_TENANTS_BY_TURN                                                                                       \
+  "WITH RECURSIVE waiting(tenant) AS (SELECT (SELECT MIN(q.tenant) FROM solves AS q {along_queue} WHERE q.state = 1) " \
+  "UNION ALL SELECT (SELECT MIN(q.tenant) FROM solves AS q {along_queue} WHERE q.state = 1 AND q.tenant > w.tenant) "  \
+  "FROM waiting AS w WHERE w.tenant IS NOT NULL), now_is(tag) AS (SELECT COALESCE(MAX(start_tag), 0) FROM "            \
+  "shares) SELECT w.tenant FROM waiting AS w CROSS JOIN now_is LEFT JOIN tenants AS t ON t.tenant = "                  \
+  "w.tenant LEFT JOIN shares AS h ON h.tenant = w.tenant WHERE w.tenant IS NOT NULL AND "                              \
+  "(COALESCE(t.max_running, -1) < 0 OR t.max_running > (SELECT COUNT(*) FROM solves AS b WHERE b.tenant = "            \
+  "w.tenant AND b.state = 2)) "                                                                                        \
   "ORDER BY CASE WHEN h.finish_tag > now_is.tag THEN h.finish_tag ELSE now_is.tag END, w.tenant "
 
 // Of the tenant of a solve `s`, in the order of Share.
-#define ROLLGAIT_SHARE_COLUMNS                                                      \
-  "COALESCE((SELECT h.finish_tag FROM shares AS h WHERE h.tenant = s.tenant), 0), " \
-  "COALESCE((SELECT MAX(h.start_tag) FROM shares AS h), 0), "                       \
-  "COALESCE((SELECT t.weight FROM tenants AS t WHERE t.tenant = s.tenant), 1), "    \
-  "CASE WHEN (SELECT MIN(q.tenant) FROM solves AS q WHERE q.state = 1) = "          \
-  "(SELECT MAX(q.tenant) FROM solves AS q WHERE q.state = 1) THEN 1 ELSE 0 END "
+#define ROLLGAIT_SHARE_COLUMNS                                                           \
+  "COALESCE((SELECT h.finish_tag FROM shares AS h WHERE h.tenant = s.tenant), 0), "      \
+  "COALESCE((SELECT MAX(h.start_tag) FROM shares AS h), 0), "                            \
+  "COALESCE((SELECT t.weight FROM tenants AS t WHERE t.tenant = s.tenant), 1), "         \
+  "CASE WHEN (SELECT MIN(q.tenant) FROM solves AS q {along_queue} WHERE q.state = 1) = " \
+  "(SELECT MAX(q.tenant) FROM solves AS q {along_queue} WHERE q.state = 1) THEN 1 ELSE 0 END "
 inline constexpr int kShareColumns = 4;
 
 struct Share {

@@ -107,7 +107,7 @@ struct Candidate {
   "r.reusable = 1), "                                                                                \
   "COALESCE((SELECT t.max_running FROM tenants AS t WHERE t.tenant = s.tenant), -1), "               \
   "(SELECT w.payload FROM warm_starts AS w WHERE w.solve = s.number), " ROLLGAIT_SHARE_COLUMNS       \
-  "FROM solves AS s WHERE state = 1 AND tenant = " tenant_is                                         \
+  "FROM solves AS s {along_queue} WHERE state = 1 AND tenant = " tenant_is                           \
   " AND (solve_key = '' OR NOT EXISTS "                                                              \
   "(SELECT 1 FROM solves AS r WHERE r.solve_key = s.solve_key AND r.state = 2)) "                    \
   "ORDER BY priority DESC, number LIMIT 1 {skip_locked}"

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "server/store/fair_order.h"
 #include "server/store/open_store.h"
 #include "server/store/schema.h"
 #include "server/store/sqlite_connection.h"
@@ -180,6 +181,23 @@ TEST(SqliteStoreTest, AFileOfVersion7GetsTurnsAndPriorities) {
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   ExpectTurnsAndPriorities(*store.value());
+}
+
+TEST(SqliteStoreTest, WhoseTurnItIsIsFoundAlongTheIndexOfTheQueue) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  ASSERT_TRUE(OpenStore({path}, clock).ok());
+  SqliteConnection connection(path, clock);
+  Query plan(connection, "EXPLAIN QUERY PLAN " ROLLGAIT_TENANTS_BY_TURN);
+  int along = 0;
+  while (plan.Step()) {
+    const std::string step = plan.Bytes(3);
+    if (step.find(" q ") == std::string::npos) continue;
+    EXPECT_EQ(step.rfind("SEARCH q USING COVERING INDEX solves_queued", 0), 0u) << step;
+    ++along;
+  }
+  EXPECT_EQ(along, 2) << "the first tenant, and the next one";
 }
 
 TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {
