@@ -1,8 +1,5 @@
 #include "tests/client/fake_gait_service.h"
 
-#include <grpcpp/security/server_credentials.h>
-#include <grpcpp/server_builder.h>
-
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -344,17 +341,6 @@ grpc::Status FakeGaitService::GetServerInfo(grpc::ServerContext*, const v1::GetS
   info->set_max_queued(100);
   info->set_store_free_bytes(int64_t{5} << 30);
   return grpc::Status::OK;
-}
-
-FakeServer::FakeServer(FakeGaitService& service, int port) {
-  grpc::ServerBuilder builder;
-  builder.AddListeningPort("127.0.0.1:" + std::to_string(port), grpc::InsecureServerCredentials(), &port_);
-  builder.RegisterService(&service);
-  server_ = builder.BuildAndStart();
-}
-
-FakeServer::~FakeServer() {
-  if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now());
 }
 
 }  // namespace rollgait::client
