@@ -1,7 +1,8 @@
 // How much the stores take: claims and results of 100 kB a second, by several threads, on SQLite and on a PostgreSQL of
 // the program's own, both with fsync.
 // A network can be put before PostgreSQL: then each wait for it costs a round trip.
-//   store_rates [--seconds S] [--threads N] [--round-trip-ms MS]
+// Before the claims so many solves more can be queued, of so many tenants.
+//   store_rates [--seconds S] [--threads N] [--round-trip-ms MS] [--queued N] [--tenants N]
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -20,7 +21,23 @@ namespace {
 struct Load {
   double seconds = 5;
   int threads = 8;
+  int queued = 0, tenants = 1;
 };
+
+void Queue(SqlStore& store, const Load& load) {
+  constexpr int kAtOnce = 256;
+  std::vector<NewSolve> solves;
+  for (int i = 0; i < load.queued; ++i) {
+    NewSolve solve{"q" + std::to_string(i), "", std::string(300, 's'), ""};
+    solve.max_queued = 10'000'000;
+    solve.actor.tenant = "tenant " + std::to_string(i / kAtOnce % load.tenants);
+    solve.priority = i % 5 - 2;
+    solves.push_back(std::move(solve));
+    if ((i + 1) % kAtOnce != 0 && i + 1 != load.queued) continue;
+    if (!store.CreateAll(solves).ok()) std::fprintf(stderr, "a batch was not stored\n");
+    solves.clear();
+  }
+}
 
 // Calls of `work(store, thread, count)` a second.
 template <typename Work>
@@ -44,6 +61,7 @@ void Measure(const char* name, SqlStore& store, const Load& load) {
     solve.max_queued = 10'000'000;
     return s.Create(solve).ok();
   });
+  Queue(store, load);
   std::vector<std::vector<Lease>> leases(static_cast<size_t>(load.threads));
   const double claims = Rate(store, load, [&](SqlStore& s, int thread, int64_t) {
     const auto claimed = s.ClaimNext("agent-" + std::to_string(thread), kLeaseDuration);
@@ -69,6 +87,9 @@ int Main(int argc, char** argv) {
   app.add_option("--seconds", load.seconds, "of each figure")->capture_default_str();
   app.add_option("--threads", load.threads)->check(CLI::Range(1, 64))->capture_default_str();
   app.add_option("--round-trip-ms", round_trip_ms, "to PostgreSQL; 0: no network")->check(CLI::Range(0.0, 1000.0));
+  app.add_option("--queued", load.queued, "solves that wait before the claims, of --tenants tenants")
+      ->check(CLI::Range(0, 10'000'000));
+  app.add_option("--tenants", load.tenants)->check(CLI::Range(1, 10'000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| store, %d threads | creates/s | claims/s | results of 100 kB/s | reads of 100 kB/s |\n|---|---|---|---|---|\n",

@@ -47,6 +47,9 @@ void AddReconnect(CLI::App& command, double& seconds) {
       ->capture_default_str();
 }
 
+constexpr int kLeastPriority = -10, kMostPriority = 10;  // of the service
+constexpr char kPriorityHelp[] = "Among your queued solves: the highest runs first, of equal ones the oldest";
+
 void AddSolveCommands(CLI::App& app, Arguments& arguments) {
   CLI::App* const solve = app.add_subcommand("solve", "Ask for a gait, watch the solver, print what it found");
   AddSpecFlags(*solve, arguments.solve.spec);
@@ -55,6 +58,9 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
                     "The same id and request attach to the solve made before");
   AddRepeatedFlag(*solve, "--label", arguments.solve.labels,
                   "KEY=VALUE: what `list --label` finds the solve by, up to 16", "key");
+  solve->add_option("--priority", arguments.solve.priority, kPriorityHelp)
+      ->check(CLI::Range(kLeastPriority, kMostPriority))
+      ->capture_default_str();
   CLI::Option* const validate = solve->add_flag("--validate-only", arguments.solve.validate_only,
                                                 "Let the server check the request; solve nothing");
   solve->add_flag("--detach", arguments.solve.detach, "Print the name of the new solve and leave it running")
@@ -89,6 +95,9 @@ void AddSweep(CLI::App& app, SweepOptions& options) {
       "--name", options.name,
       "Value of the label \"sweep\" of its solves, up to 64 characters; default: a digest of the requests. "
       "The same name and request attach to the solve made before");
+  sweep->add_option("--priority", options.priority, kPriorityHelp)
+      ->check(CLI::Range(kLeastPriority, kMostPriority))
+      ->capture_default_str();
   sweep->add_flag("--again", options.again, "Solve again what failed or was cancelled before");
   AddReconnect(*sweep, options.reconnect_s);
   sweep->footer(
@@ -203,6 +212,15 @@ void AddOtherCommands(CLI::App& app, Arguments& arguments) {
     command->add_option("SOLVE", chosen->names, "solves/ID or ID");
     AddRepeatedFlag(*command, "--label", chosen->labels, "KEY=VALUE: also those of yours that carry this label", "key");
   }
+
+  CLI::App* const priority = app.add_subcommand("priority", "Change the priority of queued solves");
+  priority->add_option("SOLVE", arguments.priority.chosen.names, "solves/ID or ID");
+  priority->add_option("--to", arguments.priority.priority, kPriorityHelp)
+      ->check(CLI::Range(kLeastPriority, kMostPriority))
+      ->required();
+  AddRepeatedFlag(*priority, "--label", arguments.priority.chosen.labels,
+                  "KEY=VALUE: also those of yours that carry this label", "key");
+  priority->footer("Example: rollgait priority --label sweep=hills --to -5");
 
   AddModels(app, arguments);
   AddExport(app, arguments.exported);

@@ -34,6 +34,7 @@ struct Arguments {
   SimulateOptions simulate;
   PoincareOptions poincare;
   ChosenSolves cancel, remove;
+  PriorityOptions priority;
   std::vector<std::string> removed_models;
   std::string help_topic, shell;
 };

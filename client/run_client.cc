@@ -51,6 +51,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   if (command == "get") return RunGet(arguments.get, global, terminal);
   if (command == "list") return RunList(arguments.list, global, terminal);
   if (command == "cancel") return RunCancel(arguments.cancel, global, terminal);
+  if (command == "priority") return RunPriority(arguments.priority, global, terminal);
   if (command == "delete") return RunDelete(arguments.remove, global, terminal);
   if (command == "export") return RunExport(arguments.exported, global, terminal);
   if (command == "models") return RunModelCommand(*app.get_subcommands().front(), arguments, terminal);

@@ -14,6 +14,7 @@
 
 #include "server/access/access_store.h"
 #include "server/base/clock.h"
+#include "server/store/fair_order.h"
 #include "server/store/open_store.h"
 
 namespace rollgait::server {
@@ -103,6 +104,7 @@ int SetTenant(AccessStore& store, const Arguments& arguments) {
     limits.creates_per_s = limits.creates_per_s.value_or(-1);
     limits.max_simulations = limits.max_simulations.value_or(-1);
     limits.max_storage_bytes = limits.max_storage_bytes.value_or(-1);
+    limits.weight = limits.weight.value_or(-1);
   }
   const Outcome<Done> set = store.SetTenant(arguments.tenant, limits);
   return set.ok() ? 0 : Report(set.error());
@@ -114,17 +116,17 @@ std::string TextMiB(const std::optional<int64_t>& bytes) { return bytes ? std::t
 int ListTenants(AccessStore& store, const Arguments&) {
   const Outcome<std::vector<std::string>> names = store.ListTenants();
   if (!names.ok()) return Report(names.error());
-  std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s\n", "tenant", "max queued", "max running", "max watches",
-              "creates per s", "max simulations", "max storage MB");
+  std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s  %7s\n", "tenant", "max queued", "max running", "max watches",
+              "creates per s", "max simulations", "max storage MB", "weight");
   for (const std::string& name : names.value()) {
     const Outcome<TenantOverrides> limits = store.FindTenant(name);
     if (!limits.ok()) return Report(limits.error());
     const TenantOverrides& of = limits.value();
     char rate[32] = "default";
     if (of.creates_per_s) std::snprintf(rate, sizeof(rate), "%g", *of.creates_per_s);
-    std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s\n", name.c_str(), Text(of.max_queued).c_str(),
+    std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s  %7s\n", name.c_str(), Text(of.max_queued).c_str(),
                 Text(of.max_running).c_str(), Text(of.max_watches).c_str(), rate, Text(of.max_simulations).c_str(),
-                TextMiB(of.max_storage_bytes).c_str());
+                TextMiB(of.max_storage_bytes).c_str(), Text(of.weight).c_str());
   }
   return 0;
 }
@@ -192,6 +194,9 @@ void AddTenantCommands(CLI::App& app, Arguments& arguments, Action& chosen) {
       ->check(CLI::Range(1, 1024));
   set->add_option("--max-storage-mb", arguments.max_storage_mb, "MiB that its solves may take in the store")
       ->check(CLI::Range(int64_t{1}, kMostStorageMiB));
+  set->add_option("--weight", arguments.limits.weight,
+                  "Its share of the solvers beside the other tenants whose solves wait; default: 1")
+      ->check(CLI::Range(1, kMostWeight));
   set->add_flag("--defaults", arguments.defaults, "All other limits become the server's again");
   AddCommand(*tenant, "list", "Tenants that have tokens or limits", arguments, chosen, ListTenants);
 }

@@ -20,6 +20,7 @@ struct SolveOptions {
   std::vector<std::string> labels;  // "KEY=VALUE"
   std::string request_id;
   std::string output;
+  int priority = 0;
   bool validate_only = false;
   bool detach = false;
   double reconnect_s = 60;
@@ -55,13 +56,20 @@ struct ListOptions {
 ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 // By name, and those of the caller's that carry all of the labels ("KEY=VALUE"): to cancel, what is queued or runs; to
-// delete, what has ended.
+// delete, what has ended; to change the priority, what is queued.
 struct ChosenSolves {
   std::vector<std::string> names, labels;
 };
 // The last exit code that is not success, if there is one; every solve is tried. kUsage if none is named.
 ExitCode RunCancel(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal);
 ExitCode RunDelete(const ChosenSolves& chosen, const GlobalOptions& global, const Terminal& terminal);
+
+struct PriorityOptions {
+  ChosenSolves chosen;
+  int priority = 0;
+};
+// Changes that of queued solves. As RunCancel.
+ExitCode RunPriority(const PriorityOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
 struct ModelsOptions {
   SpecFlags flags;

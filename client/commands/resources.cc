@@ -1,4 +1,4 @@
-// get, list, cancel, delete, server-info: one call and its answer.
+// get, list, cancel, priority, delete, server-info: one call and its answer.
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -98,6 +98,8 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
   v1::ListSolvesRequest request = ListRequest(options.filter, std::chrono::system_clock::now());
   Connection connection(global);
   const bool with_tenant = !options.filter.tenant.empty();
+  bool with_priority = false;
+  std::vector<std::string> priorities;
   std::vector<std::vector<std::string>> rows;
   bool more = true, limited = false;
   while (more && !limited) {
@@ -116,12 +118,16 @@ ExitCode RunList(const ListOptions& options, const GlobalOptions& global, const 
       if (limited) break;
       if (global.json) terminal.out << ToJsonLine(solve) << "\n";
       rows.push_back(ListRow(solve, with_tenant));
+      priorities.push_back(std::to_string(solve.priority()));
+      with_priority = with_priority || solve.priority() != 0;
     }
     limited = limited || (more && static_cast<int>(rows.size()) == options.limit);
   }
   if (!global.json && !rows.empty()) {
     rows.insert(rows.begin(), {"NAME", "STATE", "ENDED", "ACCURACY", "MODEL", "SLOPE", "SPEED", "CREATED", "RAN FOR"});
     if (with_tenant) rows.front().push_back("TENANT");
+    priorities.insert(priorities.begin(), "PRIORITY");
+    for (size_t i = 0; with_priority && i < rows.size(); ++i) rows[i].push_back(priorities[i]);
     terminal.out << FormatTable(rows, "lllllrr");
   }
   terminal.out << std::flush;
@@ -147,6 +153,26 @@ ExitCode RunCancel(const ChosenSolves& chosen, const GlobalOptions& global, cons
       terminal.out << ToJsonLine(solve) << std::endl;
     } else if (!global.quiet) {
       terminal.out << name << "  " << StateName(solve.state()) << std::endl;
+    }
+  });
+}
+
+ExitCode RunPriority(const PriorityOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  Connection connection(global);
+  const std::vector<std::string> names = NamesOf(options.chosen, "priority", {v1::SOLVE_STATE_QUEUED}, connection);
+  return ForEachName(names, terminal, [&](const std::string& name) {
+    grpc::ClientContext context;
+    connection.SetDeadline(context);
+    v1::SetSolvePriorityRequest request;
+    request.set_name(name);
+    request.set_priority(options.priority);
+    v1::Solve solve;
+    RequireOk(connection.stub().SetSolvePriority(&context, request, &solve), "change the priority of " + name,
+              connection.server());
+    if (global.json) {
+      terminal.out << ToJsonLine(solve) << std::endl;
+    } else if (!global.quiet) {
+      terminal.out << name << "  priority " << solve.priority() << std::endl;
     }
   });
 }

@@ -19,6 +19,7 @@ ExitCode RunSolve(const SolveOptions& options, const GlobalOptions& global, cons
     (*request.mutable_labels())[key] = value;
   }
   request.set_request_id(options.request_id.empty() ? RandomRequestId() : options.request_id);
+  request.set_priority(options.priority);
   request.set_validate_only(options.validate_only);
 
   Progress progress(terminal, ProgressStyle(global, terminal));

@@ -57,7 +57,7 @@ std::string BytesOf(const v1::SolveSpec& spec) {
 }
 
 // What the sweep asks for, a request a point.
-std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, SpecFlags flags, std::string* name) {
+std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, SpecFlags flags, int priority, std::string* name) {
   std::vector<v1::CreateSolveRequest> requests;
   std::vector<std::string> specs;  // digests
   for (const SweepPoint& point : grid.points) {
@@ -72,6 +72,7 @@ std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, SpecFlags fl
   }
   for (size_t i = 0; i < requests.size(); ++i) {
     (*requests[i].mutable_labels())[kLabel] = *name;
+    requests[i].set_priority(priority);
     requests[i].set_request_id("sweep-" + Digest(*name + "\n" + specs[i]));
   }
   return requests;
@@ -231,7 +232,7 @@ ExitCode RunSweep(const SweepOptions& options, const GlobalOptions& global, cons
   }
   const SweepGrid grid = MakeGrid(options.values);
   std::string name = options.name;
-  const std::vector<v1::CreateSolveRequest> requests = Requests(grid, options.spec, &name);
+  const std::vector<v1::CreateSolveRequest> requests = Requests(grid, options.spec, options.priority, &name);
   if (global.json && IsStandardOutput(options.csv)) {
     throw Failure(ExitCode::kUsage, "--csv - with --json: both write to standard output; leave one of the two out");
   }

@@ -18,6 +18,7 @@ struct SweepOptions {
   std::string name;                 // of the sweep, the value of its label; empty: a digest of what it asks
   std::string output;               // a folder for the solves, "slope_5.json"; empty: none
   std::string csv;                  // a file for the table, "-": terminal.out in place of that for people
+  int priority = 0;                 // of the solves
   bool again = false;               // solve again what ended without an answer
   double reconnect_s = 60;
 };

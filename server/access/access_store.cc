@@ -124,6 +124,9 @@ Outcome<Done> AccessStore::SetTenant(const std::string& tenant, const TenantOver
       Query(connection, "UPDATE tenants SET max_storage_bytes = ? WHERE tenant = ?", *limits.max_storage_bytes, tenant)
           .Run();
     }
+    if (limits.weight) {
+      Query(connection, "UPDATE tenants SET weight = ? WHERE tenant = ?", *limits.weight, tenant).Run();
+    }
     if (limits.creates_per_s) {
       Query(connection, "UPDATE tenants SET creates_per_s = ? WHERE tenant = ?", *limits.creates_per_s, tenant).Run();
     }
@@ -136,8 +139,8 @@ Outcome<TenantOverrides> AccessStore::FindTenant(const std::string& tenant) {
   return database_.ReadOne([&](SqlConnection& connection) -> Outcome<TenantOverrides> {
     TenantOverrides found;
     Query query(connection,
-                "SELECT max_queued, max_running, max_watches, creates_per_s, max_simulations, max_storage_bytes FROM "
-                "tenants WHERE tenant = ?",
+                "SELECT max_queued, max_running, max_watches, creates_per_s, max_simulations, max_storage_bytes, "
+                "weight FROM tenants WHERE tenant = ?",
                 tenant);
     if (!query.Step()) return found;
     found.max_queued = IfSet(static_cast<int>(query.Int(0)));
@@ -146,6 +149,7 @@ Outcome<TenantOverrides> AccessStore::FindTenant(const std::string& tenant) {
     found.creates_per_s = IfSet(query.Double(3));
     found.max_simulations = IfSet(static_cast<int>(query.Int(4)));
     found.max_storage_bytes = IfSet(query.Int(5));
+    found.weight = IfSet(static_cast<int>(query.Int(6)));
     return found;
   });
 }

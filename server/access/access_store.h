@@ -27,6 +27,7 @@ struct TenantOverrides {
   std::optional<double> creates_per_s;
   std::optional<int> max_simulations = {};
   std::optional<int64_t> max_storage_bytes = {};
+  std::optional<int> weight = {};  // of its turns, [1, kMostWeight] of server/store/fair_order.h
 };
 
 // Tokens, tenants and the audit trail, beside the solves in the same database. Any thread and process may call; every

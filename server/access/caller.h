@@ -13,7 +13,8 @@ namespace rollgait::server {
 enum Scope : unsigned {
   kScopeRead = 1,   // look at what there is
   kScopeSolve = 2,  // make work, cancel, delete
-  kScopeAdmin = 4,  // see, cancel and delete the solves of every tenant; see the load of the whole server
+  kScopeAdmin =
+      4,  // see, cancel, re-prioritise and delete the solves of every tenant; see the load of the whole server
   kAllScopes = 7,
 };
 

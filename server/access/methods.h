@@ -27,6 +27,7 @@ inline constexpr MethodRule kMethodRules[] = {
     {"GetSolve", kScopeRead},
     {"ListSolves", kScopeRead},
     {"CancelSolve", kScopeSolve, false, false, true},
+    {"SetSolvePriority", kScopeSolve, true, false, true},
     {"DeleteSolve", kScopeSolve, false, false, true},
     {"ListModels", kScopeRead},
     {"GetModel", kScopeRead},

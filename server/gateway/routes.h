@@ -30,6 +30,7 @@ inline constexpr Route kRoutes[] = {
     {"GetSolve", "GET", "/v1/{name=solves/*}", ""},
     {"ListSolves", "GET", "/v1/solves", ""},
     {"CancelSolve", "POST", "/v1/{name=solves/*}:cancel", ""},
+    {"SetSolvePriority", "POST", "/v1/{name=solves/*}:setPriority", "*"},
     {"DeleteSolve", "DELETE", "/v1/{name=solves/*}", ""},
     {"ListModels", "GET", "/v1/models", ""},
     {"GetModel", "GET", "/v1/{model.name=models/*}", ""},

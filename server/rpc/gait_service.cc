@@ -146,6 +146,7 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::RunSolve(grpc::Callbac
     if (!request->has_spec()) create.clear_spec();
     create.set_request_id(request->request_id());
     *create.mutable_labels() = request->labels();
+    create.set_priority(request->priority());
     const Outcome<v1::Solve> solve = service_.CreateSolve(caller, create);
     if (solve.ok()) return WatchStream::Target{{{SolveId(solve.value().name()).value(), 0}}};
     return solve.error();
@@ -227,6 +228,12 @@ grpc::ServerUnaryReactor* GaitServiceRpc::ListSolves(grpc::CallbackServerContext
 grpc::ServerUnaryReactor* GaitServiceRpc::CancelSolve(grpc::CallbackServerContext* context,
                                                       const v1::CancelSolveRequest* request, v1::Solve* response) {
   return Answer(RuleOf("CancelSolve"), context, request, response, service_, &SolveService::CancelSolve);
+}
+
+grpc::ServerUnaryReactor* GaitServiceRpc::SetSolvePriority(grpc::CallbackServerContext* context,
+                                                           const v1::SetSolvePriorityRequest* request,
+                                                           v1::Solve* response) {
+  return Answer(RuleOf("SetSolvePriority"), context, request, response, service_, &SolveService::SetSolvePriority);
 }
 
 grpc::ServerUnaryReactor* GaitServiceRpc::DeleteSolve(grpc::CallbackServerContext* context,

@@ -51,6 +51,8 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
                                        v1::ListSolvesResponse* response) override;
   grpc::ServerUnaryReactor* CancelSolve(grpc::CallbackServerContext* context, const v1::CancelSolveRequest* request,
                                         v1::Solve* response) override;
+  grpc::ServerUnaryReactor* SetSolvePriority(grpc::CallbackServerContext* context,
+                                             const v1::SetSolvePriorityRequest* request, v1::Solve* response) override;
   grpc::ServerUnaryReactor* DeleteSolve(grpc::CallbackServerContext* context, const v1::DeleteSolveRequest* request,
                                         google::protobuf::Empty* response) override;
   grpc::ServerUnaryReactor* ListModels(grpc::CallbackServerContext* context, const v1::ListModelsRequest* request,

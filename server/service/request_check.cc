@@ -229,6 +229,12 @@ Violations CheckRequestId(const std::string& request_id) {
   return {};
 }
 
+Violations CheckPriority(int priority) {
+  if (priority >= kLeastPriority && priority <= kMostPriority) return {};
+  return {{"priority", "is " + std::to_string(priority) + ", must be from " + std::to_string(kLeastPriority) + " to " +
+                           std::to_string(kMostPriority)}};
+}
+
 Violations CheckIterates(int per_second, const std::string& field) {
   if (per_second >= 0 && per_second <= kMostIteratesPerSecond) return {};
   return {{field, "is " + std::to_string(per_second) + ", must be in [0, " + std::to_string(kMostIteratesPerSecond) +

@@ -37,6 +37,9 @@ Violations CheckIterates(int per_second, const std::string& field);
 // Refuses an id of more than 128 bytes or with other than printable ASCII characters. Empty is allowed.
 Violations CheckRequestId(const std::string& request_id);
 
+// Refuses a priority that no solve has, [kLeastPriority, kMostPriority].
+Violations CheckPriority(int priority);
+
 // kInvalidArgument with the violations and a message that holds the first one.
 Error InvalidArgument(Violations violations);
 

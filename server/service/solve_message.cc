@@ -53,6 +53,7 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
   solve.set_from_cache(record.from_cache);
   solve.set_last_sequence(record.last_sequence);
   solve.set_tenant(record.tenant);
+  solve.set_priority(record.priority);
   for (const auto& [key, value] : record.labels) (*solve.mutable_labels())[key] = value;
   return solve;
 }

@@ -106,6 +106,7 @@ Outcome<v1::Solve> SolveService::CreateResolved(const Caller& caller, const v1::
     v1::Solve checked;
     *checked.mutable_spec() = request.spell_out() ? knowledge_.spell_out(request.spec()).value() : request.spec();
     *checked.mutable_labels() = request.labels();
+    checked.set_priority(request.priority());
     return checked;
   }
   const Outcome<CreatedSolve> created = Store(solve.value());
@@ -126,6 +127,8 @@ Outcome<NewSolve> SolveService::MakeNew(const Caller& caller, const v1::CreateSo
   if (request.spell_out() && !request.validate_only()) {
     violations.push_back({"spell_out", "needs validate_only; nothing that is stored is spelled out"});
   }
+  Violations priority = CheckPriority(request.priority());
+  violations.insert(violations.end(), priority.begin(), priority.end());
   Labels labels = ReadLabels(request.labels(), kMostLabels, "", &violations);
   if (!violations.empty()) return InvalidArgument(std::move(violations));
   Outcome<Checked> checked = CheckSpec(caller, request.spec(), request.has_spec());
@@ -140,6 +143,7 @@ Outcome<NewSolve> SolveService::MakeNew(const Caller& caller, const v1::CreateSo
   solve.place = PlaceOf(request.spec());
   solve.solver_fingerprint = options_.solver_fingerprint;
   solve.labels = std::move(labels);
+  solve.priority = request.priority();
   solve.model = ModelOf(request.spec());
   return solve;
 }
@@ -187,6 +191,17 @@ Outcome<v1::Solve> SolveService::CancelSolve(const Caller& caller, const v1::Can
              {{"solve", id.value()}});
     announce_(id.value());
   }
+  return ToSolve(record.value());
+}
+
+Outcome<v1::Solve> SolveService::SetSolvePriority(const Caller& caller, const v1::SetSolvePriorityRequest& request) {
+  Violations violations = CheckPriority(request.priority());
+  if (!violations.empty()) return InvalidArgument(std::move(violations));
+  const Outcome<std::string> id = FindFor(caller, request.name());
+  if (!id.ok()) return id.error();
+  const Outcome<SolveRecord> record = store_.SetPriority(id.value(), request.priority(), caller.actor());
+  if (!record.ok()) return record.error();
+  LogEvent(spdlog::level::info, "solve.priority_set", {{"solve", id.value()}, {"priority", request.priority()}});
   return ToSolve(record.value());
 }
 

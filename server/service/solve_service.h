@@ -56,6 +56,7 @@ class SolveService {
                                const std::function<Outcome<Done>(int64_t bytes)>& hold);
   Outcome<v1::ListSolvesResponse> ListSolves(const Caller& caller, const v1::ListSolvesRequest& request);
   Outcome<v1::Solve> CancelSolve(const Caller& caller, const v1::CancelSolveRequest& request);
+  Outcome<v1::Solve> SetSolvePriority(const Caller& caller, const v1::SetSolvePriorityRequest& request);
   Outcome<google::protobuf::Empty> DeleteSolve(const Caller& caller, const v1::DeleteSolveRequest& request);
   Outcome<v1::ServerInfo> GetServerInfo(const Caller& caller, const v1::GetServerInfoRequest& request);
   // How long a solve is that the caller may see; kNotFound, also for another tenant's unless the caller administers.

@@ -92,6 +92,7 @@ Outcome<v1::BatchCreateSolvesResponse> SolveService::BatchCreateSolves(const Cal
     for (const v1::CreateSolveRequest& one : request.requests()) {
       *response.add_solves()->mutable_spec() = one.spec();
       *response.mutable_solves()->rbegin()->mutable_labels() = one.labels();
+      response.mutable_solves()->rbegin()->set_priority(one.priority());
     }
     return response;
   }

@@ -83,6 +83,10 @@ Outcome<SolveRecord> MeasuredStore::RequestCancel(const std::string& id, const A
   return Measure("request_cancel", [&] { return store_.RequestCancel(id, actor); });
 }
 
+Outcome<SolveRecord> MeasuredStore::SetPriority(const std::string& id, int priority, const Actor& actor) {
+  return Measure("set_priority", [&] { return store_.SetPriority(id, priority, actor); });
+}
+
 Outcome<EventPage> MeasuredStore::ReadEvents(const std::string& id, int64_t after_sequence, int max_events) {
   return Measure("read_events", [&] { return store_.ReadEvents(id, after_sequence, max_events); });
 }

@@ -14,6 +14,7 @@ const SqlDialect kPostgresDialect = {
     .next_result = "nextval(pg_get_serial_sequence('results', 'id'))",
     .given_key = "OVERRIDING SYSTEM VALUE",
     .label_lines = "STRING_AGG(name || '=' || value, CHR(10))",
+    .along_queue = "",
 };
 
 }  // namespace rollgait::server

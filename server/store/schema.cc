@@ -264,9 +264,23 @@ void From6To7(SqlConnection& connection) {
   }
 }
 
+// The order of the queue: fair_order.h. Weight -1: 1.
+constexpr char kFairOrder[] = R"(
+ALTER TABLE solves ADD COLUMN priority BIGINT NOT NULL DEFAULT 0;
+ALTER TABLE tenants ADD COLUMN weight BIGINT NOT NULL DEFAULT -1;
+CREATE INDEX solves_queued ON solves (tenant, state, priority DESC, number) WHERE state = 1;
+CREATE TABLE shares (
+  tenant TEXT PRIMARY KEY,
+  start_tag BIGINT NOT NULL,
+  finish_tag BIGINT NOT NULL);
+CREATE INDEX shares_by_start ON shares (start_tag);
+)";
+
+void From7To8(SqlConnection& connection) { connection.Execute(kFairOrder); }
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6, From6To7};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6, From6To7, From7To8};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

@@ -42,7 +42,11 @@ struct SolveRecord {
   int termination = 0, verdict = 0;
   std::string error;  // v1::SolveError; empty unless kFailed or kCancelled
   Labels labels = {};
+  int priority = 0;  // among the queued ones of its tenant; the highest is claimed first
 };
+
+// Of a solve.
+inline constexpr int kLeastPriority = -10, kMostPriority = 10;
 
 struct NewSolve {
   std::string id;          // unique, chosen by the caller
@@ -58,6 +62,7 @@ struct NewSolve {
   SolvePlace place = {};
   Labels labels = {};
   std::string model = {};  // what lists filter by: the name, or "own"
+  int priority = 0;
 };
 
 struct CreatedSolve {

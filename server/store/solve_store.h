@@ -51,6 +51,9 @@ class SolveStore {
   virtual Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) = 0;
   // Queued: ends it at once as kCancelled. Running: sets the flag. Terminal: nothing. Returns the solve. kNotFound.
   virtual Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) = 0;
+  // Of a queued solve: among those of its tenant; nothing if it has this one, queued or not. Returns the solve.
+  // kNotFound, kFailedPrecondition: not queued.
+  virtual Outcome<SolveRecord> SetPriority(const std::string& id, int priority, const Actor& actor = {}) = 0;
   // Events with a larger number, at most max_events (0: only the numbers). kNotFound, kOutOfRange: after_sequence is
   // beyond the newest, negative, or before the oldest held (retention), which the message names.
   virtual Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) = 0;
@@ -70,8 +73,8 @@ class SolveStore {
 
   // For agents.
 
-  // Takes the oldest queued solve that may run (single flight, the tenant's max_running): attempts + 1, RUNNING and its
-  // event. nullopt: none.
+  // Takes the queued solve whose turn it is (fair_order.h) of those that may run (single flight, the tenant's
+  // max_running): attempts + 1, RUNNING and its event. nullopt: none.
   virtual Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner,
                                                          std::chrono::milliseconds duration) = 0;
   // Prolongs from now on. kLeaseLost.

@@ -17,6 +17,7 @@ const char* WordOf(std::string_view name, const SqlDialect& dialect) {
   if (name == "next_result") return dialect.next_result;
   if (name == "given_key") return dialect.given_key;
   if (name == "label_lines") return dialect.label_lines;
+  if (name == "along_queue") return dialect.along_queue;
   return nullptr;
 }
 

@@ -22,6 +22,9 @@ struct SqlDialect {
   const char* next_result;  // {next_result}: an id for results
   const char* given_key;    // {given_key}: inserts such a key
   const char* label_lines;  // {label_lines}: JoinLabels of rows of `labels`, in any order
+  // {along_queue}: after solves or its alias; what reads queued solves goes along the index solves_queued. Without
+  // statistics SQLite takes another, and reads the whole queue.
+  const char* along_queue;
 };
 
 extern const SqlDialect kSqliteDialect;

@@ -66,6 +66,7 @@ SolveRow ReadSolve(const Query& query) {
   record.termination = static_cast<int>(query.Int(22));
   record.verdict = static_cast<int>(query.Int(23));
   record.labels = SplitLabels(query.Bytes(24));
+  record.priority = static_cast<int>(query.Int(25));
   return row;
 }
 

@@ -26,8 +26,8 @@ struct SolveRow {
   "number, id, spec, solve_key, state, create_time_us, start_time_us, end_time_us, attempts, crashes, " \
   "cancel_requested, from_cache, last_sequence, result_id, error, owner, epoch, "                       \
   "tenant, solver_fingerprint, traceparent, trimmed_sequence, bytes, termination, verdict, "            \
-  "(SELECT {label_lines} FROM labels AS own WHERE own.solve = number) "
-inline constexpr int kSolveColumns = 25;
+  "(SELECT {label_lines} FROM labels AS own WHERE own.solve = number), priority "
+inline constexpr int kSolveColumns = 26;
 
 // False: no solve has such an id, and no database needs to be asked.
 bool CouldBeId(const std::string& text);
@@ -79,7 +79,7 @@ std::string CancelledError();
 // What somebody did, for the audit.
 struct AuditEntry {
   const Actor& actor;
-  std::string action;   // create, cancel, delete, end, expire, create model, delete model
+  std::string action;   // create, cancel, delete, set priority, end, expire, create model, delete model
   std::string solve;    // id; empty: of none
   std::string outcome;  // the solve's state
   std::string detail = {};

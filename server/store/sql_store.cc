@@ -134,6 +134,28 @@ Outcome<SolveRecord> SqlStore::RequestCancel(const std::string& id, const Actor&
   });
 }
 
+Outcome<SolveRecord> SqlStore::SetPriority(const std::string& id, int priority, const Actor& actor) {
+  ROLLGAIT_CHECK(priority >= kLeastPriority && priority <= kMostPriority);
+  return database_->Write([&](SqlConnection& connection) -> Outcome<SolveRecord> {
+    std::optional<SolveRow> row = FindSolve(connection, id);
+    if (!row.has_value()) return NoSuchSolve(id);
+    SolveRecord& record = row->record;
+    if (record.priority == priority) return FullRecord(connection, std::move(*row));
+    if (record.state != SolveState::kQueued) {
+      return Error{ErrorCode::kFailedPrecondition, "solves/" + id + " is not queued, it has " +
+                                                       (IsTerminal(record.state) ? "ended" : "begun to run") +
+                                                       "; only the priority of a queued solve can be changed"};
+    }
+    const int earlier = std::exchange(record.priority, priority);
+    const std::string owner = OwnerUnless(actor, record);
+    const std::string detail =
+        owner + (owner.empty() ? "" : ", ") + std::to_string(earlier) + " to " + std::to_string(priority);
+    Query::Do(connection, "UPDATE solves SET priority = ? WHERE number = ?", priority, row->number);
+    AddAudit(connection, {actor, "set priority", id, "queued", detail}, clock_.WallMicros());
+    return std::move(record);
+  });
+}
+
 Outcome<EventPage> SqlStore::ReadEvents(const std::string& id, int64_t after_sequence, int max_events) {
   if (!CouldBeId(id)) return NoSuchSolve(id);
   return database_->Read([&](SqlConnection& connection) -> Outcome<EventPage> {

@@ -33,6 +33,7 @@ class SqlStore : public SolveStore, public ModelStore {
   Outcome<SolvePage> List(const ListQuery& query) override;
   Outcome<Done> Delete(const std::string& id, const Actor& actor = {}) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor = {}) override;
+  Outcome<SolveRecord> SetPriority(const std::string& id, int priority, const Actor& actor = {}) override;
   Outcome<EventPage> ReadEvents(const std::string& id, int64_t after_sequence, int max_events) override;
   Outcome<std::map<std::string, int64_t>> LastSequences(const std::vector<std::string>& ids) override;
   Outcome<std::string> Nearest(const NearQuery& query) override;

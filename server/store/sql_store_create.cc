@@ -103,6 +103,7 @@ SolveRow NewRow(const NewSolve& solve, int64_t number, int64_t now_us) {
   row.record.traceparent = solve.traceparent;
   row.record.create_time_us = now_us;
   row.record.labels = solve.labels;
+  row.record.priority = solve.priority;
   return row;
 }
 
@@ -114,11 +115,11 @@ void Insert(SqlConnection& connection, const NewSolve& solve, const std::string&
   Query::Do(
       connection,
       "INSERT INTO solves (number, id, tenant, request_id, spec, solve_key, solver_fingerprint, traceparent, state, "
-      "create_time_us, last_sequence, bytes, model) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, ?, ?, ?, "
-      "?, ?)",
+      "create_time_us, last_sequence, bytes, model, priority) {given_key} VALUES (?, ?, ?, NULLIF(?, ''), ?, ?, ?, ?, "
+      "?, ?, ?, ?, ?, ?)",
       row.number, record.id, record.tenant, solve.request_id, Blob{record.spec}, record.solve_key,
       record.solver_fingerprint, record.traceparent, static_cast<int>(record.state), record.create_time_us,
-      record.last_sequence, row.bytes, solve.model);
+      record.last_sequence, row.bytes, solve.model, record.priority);
   InsertEvent(connection, row.number, {record.last_sequence, EventKind::kStateChange, event});
   Query::Do(connection,
             "INSERT INTO places (solve, tenant, question, slope_rad, speed_m_s, optimal) VALUES (?, ?, ?, ?, ?, 0)",

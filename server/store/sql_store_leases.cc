@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "rollgait/v1/solve.pb.h"
+#include "server/store/fair_order.h"
 #include "server/store/sql_rows.h"
 #include "server/store/sql_store.h"
 
@@ -95,24 +96,43 @@ struct Candidate {
   int64_t reusable = 0;      // a result of its key; 0: none
   int64_t max_running = -1;  // of its tenant; -1: no limit
   std::string warm_start;
+  Share share;
 };
 
-// The oldest queued solve whose key does not run and whose tenant has room. PostgreSQL: locked.
-std::optional<Candidate> NextQueued(SqlConnection& connection) {
-  Query query(connection,
-              "SELECT " ROLLGAIT_SOLVE_COLUMNS
-              ", (SELECT MIN(r.id) FROM results AS r WHERE r.solve_key = s.solve_key AND s.solve_key <> '' AND "
-              "r.reusable = 1), "
-              "COALESCE((SELECT t.max_running FROM tenants AS t WHERE t.tenant = s.tenant), -1), "
-              "(SELECT w.payload FROM warm_starts AS w WHERE w.solve = s.number) "
-              "FROM solves AS s WHERE state = 1 AND (solve_key = '' OR NOT EXISTS "
-              "(SELECT 1 FROM solves AS r WHERE r.solve_key = s.solve_key AND r.state = 2)) "
-              "AND NOT EXISTS (SELECT 1 FROM tenants AS t WHERE t.tenant = s.tenant AND t.max_running >= 0 "
-              "AND t.max_running <= (SELECT COUNT(*) FROM solves AS b WHERE b.tenant = s.tenant AND b.state = 2)) "
-              "ORDER BY number LIMIT 1 {skip_locked}");
+// The queued solve of the highest priority of one tenant, the oldest of them, whose key does not run. PostgreSQL:
+// locked.
+#define ROLLGAIT_NEXT_OF(tenant_is)                                                                  \
+  "SELECT " ROLLGAIT_SOLVE_COLUMNS                                                                   \
+  ", (SELECT MIN(r.id) FROM results AS r WHERE r.solve_key = s.solve_key AND s.solve_key <> '' AND " \
+  "r.reusable = 1), "                                                                                \
+  "COALESCE((SELECT t.max_running FROM tenants AS t WHERE t.tenant = s.tenant), -1), "               \
+  "(SELECT w.payload FROM warm_starts AS w WHERE w.solve = s.number), " ROLLGAIT_SHARE_COLUMNS       \
+  "FROM solves AS s {along_queue} WHERE state = 1 AND tenant = " tenant_is                           \
+  " AND (solve_key = '' OR NOT EXISTS "                                                              \
+  "(SELECT 1 FROM solves AS r WHERE r.solve_key = s.solve_key AND r.state = 2)) "                    \
+  "ORDER BY priority DESC, number LIMIT 1 {skip_locked}"
+
+std::optional<Candidate> ReadCandidate(Query& query) {
   if (!query.Step()) return std::nullopt;
   return Candidate{ReadSolve(query), query.Int(kSolveColumns), query.Int(kSolveColumns + 1),
-                   query.Bytes(kSolveColumns + 2)};
+                   query.Bytes(kSolveColumns + 2), ReadShare(query, kSolveColumns + 3)};
+}
+
+// Of the tenant whose turn it is; if that has none, all tenants are asked, by their turns. Who they are is asked at the
+// same time, so that an empty queue costs one wait.
+std::optional<Candidate> NextQueued(SqlConnection& connection) {
+  Query first(connection, ROLLGAIT_NEXT_OF("(" ROLLGAIT_TENANTS_BY_TURN "LIMIT 1)"));
+  Query turns(connection, ROLLGAIT_TENANTS_BY_TURN);
+  std::optional<Candidate> next = ReadCandidate(first);
+  if (next.has_value()) return next;
+  std::vector<std::string> tenants;
+  while (turns.Step()) tenants.push_back(turns.Bytes(0));
+  for (const std::string& tenant : tenants) {
+    Query query(connection, ROLLGAIT_NEXT_OF("?"), tenant);
+    next = ReadCandidate(query);
+    if (next.has_value()) break;
+  }
+  return next;
 }
 
 ResultRow FindResult(SqlConnection& connection, int64_t id) {
@@ -146,6 +166,7 @@ Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owne
     SolveRow& row = next->row;
     SolveRecord& record = row.record;
     if (next->max_running >= 0) CheckTenantHasRoom(connection, record.tenant);
+    CountClaim(connection, record.tenant, next->share);
     if (record.start_time_us == 0) record.start_time_us = now_us;
     record.attempts += 1;
     row.epoch += 1;

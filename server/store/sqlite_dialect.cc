@@ -15,6 +15,7 @@ const SqlDialect kSqliteDialect = {
     .next_result = "COALESCE((SELECT seq FROM sqlite_sequence WHERE name = 'results'), 0) + 1",
     .given_key = "",
     .label_lines = "GROUP_CONCAT(name || '=' || value, CHAR(10))",
+    .along_queue = "INDEXED BY solves_queued",
 };
 
 }  // namespace rollgait::server

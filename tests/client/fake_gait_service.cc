@@ -1,8 +1,5 @@
 #include "tests/client/fake_gait_service.h"
 
-#include <grpcpp/security/server_credentials.h>
-#include <grpcpp/server_builder.h>
-
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -109,6 +106,7 @@ grpc::Status FakeGaitService::Create(const v1::CreateSolveRequest& request, cons
   record.solve = SampleSolve("solves/" + id, request.spec().slope_rad());
   *record.solve.mutable_spec() = request.spec();
   *record.solve.mutable_labels() = request.labels();
+  record.solve.set_priority(request.priority());
   v1::SolveEvent running = NewEvent(record.solve.name(), 1);
   running.mutable_state_change()->set_state(v1::SOLVE_STATE_RUNNING);
   running.mutable_state_change()->set_attempt(1);
@@ -267,6 +265,16 @@ grpc::Status FakeGaitService::CancelSolve(grpc::ServerContext*, const v1::Cancel
   return grpc::Status::OK;
 }
 
+grpc::Status FakeGaitService::SetSolvePriority(grpc::ServerContext*, const v1::SetSolvePriorityRequest* request,
+                                               v1::Solve* solve) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = records_.find(request->name());
+  if (found == records_.end()) return NotFound(request->name());
+  found->second.solve.set_priority(request->priority());
+  *solve = found->second.solve;
+  return grpc::Status::OK;
+}
+
 grpc::Status FakeGaitService::DeleteSolve(grpc::ServerContext*, const v1::DeleteSolveRequest* request,
                                           google::protobuf::Empty*) {
   std::lock_guard<std::mutex> lock(mutex_);
@@ -333,17 +341,6 @@ grpc::Status FakeGaitService::GetServerInfo(grpc::ServerContext*, const v1::GetS
   info->set_max_queued(100);
   info->set_store_free_bytes(int64_t{5} << 30);
   return grpc::Status::OK;
-}
-
-FakeServer::FakeServer(FakeGaitService& service, int port) {
-  grpc::ServerBuilder builder;
-  builder.AddListeningPort("127.0.0.1:" + std::to_string(port), grpc::InsecureServerCredentials(), &port_);
-  builder.RegisterService(&service);
-  server_ = builder.BuildAndStart();
-}
-
-FakeServer::~FakeServer() {
-  if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now());
 }
 
 }  // namespace rollgait::client

@@ -52,6 +52,7 @@ class FakeGaitService : public v1::GaitService::Service {
   grpc::Status GetSolve(grpc::ServerContext*, const v1::GetSolveRequest*, v1::Solve*) override;
   grpc::Status ListSolves(grpc::ServerContext*, const v1::ListSolvesRequest*, v1::ListSolvesResponse*) override;
   grpc::Status CancelSolve(grpc::ServerContext*, const v1::CancelSolveRequest*, v1::Solve*) override;
+  grpc::Status SetSolvePriority(grpc::ServerContext*, const v1::SetSolvePriorityRequest*, v1::Solve*) override;
   grpc::Status DeleteSolve(grpc::ServerContext*, const v1::DeleteSolveRequest*, google::protobuf::Empty*) override;
   grpc::Status ListModels(grpc::ServerContext*, const v1::ListModelsRequest*, v1::ListModelsResponse*) override;
   grpc::Status GetModel(grpc::ServerContext*, const v1::GetModelRequest*, v1::Model*) override;

@@ -1,3 +1,4 @@
+#include <iterator>
 #include <optional>
 
 #include "tests/schedules/event_words.h"
@@ -10,14 +11,19 @@ namespace {
 // A client that asks for solves, watches, cancels and deletes them, and makes a call again that was not answered.
 class Client {
  public:
-  Client(World& world, int number) : world_(world), name_("c" + std::to_string(number)) {}
+  Client(World& world, int number) : world_(world), name_("c" + std::to_string(number)) {
+    // Equal requests of one tenant wait for one another, those of two take turns.
+    caller_.authentication = Authentication::kToken;
+    caller_.tenant = kTenants[number % std::size(kTenants)].name;
+  }
 
   void Run() {
     const int requests = 1 + random().Below(2);
     for (int i = 0; i < requests && !world_.over; ++i) {
       const std::string tag = name_ + "r" + std::to_string(i);
       const bool batch = random().Chance(0.25);
-      const std::vector<std::string> tags = batch ? std::vector{tag + "a", tag + "b"} : std::vector{tag};
+      std::vector<std::string> tags = batch ? std::vector{tag + "a", tag + "b"} : std::vector{tag};
+      for (int more = world_.plan.crowd ? 6 : 0; more > 0; --more) tags.push_back(tag + "m" + std::to_string(more));
       for (const std::string& id : Create(tags)) Follow(id);
     }
   }
@@ -57,13 +63,17 @@ class Client {
     *request.mutable_spec() = PlanarSpec(slope);
     request.set_request_id(tag);
     (*request.mutable_labels())["tag"] = tag;
+    request.set_priority(random().Chance(0.5) ? 0 : random().Below(3) - 1);
     return request;
   }
+
+  // Few, so that requests are equal; in a crowd many, so that they are not and wait for solvers.
+  double Slope() { return world_.plan.crowd ? 0.01 * random().Below(20) : random().Chance(0.5) ? 0.1 : 0.2; }
 
   // The ids of the solves; empty: the client gives up.
   std::vector<std::string> Create(const std::vector<std::string>& tags) {
     v1::BatchCreateSolvesRequest batch;
-    for (const std::string& tag : tags) *batch.add_requests() = Request(tag, random().Chance(0.5) ? 0.1 : 0.2);
+    for (const std::string& tag : tags) *batch.add_requests() = Request(tag, Slope());
     while (!world_.over && !random().Chance(0.03)) {
       const Outcome<v1::BatchCreateSolvesResponse> made =
           Ask("create", [&](ServerLife& life) { return CreateAt(life, batch); });
@@ -84,9 +94,9 @@ class Client {
     return {};
   }
 
-  static Outcome<v1::BatchCreateSolvesResponse> CreateAt(ServerLife& life, const v1::BatchCreateSolvesRequest& batch) {
-    if (batch.requests_size() > 1) return life.service.BatchCreateSolves({}, batch);
-    Outcome<v1::Solve> solve = life.service.CreateSolve({}, batch.requests(0));
+  Outcome<v1::BatchCreateSolvesResponse> CreateAt(ServerLife& life, const v1::BatchCreateSolvesRequest& batch) {
+    if (batch.requests_size() > 1) return life.service.BatchCreateSolves(caller_, batch);
+    Outcome<v1::Solve> solve = life.service.CreateSolve(caller_, batch.requests(0));
     if (!solve.ok()) return solve.error();
     v1::BatchCreateSolvesResponse response;
     *response.add_solves() = std::move(solve).value();
@@ -95,6 +105,7 @@ class Client {
 
   void Follow(const std::string& id) {
     if (random().Chance(0.3)) Pause();
+    if (random().Chance(0.2)) SetPriority(id);
     if (random().Chance(0.35)) Cancel(id);
     const bool is_there = random().Chance(0.7) ? Watch(id) : Poll(id);
     if (is_there && random().Chance(0.3)) Delete(id);
@@ -104,7 +115,7 @@ class Client {
     while (!world_.over && !random().Chance(0.03)) {
       world_.model.CancelAsked(id);
       const auto answer = Ask("cancel", [&](ServerLife& life) {
-        return life.service.CancelSolve({}, Named<v1::CancelSolveRequest>(SolveName(id)));
+        return life.service.CancelSolve(caller_, Named<v1::CancelSolveRequest>(SolveName(id)));
       });
       if (answer.ok()) return world_.model.CancelAnswered(id);
       if (answer.error().code == ErrorCode::kNotFound) world_.model.NotFoundAnswered(id);
@@ -113,11 +124,22 @@ class Client {
     }
   }
 
+  // Where it runs already there is nothing to change.
+  void SetPriority(const std::string& id) {
+    v1::SetSolvePriorityRequest request = Named<v1::SetSolvePriorityRequest>(SolveName(id));
+    request.set_priority(random().Below(3) - 1);
+    const auto answer =
+        Ask("set priority", [&](ServerLife& life) { return life.service.SetSolvePriority(caller_, request); });
+    if (answer.ok() || answer.error().code == ErrorCode::kFailedPrecondition) return;
+    if (answer.error().code == ErrorCode::kNotFound) world_.model.NotFoundAnswered(id);
+    IsToRepeat("set priority", answer.error());
+  }
+
   void Delete(const std::string& id) {
     while (!world_.over) {
       world_.model.DeleteAsked(id);
       const auto answer = Ask("delete", [&](ServerLife& life) {
-        return life.service.DeleteSolve({}, Named<v1::DeleteSolveRequest>(SolveName(id)));
+        return life.service.DeleteSolve(caller_, Named<v1::DeleteSolveRequest>(SolveName(id)));
       });
       if (answer.ok()) return world_.model.DeleteAnswered(id);
       if (answer.error().code == ErrorCode::kNotFound) world_.model.NotFoundAnswered(id);
@@ -137,7 +159,7 @@ class Client {
       const int earlier = world_.model.StateOf(id);
       const auto hold = [](int64_t) -> Outcome<Done> { return Done{}; };
       const auto answer = Ask("get", [&](ServerLife& life) {
-        return life.service.GetSolve({}, Named<v1::GetSolveRequest>(SolveName(id)), hold);
+        return life.service.GetSolve(caller_, Named<v1::GetSolveRequest>(SolveName(id)), hold);
       });
       if (answer.ok()) {
         v1::Solve solve;
@@ -209,6 +231,7 @@ class Client {
 
   World& world_;
   const std::string name_;
+  Caller caller_;
 };
 
 }  // namespace

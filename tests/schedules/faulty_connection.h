@@ -48,6 +48,8 @@ struct Site {
   std::function<void()> committed;   // called after each commit of a transaction that may write
   std::function<void()> keep_time;   // called before each statement
   bool events_after_commit = false;  // a planted bug: events are written in a transaction of their own, afterwards
+  bool oldest_first = false;         // a planted bug: a claim takes the oldest solve, whosever it is
+  bool one_queue = false;            // a planted bug: a claim takes the solve of the highest priority, whosever it is
 };
 
 class FaultyStatement;

@@ -64,6 +64,7 @@ void HistoryModel::Begin(StoreCall& call, int64_t now_us) const {
 void HistoryModel::Committed(const StoreCall& call, int64_t now_us, const std::vector<SeenSolve>& solves,
                              const EventsOf& events) {
   ++counts_["commits"];
+  if (call.kind == CallKind::kClaim) CheckTurn(solves);
   std::set<std::string> there;
   for (const SeenSolve& seen : solves) {
     there.insert(seen.id);
@@ -120,6 +121,9 @@ void HistoryModel::Change(const StoreCall& call, int64_t now_us, Solve& solve, c
   }
   if (seen.cancel_requested && !last.cancel_requested && (call.kind != CallKind::kCancel || call.id != seen.id)) {
     Violated(seen.id, "is to be cancelled, and the call does not ask for it");
+  }
+  if (seen.priority != last.priority && (call.kind != CallKind::kSetPriority || last.state != kQueued)) {
+    Violated(seen.id, "has another priority, and the call may not change it");
   }
   if (last.cancel_requested && !seen.cancel_requested) Violated(seen.id, "is not to be cancelled any more");
   if (!same_state) CheckTransition(call, now_us, solve, seen);
@@ -231,8 +235,9 @@ void HistoryModel::Vanish(const StoreCall& call, Solve& solve) {
 // What was created together is there together.
 void HistoryModel::CheckTogether(const StoreCall& call) {
   for (const std::string& tag : call.tags) {
-    const bool there = std::any_of(solves_.begin(), solves_.end(), [&tag](const auto& entry) {
-      return !entry.second.gone && entry.second.last.tag == tag;
+    const bool there = std::any_of(solves_.begin(), solves_.end(), [this, &tag](const auto& entry) {
+      // Where others write at the same time one of an earlier call may be removed before this one commits.
+      return (!entry.second.gone || claimers_ > 1) && entry.second.last.tag == tag;
     });
     if (!there) Violated("for " + tag, "is not there after the commit that makes it");
   }

@@ -26,6 +26,7 @@ struct StoreCall {
     kOther,
     kCreate,
     kCancel,
+    kSetPriority,
     kDelete,
     kRetain,
     kClaim,
@@ -38,7 +39,7 @@ struct StoreCall {
   };
   Kind kind = Kind::kOther;
   std::vector<std::string> tags = {};               // kCreate: of the solves
-  std::string id = {};                              // kCancel, kDelete
+  std::string id = {};                              // kCancel, kSetPriority, kDelete
   std::string owner = {};                           // kClaim, kReclaimOwner
   std::vector<SeenLease> leases = {};               // kRenew, kAppend, kFinish, kGiveBack
   std::vector<std::vector<SeenEvent>> events = {};  // of each lease, as they are handed over
@@ -53,6 +54,10 @@ struct StoreCall {
 class HistoryModel {
  public:
   using EventsOf = std::function<std::vector<SeenEvent>(int64_t number, int64_t after_sequence)>;
+
+  // The share of a tenant; of others it is 1. How many claims may be under way at the same time.
+  void SetWeight(const std::string& tenant, int weight) { weights_[tenant] = weight; }
+  void SetClaimers(int claimers) { claimers_ = claimers; }
 
   // The first thing that broke a promise, as a sentence.
   const std::optional<std::string>& violation() const { return violation_; }
@@ -108,6 +113,10 @@ class HistoryModel {
   void CheckLog(Solve& solve, const SeenSolve& seen, const EventsOf& events);
   void Vanish(const StoreCall& call, Solve& solve);
   void CheckTogether(const StoreCall& call);
+  // Whether a claim took the solve whose turn it was; `solves` are those after it.
+  void CheckTurn(const std::vector<SeenSolve>& solves);
+  bool CouldRun(const SeenSolve& waiting) const;
+  int WeightOf(const std::string& tenant) const;
   static const SeenLease* LeaseIn(const StoreCall& call, const std::string& id);
 
   std::optional<std::string> violation_;
@@ -116,6 +125,10 @@ class HistoryModel {
   std::set<std::pair<std::string, int64_t>> claims_;
   std::map<std::string, std::set<std::string>> results_;  // of a key
   std::set<std::string> cancel_asked_, delete_asked_, dead_owners_;
+  std::map<std::string, int> weights_;
+  int claimers_ = 1;
+  // By tenant, who waits: the claims of others since it was served or began to wait.
+  std::map<std::string, std::map<std::string, int>> passed_;
   std::map<std::string, int64_t> counts_;
 };
 

@@ -99,7 +99,9 @@ int main(int argc, char** argv) {
   const std::map<std::string, PlantedBug> bugs = {{"none", PlantedBug::kNone},
                                                   {"lease-without-epoch", PlantedBug::kLeaseWithoutEpoch},
                                                   {"event-after-commit", PlantedBug::kEventAfterCommit},
-                                                  {"retry-without-request-id", PlantedBug::kRetryWithoutRequestId}};
+                                                  {"retry-without-request-id", PlantedBug::kRetryWithoutRequestId},
+                                                  {"oldest-first", PlantedBug::kOldestFirst},
+                                                  {"one-queue", PlantedBug::kOneQueue}};
   app.add_option("--bug", wish.bug, "a mistake to plant")->transform(CLI::CheckedTransformer(bugs));
   CLI11_PARSE(app, argc, argv);
   spdlog::set_level(spdlog::level::off);

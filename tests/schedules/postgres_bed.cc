@@ -44,6 +44,7 @@ class PostgresBed : public StoreBed, public StoreView {
   void Clear() override {
     Run("DELETE FROM solves; DELETE FROM results; DELETE FROM audit; ALTER SEQUENCE solves_number_seq RESTART; "
         "ALTER SEQUENCE results_id_seq RESTART;");
+    Run(kSetTenants);
   }
 
   std::vector<SeenSolve> Solves() override {
@@ -64,6 +65,8 @@ class PostgresBed : public StoreBed, public StoreView {
       seen.cancel_requested = Int(answer, row, 10) != 0;
       seen.result = Bytes(answer, row, 11);
       seen.error = Bytes(answer, row, 12);
+      seen.tenant = PQgetvalue(answer.get(), row, 13);
+      seen.priority = static_cast<int>(Int(answer, row, 14));
       solves.push_back(std::move(seen));
     }
     return solves;

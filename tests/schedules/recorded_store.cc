@@ -84,6 +84,11 @@ Outcome<SolveRecord> RecordedStore::RequestCancel(const std::string& id, const A
   return Record(record, [&] { return store_.RequestCancel(id, actor); });
 }
 
+Outcome<SolveRecord> RecordedStore::SetPriority(const std::string& id, int priority, const Actor& actor) {
+  StoreCall record{.kind = CallKind::kSetPriority, .id = id};
+  return Record(record, [&] { return store_.SetPriority(id, priority, actor); });
+}
+
 Outcome<Removed> RecordedStore::Retain(const RetentionLimits& limits) {
   StoreCall record{CallKind::kRetain};
   return Record(record, [&] { return store_.Retain(limits); });

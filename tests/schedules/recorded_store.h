@@ -34,6 +34,7 @@ class RecordedStore : public SolveStore {
   Outcome<std::vector<CreatedSolve>> CreateAll(const std::vector<NewSolve>& solves) override;
   Outcome<Done> Delete(const std::string& id, const Actor& actor) override;
   Outcome<SolveRecord> RequestCancel(const std::string& id, const Actor& actor) override;
+  Outcome<SolveRecord> SetPriority(const std::string& id, int priority, const Actor& actor) override;
   Outcome<Removed> Retain(const RetentionLimits& limits) override;
   Outcome<std::optional<ClaimedSolve>> ClaimNext(const std::string& owner, std::chrono::milliseconds duration) override;
   Outcome<LeaseState> RenewLease(const Lease& lease, std::chrono::milliseconds duration) override;

@@ -38,10 +38,10 @@ TEST(SchedulesTest, PromisesAreKeptAndEveryKindOfThingHappens) {
     for (const auto& [what, count] : outcome.counts) counts[what] += count;
   }
   for (const char* what :
-       {"cancelled in the queue", "cancelled while they ran", "deleted", "events delivered", "failures",
-        "further claims", "given back", "removed by retention", "results", "solves that a held result answers",
-        "solves that an equal one answers", "taken after a lease expired", "taken from a dead agent",
-        "writes refused, as the lease is lost"}) {
+       {"cancelled in the queue", "cancelled while they ran", "claims while another tenant waits", "deleted",
+        "events delivered", "failures", "further claims", "given back", "removed by retention", "results",
+        "solves that a held result answers", "solves that an equal one answers", "taken after a lease expired",
+        "taken from a dead agent", "writes refused, as the lease is lost"}) {
     EXPECT_GE(counts[what], 30) << what;
   }
 }
@@ -56,6 +56,11 @@ TEST(SchedulesTest, AnEventThatIsWrittenAfterTheCommitIsFound) {
 
 TEST(SchedulesTest, ARetryThatForgetsItsRequestIdIsFound) {
   EXPECT_NE(FirstViolation(PlantedBug::kRetryWithoutRequestId, 10'000), 0u);
+}
+
+TEST(SchedulesTest, AQueueWithoutTurnsOrPrioritiesIsFound) {
+  EXPECT_NE(FirstViolation(PlantedBug::kOldestFirst, 10'000), 0u);
+  EXPECT_NE(FirstViolation(PlantedBug::kOneQueue, 10'000), 0u) << "with priorities, but no turns";
 }
 
 TEST(SchedulesTest, ASeedGivesTheSameScheduleWhateverRanBefore) {

@@ -41,6 +41,7 @@ class SqliteBed : public StoreBed, public StoreView {
     Execute(
         "BEGIN IMMEDIATE; DELETE FROM events; DELETE FROM labels; DELETE FROM places; DELETE FROM warm_starts; "
         "DELETE FROM solves; DELETE FROM results; DELETE FROM audit; DELETE FROM sqlite_sequence; COMMIT;");
+    Execute(kSetTenants);
   }
 
   std::vector<SeenSolve> Solves() override {
@@ -60,6 +61,8 @@ class SqliteBed : public StoreBed, public StoreView {
       seen.cancel_requested = Int(solves_, 10) != 0;
       seen.result = Text(solves_, 11);
       seen.error = Text(solves_, 12);
+      seen.tenant = Text(solves_, 13);
+      seen.priority = static_cast<int>(Int(solves_, 14));
       solves.push_back(std::move(seen));
     }
     return solves;

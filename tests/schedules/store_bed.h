@@ -15,8 +15,17 @@ inline constexpr char kSelectSolves[] =
     "SELECT number, id, solve_key, COALESCE(owner, ''), "
     "COALESCE((SELECT value FROM labels WHERE solve = number AND name = 'tag'), ''), state, epoch, last_sequence, "
     "trimmed_sequence, (SELECT COUNT(*) FROM events WHERE solve = number), cancel_requested, "
-    "COALESCE((SELECT payload FROM results WHERE results.id = result_id), ''), COALESCE(error, '') "
-    "FROM solves ORDER BY number";
+    "COALESCE((SELECT payload FROM results WHERE results.id = result_id), ''), COALESCE(error, ''), "
+    "tenant, priority FROM solves ORDER BY number";
+
+// The tenants of clients, with their weights.
+struct SeenTenant {
+  const char* name;
+  int weight;
+};
+inline constexpr SeenTenant kTenants[] = {{"t0", 1}, {"t1", 3}};
+inline constexpr char kSetTenants[] =
+    "DELETE FROM shares; DELETE FROM tenants; INSERT INTO tenants (tenant, weight) VALUES ('t1', 3); ";
 
 // A database for one seed after the other.
 class StoreBed {

@@ -15,6 +15,8 @@ struct SeenSolve {
   int64_t epoch = 0, last_sequence = 0, trimmed = 0, held_events = 0;
   bool cancel_requested = false;
   std::string result = {}, error = {};
+  std::string tenant = {};
+  int priority = 0;
 };
 
 // One event. `what` says what it tells without the time, so that the event in the database and the one that a reader

@@ -44,6 +44,7 @@ Plan::Plan(SeededNumbers& random) {
   chaos = random.Chance(0.5);
   calm_after = random.Between(kSecond, 6 * kSecond);
   clients = 1 + random.Below(3);
+  crowd = random.Chance(0.3);
 }
 
 ServerLife::ServerLife(World& world)
@@ -71,6 +72,8 @@ World::World(Laboratory& laboratory, uint64_t seed, PlantedBug planted)
       rates(plan.rates),
       calm_at(scheduler.now() + plan.calm_after),
       recorder{scheduler, model, laboratory.bed().view()} {
+  for (const SeenTenant& tenant : kTenants) model.SetWeight(tenant.name, tenant.weight);
+  model.SetClaimers(lab.bed().one_writer() ? 1 : 2 * static_cast<int>(Laboratory::kAgents));
   recorder.ignore_epochs = bug == PlantedBug::kLeaseWithoutEpoch;
   for (size_t process = 0; process <= Laboratory::kAgents; ++process) {
     Site& site = lab.site(process);
@@ -83,6 +86,8 @@ World::World(Laboratory& laboratory, uint64_t seed, PlantedBug planted)
       if (model.violation()) Finish();
     };
     site.keep_time = [this] { lab.bed().SetTime(scheduler.now()); };
+    site.one_queue = bug == PlantedBug::kOneQueue;
+    site.oldest_first = bug == PlantedBug::kOldestFirst;
     site.events_after_commit = bug == PlantedBug::kEventAfterCommit;
   }
 }

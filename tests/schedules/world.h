@@ -19,7 +19,7 @@
 namespace rollgait::server {
 
 // Mistakes in the protocol that the schedules must find.
-enum class PlantedBug { kNone, kLeaseWithoutEpoch, kEventAfterCommit, kRetryWithoutRequestId };
+enum class PlantedBug { kNone, kLeaseWithoutEpoch, kEventAfterCommit, kRetryWithoutRequestId, kOldestFirst, kOneQueue };
 
 // What may happen in one run, chosen by its seed: few kinds of faults in most, all in some.
 struct Plan {
@@ -33,6 +33,7 @@ struct Plan {
   bool chaos = false;          // kills, cuts, clocks, restarts of the machine
   VirtualTime calm_after = 0;  // faults end
   int clients = 1;
+  bool crowd = false;  // of requests: they wait for one another
 };
 
 // Hints that arrive at once or not at all.

@@ -54,8 +54,10 @@ class AsyncClient:
             await asyncio.shield(self.cancel(name))
             raise
 
-    async def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "") -> solve_pb2.Solve:
-        return await self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id))
+    async def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "",
+                     priority: int = 0) -> solve_pb2.Solve:
+        return await self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id,
+                                                                                 priority=priority))
 
     async def watch(self, name: str, after_sequence: int = 0) -> AsyncIterator[solve_pb2.SolveEvent]:
         left = RESUMPTIONS
@@ -88,3 +90,6 @@ class AsyncClient:
 
     async def cancel(self, name: str) -> solve_pb2.Solve:
         return await self._call(self._stub.CancelSolve, calls.CancelSolveRequest(name=name))
+
+    async def set_priority(self, name: str, priority: int) -> solve_pb2.Solve:
+        return await self._call(self._stub.SetSolvePriority, calls.SetSolvePriorityRequest(name=name, priority=priority))

@@ -79,17 +79,19 @@ class Client:
         return self.wait(self.create(spec).name, progress=progress, cancel_on_interrupt=True, label=label)
 
     def create(self, spec: solve_spec_pb2.SolveSpec, *, request_id: str = "",
-               labels: Optional[Dict[str, str]] = None) -> solve_pb2.Solve:
-        """Stores a solve. With the same request_id, spec and labels it answers with the solve made before."""
-        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id, labels=labels))
+               labels: Optional[Dict[str, str]] = None, priority: int = 0) -> solve_pb2.Solve:
+        """Stores a solve. With the same request_id, spec and labels it answers with the solve made before. Of your queued
+        solves the one with the highest priority, -10 to 10, runs first."""
+        return self._call(self._stub.CreateSolve, calls.CreateSolveRequest(spec=spec, request_id=request_id, labels=labels,
+                                                                           priority=priority))
 
     def create_all(self, specs: Iterable[solve_spec_pb2.SolveSpec], *,
-                   labels: Optional[Dict[str, str]] = None) -> List[solve_pb2.Solve]:
-        """Stores solves with the same labels, in the order of the specs. As many as the server takes at once are a batch, of
+                   labels: Optional[Dict[str, str]] = None, priority: int = 0) -> List[solve_pb2.Solve]:
+        """Stores solves with the same labels and priority, in the order of the specs. As many as the server takes at once are a batch, of
         which all are stored or none: MOST_AT_ONCE, fewer if they are long. A server that is too busy for a batch is waited for
         once, as long as it says."""
         made: List[solve_pb2.Solve] = []
-        for batch in _batches([calls.CreateSolveRequest(spec=spec, labels=labels) for spec in specs]):
+        for batch in _batches([calls.CreateSolveRequest(spec=spec, labels=labels, priority=priority) for spec in specs]):
             made += self._create_batch(batch)
         return made
 
@@ -165,6 +167,10 @@ class Client:
 
     def cancel(self, name: str) -> solve_pb2.Solve:
         return self._call(self._stub.CancelSolve, calls.CancelSolveRequest(name=name))
+
+    def set_priority(self, name: str, priority: int) -> solve_pb2.Solve:
+        """Of a queued solve, -10 to 10: among your queued solves the highest runs first."""
+        return self._call(self._stub.SetSolvePriority, calls.SetSolvePriorityRequest(name=name, priority=priority))
 
     def delete(self, name: str) -> None:
         self._call(self._stub.DeleteSolve, calls.DeleteSolveRequest(name=name))

@@ -74,6 +74,22 @@ TEST_F(ResourceCommandTest, CancelAndDeleteWhatCarriesALabel) {
   EXPECT_THAT(Run({"list"}).out, HasSubstr("solves/draft"));
 }
 
+TEST_F(ResourceCommandTest, PrioritiesAreGivenListedAndChanged) {
+  ASSERT_EQ(Run({"-q", "solve", "--model", "endless", "--detach", "--label", "sweep=hills"}).code, 0);
+  EXPECT_THAT(Run({"list"}).out, Not(HasSubstr("PRIORITY"))) << "all have the usual one";
+  ASSERT_EQ(Run({"-q", "solve", "--model", "draft", "--detach", "--priority", "-3"}).code, 0);
+  EXPECT_EQ(service_.created().back().priority(), -3);
+  EXPECT_THAT(Run({"list"}).out, testing::ContainsRegex("solves/draft .* -3\n"));
+  EXPECT_EQ(Run({"priority", "draft", "--to", "10"}).out, "solves/draft  priority 10\n");
+  EXPECT_EQ(Run({"get", "draft", "--json"}).out.find("\"priority\": 10") == std::string::npos, false);
+  EXPECT_EQ(Run({"priority", "--label", "sweep=hills", "--to", "1"}).out, "") << "it does not wait any more";
+  EXPECT_EQ(Run({"priority", "nosuch", "--to", "1"}).code, 7);
+  EXPECT_EQ(Run({"priority", "draft"}).code, 2);
+  EXPECT_EQ(Run({"priority", "--to", "1"}).code, 2);
+  EXPECT_THAT(Run({"solve", "--model", "planar", "--priority", "11"}).err, HasSubstr("11"));
+  EXPECT_EQ(Run({"priority", "draft", "--to", "-11"}).code, 2);
+}
+
 TEST_F(ResourceCommandTest, ListAsksForOtherTenants) {
   MakeSolves();
   EXPECT_THAT(Run({"list"}).out, Not(HasSubstr("TENANT")));

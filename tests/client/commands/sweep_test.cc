@@ -32,7 +32,8 @@ class SweepCommandTest : public testing::Test {
 TEST_F(SweepCommandTest, MakesAGridWithOneLabelWritesFilesAndATable) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "sweep_test" / "hills";
   std::filesystem::remove_all(folder);
-  const Ended ended = Run({"--model", "planar", "--slope", "-5:5:5", "--speed", "1.2", "--output", folder.string()});
+  const Ended ended = Run(
+      {"--model", "planar", "--slope", "-5:5:5", "--speed", "1.2", "--output", folder.string(), "--priority", "-4"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   const std::vector<v1::CreateSolveRequest> created = service_.created();
   ASSERT_EQ(created.size(), 3u);
@@ -41,6 +42,7 @@ TEST_F(SweepCommandTest, MakesAGridWithOneLabelWritesFilesAndATable) {
     labels.insert(request.labels().at("sweep"));
     ids.insert(request.request_id());
     EXPECT_EQ(request.spec().motion().speed_m_s(), 1.2);
+    EXPECT_EQ(request.priority(), -4);
   }
   EXPECT_EQ(labels.size(), 1u);
   EXPECT_EQ(ids.size(), 3u);

@@ -85,13 +85,21 @@ class Solving(unittest.TestCase):
 
     def test_finds_what_was_made_together_by_its_label(self):
         specs = [rollgait.make_spec("planar", accuracy="draft", intervals=5, slope_deg=slope) for slope in (1, 2)]
-        made = client.create_all(specs, labels={"study": "python-test"})
+        made = client.create_all(specs, labels={"study": "python-test"}, priority=-2)
+        self.assertEqual([solve.priority for solve in made], [-2, -2])
         self.assertEqual([solve.spec.slope_rad for solve in made], [spec.slope_rad for spec in specs])
         found = [solve.name for solve in client.list(page_size=1, labels={"study": "python-test"})]
         self.assertEqual(found, [solve.name for solve in reversed(made)])
         self.assertEqual(list(client.list(labels={"study": "python-test"}, model="human29")), [])
         with self.assertRaisesRegex(rollgait.RollgaitError, r"requests\[1\].spec"):
             client.create_all([specs[0], rollgait.make_spec("planar", slope_deg=80)])
+
+    def test_refuses_a_priority_that_there_is_not(self):
+        spec = rollgait.make_spec("planar", accuracy="draft", intervals=5)
+        with self.assertRaisesRegex(rollgait.InvalidRequest, "priority is 11, must be from -10 to 10"):
+            client.create(spec, priority=11)
+        with self.assertRaisesRegex(rollgait.InvalidRequest, "priority is -11"):
+            client.set_priority("solves/none", -11)
 
     def test_sends_in_parts_what_is_too_long_and_waits_for_a_busy_server(self):
         sent = []

@@ -42,10 +42,12 @@ TEST(AccessStoreTest, LimitsOfATenantAreSetOneByOne) {
   EXPECT_FALSE(bench.access().FindTenant("acme").value().max_queued.has_value());
   TenantOverrides more;
   more.max_simulations = 3;
+  more.weight = 4;
   more.max_storage_bytes = int64_t{5} << 30;
   ASSERT_TRUE(bench.access().SetTenant("acme", more).ok());
   limits = bench.access().FindTenant("acme").value();
   EXPECT_EQ(limits.max_simulations, 3);
+  EXPECT_EQ(limits.weight, 4);
   EXPECT_EQ(limits.max_storage_bytes, int64_t{5} << 30);
   bench.Create("other");
   EXPECT_EQ(bench.access().ListTenants().value(), (std::vector<std::string>{"acme", "other"}));

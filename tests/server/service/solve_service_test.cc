@@ -157,6 +157,44 @@ TEST(SolveServiceTest, CancelEndsAQueuedSolve) {
             ErrorCode::kNotFound);
 }
 
+TEST(SolveServiceTest, APriorityIsStoredShownChangedAndBounded) {
+  ServiceBench bench;
+  v1::CreateSolveRequest create;
+  *create.mutable_spec() = PlanarSpec();
+  create.set_request_id("once");
+  create.set_priority(-10);
+  const v1::Solve made = bench.service().CreateSolve({}, create).value();
+  EXPECT_EQ(made.priority(), -10);
+  create.set_priority(10);
+  EXPECT_EQ(bench.service().CreateSolve({}, create).value().priority(), -10) << "attached to, and left as it is";
+  create.set_validate_only(true);
+  EXPECT_EQ(bench.service().CreateSolve({}, create).value().priority(), 10);
+  create.set_priority(11);
+  const Error above = bench.service().CreateSolve({}, create).error();
+  ASSERT_EQ(above.violations.size(), 1u);
+  EXPECT_EQ(above.violations[0].field, "priority");
+  EXPECT_EQ(above.violations[0].message, "is 11, must be from -10 to 10");
+  v1::BatchCreateSolvesRequest batch;
+  *batch.add_requests()->mutable_spec() = PlanarSpec(0.2);
+  batch.mutable_requests(0)->set_priority(4);
+  EXPECT_EQ(bench.service().BatchCreateSolves({}, batch).value().solves(0).priority(), 4);
+  batch.mutable_requests(0)->set_priority(-11);
+  EXPECT_EQ(bench.service().BatchCreateSolves({}, batch).error().violations[0].field, "requests[0].priority");
+
+  auto set = Named<v1::SetSolvePriorityRequest>(made.name());
+  set.set_priority(-11);
+  const Error below = bench.service().SetSolvePriority({}, set).error();
+  EXPECT_EQ(below.code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(below.violations[0].message, "is -11, must be from -10 to 10");
+  set.set_priority(7);
+  EXPECT_EQ(bench.service().SetSolvePriority({}, set).value().priority(), 7);
+  EXPECT_EQ(bench.service().ListSolves({}, {}).value().solves(1).priority(), 7);
+  bench.Claim();
+  EXPECT_TRUE(bench.service().SetSolvePriority({}, set).ok()) << "it has this one";
+  set.set_priority(8);
+  EXPECT_EQ(bench.service().SetSolvePriority({}, set).error().code, ErrorCode::kFailedPrecondition);
+}
+
 TEST(SolveServiceTest, ListRefusesBadPages) {
   ServiceBench bench;
   v1::ListSolvesRequest request;

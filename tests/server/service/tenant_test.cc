@@ -83,6 +83,25 @@ TEST(TenantTest, AnAdministratorListsCancelsAndDeletesForEveryTenant) {
   EXPECT_EQ(audit.back().detail, "of tenant acme");
 }
 
+TEST(TenantTest, APriorityIsChangedByItsTenantAndByAnAdministrator) {
+  ServiceBench bench;
+  v1::CreateSolveRequest create;
+  *create.mutable_spec() = PlanarSpec();
+  auto set = Named<v1::SetSolvePriorityRequest>(bench.service().CreateSolve(CallerOf("acme"), create).value().name());
+  set.set_priority(5);
+  const Error none = bench.service().SetSolvePriority(CallerOf("rival"), set).error();
+  EXPECT_EQ(none.code, ErrorCode::kNotFound);
+  EXPECT_EQ(none.message,
+            bench.service().CancelSolve(CallerOf("rival"), Named<v1::CancelSolveRequest>(set.name())).error().message);
+  EXPECT_EQ(bench.service().SetSolvePriority(CallerOf("acme"), set).value().priority(), 5);
+  set.set_priority(-5);
+  const Caller administrator = CallerOf("operators", kAllScopes);
+  EXPECT_EQ(bench.service().SetSolvePriority(administrator, set).value().priority(), -5);
+  const AuditRow audit = bench.store().ReadAudit(0, 100).value().back();
+  EXPECT_EQ(audit.action + ": " + audit.actor.tenant + ", " + audit.detail,
+            "set priority: operators, of tenant acme, 5 to -5");
+}
+
 TEST(TenantTest, ResultsAndRequestIdsAreOfOneTenant) {
   ServiceBench bench;
   v1::CreateSolveRequest create;

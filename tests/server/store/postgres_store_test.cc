@@ -67,12 +67,24 @@ TEST(PostgresStoreTest, TablesOfVersion6GetWhatListsFilterBy) {
   FillForFilters(*OpenStore(location, clock).value());
   PostgresConnection(location.postgres_url)
       .Execute(
+          std::string(kBackToVersion7) +
           "DROP TABLE labels; DROP INDEX solves_by_tenant; CREATE INDEX solves_by_tenant ON solves (tenant, number); "
           "ALTER TABLE solves DROP COLUMN model, DROP COLUMN verdict, DROP COLUMN termination; "
           "UPDATE schema_version SET version = 6;");
   const auto store = OpenStore(location, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   ExpectFiltersFindThem(*store.value());
+}
+
+TEST(PostgresStoreTest, TablesOfVersion7GetTurnsAndPriorities) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const StoreLocation location = LocationFor(directory.path());
+  FillForTurns(*OpenStore(location, clock).value());
+  PostgresConnection(location.postgres_url).Execute(kBackToVersion7);
+  const auto store = OpenStore(location, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  ExpectTurnsAndPriorities(*store.value());
 }
 
 // Opens the store of a cluster that is down. `sleep` is called between tries, with their number.

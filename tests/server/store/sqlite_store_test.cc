@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "server/store/fair_order.h"
 #include "server/store/open_store.h"
 #include "server/store/schema.h"
 #include "server/store/sqlite_connection.h"
@@ -147,7 +148,8 @@ TEST(SqliteStoreTest, AFileOfVersion5GetsModels) {
   const std::string path = directory.path() + "/rollgait.db";
   ASSERT_TRUE(OpenStore({path}, clock).value()->Create({"old", "", "spec", ""}).ok());
   SqliteConnection(path, clock)
-      .Execute(std::string(kBackToVersion6) + "DROP TABLE models; UPDATE schema_version SET version = 5;");
+      .Execute(std::string(kBackToVersion7) + kBackToVersion6 +
+               "DROP TABLE models; UPDATE schema_version SET version = 5;");
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   EXPECT_EQ(store.value()->Get("old").value().spec, "spec");
@@ -164,10 +166,38 @@ TEST(SqliteStoreTest, AFileOfVersion6GetsWhatListsFilterBy) {
   const FakeClock clock;
   const std::string path = directory.path() + "/rollgait.db";
   FillForFilters(*OpenStore({path}, clock).value());
-  SqliteConnection(path, clock).Execute(kBackToVersion6);
+  SqliteConnection(path, clock).Execute(std::string(kBackToVersion7) + kBackToVersion6);
   const auto store = OpenStore({path}, clock);
   ASSERT_TRUE(store.ok()) << store.error().message;
   ExpectFiltersFindThem(*store.value());
+}
+
+TEST(SqliteStoreTest, AFileOfVersion7GetsTurnsAndPriorities) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  FillForTurns(*OpenStore({path}, clock).value());
+  SqliteConnection(path, clock).Execute(kBackToVersion7);
+  const auto store = OpenStore({path}, clock);
+  ASSERT_TRUE(store.ok()) << store.error().message;
+  ExpectTurnsAndPriorities(*store.value());
+}
+
+TEST(SqliteStoreTest, WhoseTurnItIsIsFoundAlongTheIndexOfTheQueue) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  ASSERT_TRUE(OpenStore({path}, clock).ok());
+  SqliteConnection connection(path, clock);
+  Query plan(connection, "EXPLAIN QUERY PLAN " ROLLGAIT_TENANTS_BY_TURN);
+  int along = 0;
+  while (plan.Step()) {
+    const std::string step = plan.Bytes(3);
+    if (step.find(" q ") == std::string::npos) continue;
+    EXPECT_EQ(step.rfind("SEARCH q USING COVERING INDEX solves_queued", 0), 0u) << step;
+    ++along;
+  }
+  EXPECT_EQ(along, 2) << "the first tenant, and the next one";
 }
 
 TEST(SqliteStoreTest, AMigrationThatFailsLeavesTheFileAsItWas) {

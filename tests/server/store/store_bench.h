@@ -116,6 +116,32 @@ inline void ExpectFiltersFindThem(SolveStore& store) {
   EXPECT_EQ(Listed(store, {.labels = {{"sweep", "hills"}}}), Ids{"labelled"});
 }
 
+// Undoes what version 8 has beyond version 7; SQL of both engines.
+inline constexpr char kBackToVersion7[] =
+    "DROP INDEX solves_queued; ALTER TABLE solves DROP COLUMN priority; ALTER TABLE tenants DROP COLUMN weight; "
+    "DROP TABLE shares; UPDATE schema_version SET version = 7;";
+
+// As version 7 left it: two of red wait, then one of blue.
+inline void FillForTurns(SolveStore& store) {
+  for (const char* id : {"red1", "red2", "blue1"}) {
+    NewSolve solve{id, "", "spec", ""};
+    solve.actor.tenant = std::string(id).substr(0, std::string(id).size() - 1);
+    ASSERT_TRUE(store.Create(solve).ok());
+  }
+}
+
+inline void ExpectTurnsAndPriorities(SolveStore& store) {
+  EXPECT_EQ(store.Get("red1").value().priority, 0);
+  ASSERT_TRUE(store.SetPriority("red2", 1).ok());
+  std::vector<std::string> claimed;
+  for (int i = 0; i < 3; ++i) {
+    const auto claim = store.ClaimNext("agent", kLeaseDuration);
+    ASSERT_TRUE(claim.ok() && claim.value().has_value());
+    claimed.push_back(claim.value()->record.id);
+  }
+  EXPECT_EQ(claimed, (std::vector<std::string>{"blue1", "red2", "red1"}));
+}
+
 inline const SolveEnd kAnswer{SolveState::kSucceeded, "the result", "", true};
 
 }  // namespace rollgait::server
