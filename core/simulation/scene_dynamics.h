@@ -51,8 +51,8 @@ class SceneDynamics {
 
   // ẋ at (t, x). Leaves contacts() with kinematics and forces of that instant.
   void RightSide(double t, const VectorX& x, VectorX* derivative);
-  // The time in which positions or velocities change by a thousandth of themselves at that rate, s, whatever the unit of
-  // time; infinite if nothing moves.
+  // The time in which positions or velocities change by a thousandth of themselves at that rate, s, whatever the unit
+  // of time; infinite if nothing moves.
   double FirstStep(const VectorX& x, const VectorX& derivative) const;
   // Kinematics alone.
   void SetState(double t, const VectorX& x);
