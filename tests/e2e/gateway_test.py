@@ -38,6 +38,17 @@ def until(holds):
     raise AssertionError("this has not come to be within 30 s")
 
 
+def halt(process):
+    """Stops every thread of a process; the signal alone lets those that run go on for a while."""
+    process.send_signal(signal.SIGSTOP)
+
+    def halted(thread):
+        with open(f"/proc/{process.pid}/task/{thread}/stat", encoding="ascii") as stat:
+            return stat.read().rpartition(")")[2].split()[0] == "T"
+
+    until(lambda: all(map(halted, os.listdir(f"/proc/{process.pid}/task"))))
+
+
 def open_sockets(process):
     """Connections of HTTP that a process has accepted."""
     with open(f"/proc/{process.pid}/net/tcp", encoding="ascii") as table:
@@ -286,7 +297,7 @@ class Limited(WithService):
         until(lambda: self.service.ask("GET", f"/v1/{names[0]}:watch?afterSequence=9999999", headers=caller).status != 503)
         streams[1].close()
         # A server that stands still.
-        self.service.rollgaitd.send_signal(signal.SIGSTOP)
+        halt(self.service.rollgaitd)
         try:
             self.refused(self.service.ask("GET", "/v1/solves", headers=caller), 504, "DEADLINE_EXCEEDED")
         finally:
@@ -331,7 +342,7 @@ class Stopped(unittest.TestCase):
                 events = Events(service, f"/v1/{service.create(iterations=3000)}:watch")
                 iterator = iter(events)
                 next(iterator)
-                service.rollgaitd.send_signal(signal.SIGSTOP)
+                halt(service.rollgaitd)
                 answers = []
                 asks = threading.Thread(target=lambda: answers.append(service.ask("GET", "/v1/serverInfo")))
                 asks.start()
