@@ -168,7 +168,13 @@ TEST_F(MatrixTest, EveryMethodRefusesWhoMayNotCall) {
       EXPECT_TRUE(row.back() == StatusCode::OK || names_one) << row.back();
       EXPECT_EQ(GoodSolves(), before) << "a call that was refused has done something";
       EXPECT_EQ(GoodModels(), models_before) << "a call that was refused has done something";
-      row.push_back(Call(good_, path, bytes));
+      // A simulation of the call before may still be leaving its place.
+      StatusCode good = Call(good_, path, bytes);
+      for (int again = 0; again < 100 && good == StatusCode::RESOURCE_EXHAUSTED; ++again) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        good = Call(good_, path, bytes);
+      }
+      row.push_back(good);
       EXPECT_EQ(row.back(), StatusCode::OK);
       Print(std::string(method.name()), row);
     }
