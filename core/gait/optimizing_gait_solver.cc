@@ -149,7 +149,14 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   if (!Answers(step)) return std::nullopt;
   GaitSpec both = spec;
   both.warm_start = BothSteps(spec, step);
-  GaitSolution solution = SolveFromImage(both, *BuildProblem(both), MostIterations::kFromImage, budget);
+  const auto problem = BuildProblem(both);
+  GaitSolution solution = SolveFromImage(both, *problem, MostIterations::kFromImage, budget);
+  if (!Answers(solution)) {
+    // Where rounding has left nothing of a distance from a bound, the estimated multipliers are none of the solution's.
+    meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
+    if (!budget->Left()) return std::nullopt;
+    solution = SolveFromNeighbour(both, *problem, MostIterations::kFromWarmStart, budget);
+  }
   if (!Answers(solution)) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     return std::nullopt;
