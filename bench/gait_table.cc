@@ -32,10 +32,9 @@ std::vector<std::string> Split(const std::string& text) {
   return parts;
 }
 
-Scheme SchemeOf(const std::string& name) {
-  if (name == "radau3") return Scheme::kRadau3;
-  if (name == "hermite-simpson") return Scheme::kHermiteSimpson;
-  return Scheme::kRadau2;
+Scheme SchemeOf(const std::string& word) {
+  const SchemeTraits* traits = FindScheme(word);
+  return traits == nullptr ? Scheme::kRadau2 : traits->scheme;
 }
 
 FootShape FeetOf(const std::string& name) {

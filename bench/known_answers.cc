@@ -31,8 +31,8 @@ bool Print(const KnownProblem& known, const KnownRun& run) {
   char order[16] = "";
   if (run.order) std::snprintf(order, sizeof order, "%.2f", measured.order);
   std::printf("| %s | %s, %d | %.12g | %.14g | %.1e | %.1e | %s | %d | %.2f |%s\n", known.answer.problem.c_str(),
-              NameOf(run.scheme), TotalOf(last.nlp->mesh()), last.objective, known.answer.objective, measured.error,
-              measured.bar, order, iterations, seconds, measured.converged ? "" : " not converged");
+              TraitsOf(run.scheme).name, TotalOf(last.nlp->mesh()), last.objective, known.answer.objective,
+              measured.error, measured.bar, order, iterations, seconds, measured.converged ? "" : " not converged");
   std::fflush(stdout);
   return measured.converged &&
          measured.error <= measured.bar + known.answer.uncertainty / std::abs(known.answer.objective);

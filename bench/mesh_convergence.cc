@@ -46,12 +46,9 @@ std::vector<std::string> Split(const std::string& text) {
 
 // Scheme, preset: false if there is none of that name.
 bool Find(const std::string& name, Scheme* scheme) {
-  static const std::map<std::string, Scheme> kSchemes = {
-      {"radau2", Scheme::kRadau2}, {"radau3", Scheme::kRadau3}, {"hermite-simpson", Scheme::kHermiteSimpson}};
-  const auto found = kSchemes.find(name);
-  if (found == kSchemes.end()) return false;
-  *scheme = found->second;
-  return true;
+  const SchemeTraits* traits = FindScheme(name);
+  if (traits != nullptr) *scheme = traits->scheme;
+  return traits != nullptr;
 }
 
 bool Find(const std::string& name, Preset* preset) {
@@ -196,7 +193,7 @@ int Main(int argc, char** argv) {
     }
     for (const std::string& name : options.schemes) {
       if (Find(name, &scheme)) continue;
-      std::fprintf(stderr, "--schemes %s: not known; it is one of radau2, radau3, hermite-simpson\n", name.c_str());
+      std::fprintf(stderr, "--schemes %s: not known; rollgait solve --help lists them\n", name.c_str());
       return 2;
     }
   }

@@ -1,6 +1,6 @@
 // How often the built-in start converges: both sexes, statures, masses, slopes; iterations and time of each request.
-//   success_rate [--model planar] [--preset human] [--starts 1] [--standard] [--intervals 10] [--slopes -10,0,10]
-//                [--statures 1.5,1.67,1.83,2.0] [--masses 45,82.5,120]
+//   success_rate [--model planar] [--preset human] [--starts 1] [--standard] [--intervals 10] [--scheme radau2]
+//                [--slopes -10,0,10] [--statures 1.5,1.67,1.83,2.0] [--masses 45,82.5,120]
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +59,14 @@ int Main(int argc, char** argv) {
     if (flag == "--preset") {
       const std::string name = argv[++i];
       request.preset = name == "torque" ? Preset::kTorque : name == "transport" ? Preset::kTransport : Preset::kHuman;
+    }
+    if (flag == "--scheme") {
+      const SchemeTraits* traits = FindScheme(argv[++i]);
+      if (traits == nullptr) {
+        std::fprintf(stderr, "--scheme %s is not known\n", argv[i]);
+        return 1;
+      }
+      request.discretization.scheme = traits->scheme;
     }
     if (flag == "--starts") request.starts = std::stoi(argv[++i]);
     if (flag == "--intervals") request.discretization.single_support_intervals = std::stoi(argv[++i]);

@@ -80,10 +80,16 @@ const WordTable<v1::CostNormalization>& NormalizationWords() {
 }
 
 const WordTable<v1::Discretization::Scheme>& SchemeWords() {
-  static const WordTable<v1::Discretization::Scheme> words = {
-      {"radau2", v1::Discretization::SCHEME_RADAU2},
-      {"radau3", v1::Discretization::SCHEME_RADAU3},
-      {"hermite-simpson", v1::Discretization::SCHEME_HERMITE_SIMPSON}};
+  static const auto words = [] {
+    WordTable<v1::Discretization::Scheme> table;
+    const auto* schemes = v1::Discretization::Scheme_descriptor();
+    for (int i = 1; i < schemes->value_count(); ++i) {  // the first is "unspecified"
+      std::string word = schemes->value(i)->name().substr(std::string("SCHEME_").size());
+      for (char& c : word) c = c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      table[word] = static_cast<v1::Discretization::Scheme>(schemes->value(i)->number());
+    }
+    return table;
+  }();
   return words;
 }
 

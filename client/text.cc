@@ -71,16 +71,13 @@ std::string VerdictName(v1::Verdict verdict) {
 std::string ErrorKindName(v1::SolveError::Kind kind) { return Words(v1::SolveError::Kind_Name(kind), "KIND_"); }
 
 std::string SchemeName(v1::Discretization::Scheme scheme) {
-  switch (scheme) {
-    case v1::Discretization::SCHEME_RADAU2:
-      return "Radau IIA, 2 points";
-    case v1::Discretization::SCHEME_RADAU3:
-      return "Radau IIA, 3 points";
-    case v1::Discretization::SCHEME_HERMITE_SIMPSON:
-      return "Hermite–Simpson";
-    default:
-      return "default scheme";
+  if (scheme == v1::Discretization::SCHEME_UNSPECIFIED) return "default scheme";
+  std::string name = v1::Discretization::Scheme_Name(scheme);
+  for (const auto& [prefix, family] :
+       {std::pair("SCHEME_RADAU", "Radau IIA, "), std::pair("SCHEME_LOBATTO", "Lobatto IIIA, ")}) {
+    if (name.rfind(prefix, 0) == 0) return family + name.substr(std::string(prefix).size()) + " points";
   }
+  return scheme == v1::Discretization::SCHEME_HERMITE_SIMPSON ? "Hermite–Simpson" : Words(name, "SCHEME_");
 }
 
 std::string StatusCodeName(grpc::StatusCode code) {

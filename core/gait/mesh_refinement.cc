@@ -21,13 +21,13 @@ constexpr double kSafety = 0.5;
 // Intervals that are within this share of every bound stay as they are.
 constexpr double kGoodEnough = 0.8;
 
-// Order in h of a measure of one interval, for the scheme of order 3 and for those of order 4 and 5. Source: orders of
-// the polynomials (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one
+// Order in h of a measure of one interval, for the scheme of two points and for those of three and more. Source: orders
+// of the polynomials (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one
 // where a joint may meet its limit or a force its bound inside of the interval, since the higher order is lost there.
 // 0: a finer mesh is not what it takes.
 struct MeasureOrder {
   Criterion criterion;
-  double radau2, higher;
+  double two_points, more;
 };
 constexpr MeasureOrder kOrders[] = {
     {Criterion::kSlip, 2, 3},           {Criterion::kPenetration, 2, 3},    {Criterion::kOverlap, 2, 3},
@@ -86,7 +86,7 @@ Mesh Halved(const Mesh& mesh) {
 Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajectory, const AccuracyReport& report,
                 bool stalled) {
   const BodyDynamics dynamics(spec.scene.model);
-  const bool is_radau2 = spec.scheme == Scheme::kRadau2;
+  const bool has_two_points = TraitsOf(spec.scheme).points.size() == 2;
   Mesh finer;
   size_t interval = 0;
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
@@ -94,13 +94,13 @@ Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajec
     std::vector<int> parts;
     for (size_t k = 0; k < mesh.fractions[p].size(); ++k, ++interval) {
       const double drift = GapDrift(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
-      int count = Parts(drift / share, is_radau2 ? 3 : 4);
+      int count = Parts(drift / share, has_two_points ? 3 : 4);
       for (const MeasureOrder& order : kOrders) {
         // An interval that could not be integrated has no measures.
         const double measure =
             interval < report.intervals.size() ? report.intervals[interval][order.criterion] : kInfinity;
         const double excess = ExcessOf(order.criterion, measure, spec.bounds[order.criterion]);
-        count = std::max(count, Parts(excess, is_radau2 ? order.radau2 : order.higher));
+        count = std::max(count, Parts(excess, has_two_points ? order.two_points : order.more));
       }
       parts.push_back(count);
     }

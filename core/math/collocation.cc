@@ -52,13 +52,6 @@ Tableau CollocationTableau(const VectorX& c, int order) {
   return tableau;
 }
 
-Tableau Radau2() { return CollocationTableau(Eigen::Vector2d(1.0 / 3, 1), 3); }
-Tableau Radau3() {
-  const double root = std::sqrt(6.0);
-  return CollocationTableau(Vector3((4 - root) / 10, (4 + root) / 10, 1), 5);
-}
-Tableau HermiteSimpson() { return CollocationTableau(Vector3(0, 0.5, 1), 4); }
-
 EliminatedScheme::EliminatedScheme(const Tableau& tableau)
     : tableau_(tableau), points_(tableau.points()), sources_(tableau.points() + 2) {
   const int s = points_, free = s - 2;

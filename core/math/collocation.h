@@ -19,10 +19,6 @@ struct Tableau {
   bool starts_at_node() const { return c(0) == 0; }
 };
 
-Tableau Radau2();          // Radau IIA, order 3
-Tableau Radau3();          // Radau IIA, order 5
-Tableau HermiteSimpson();  // Lobatto IIIA, order 4
-
 // The tableau with points c (distinct, ascending): A, b by integrating the Lagrange polynomials through them.
 Tableau CollocationTableau(const VectorX& c, int order);
 

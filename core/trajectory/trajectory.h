@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/base/types.h"
+#include "core/math/scheme.h"
 
 namespace rollgait {
 
-enum class Scheme { kRadau2, kRadau3, kHermiteSimpson };
 // What a trajectory spans: one step of two, both, or a motion from one state to another that nothing repeats.
 enum class Cycle { kHalf, kFull, kOnce };
 

@@ -6,22 +6,6 @@
 #include <utility>
 
 namespace rollgait {
-namespace {
-
-Tableau TableauOf(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::kRadau2:
-      return Radau2();
-    case Scheme::kRadau3:
-      return Radau3();
-    case Scheme::kHermiteSimpson:
-      return HermiteSimpson();
-  }
-  ROLLGAIT_CHECK(false);
-}
-
-}  // namespace
-
 CollocationNlp::~CollocationNlp() = default;
 
 CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh,

@@ -5,6 +5,7 @@
 #include "server/convert/cost_convert.h"
 #include "server/convert/field_decoding.h"
 #include "server/convert/own_model_convert.h"
+#include "server/convert/scheme_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -23,7 +24,7 @@ class RequestDecoder {
   std::optional<Cycle> DecodeCycle(v1::Cycle cycle);
   GaitRequest::Normalization DecodeNormalization(v1::CostNormalization normalization, bool manoeuvre);
   std::optional<Preset> DecodePreset(v1::Preset preset);
-  Scheme DecodeScheme(v1::Discretization::Scheme scheme);
+  Scheme SchemeOf(v1::Discretization::Scheme scheme);
   NlpSolver DecodeSolver(v1::NlpSolver solver);
   GaitRequest::AccuracyLevel DecodeLevel(v1::Accuracy::Level level);
   GaitRequest::TouchDown DecodeTouchDown(v1::TouchDown touch_down);
@@ -224,19 +225,11 @@ GaitRequest::TouchDown RequestDecoder::DecodeTouchDown(v1::TouchDown touch_down)
   }
 }
 
-Scheme RequestDecoder::DecodeScheme(v1::Discretization::Scheme scheme) {
-  switch (scheme) {
-    case v1::Discretization::SCHEME_UNSPECIFIED:
-    case v1::Discretization::SCHEME_RADAU2:
-      return Scheme::kRadau2;
-    case v1::Discretization::SCHEME_RADAU3:
-      return Scheme::kRadau3;
-    case v1::Discretization::SCHEME_HERMITE_SIMPSON:
-      return Scheme::kHermiteSimpson;
-    default:
-      RefuseEnum("discretization.scheme", scheme);
-      return Scheme::kRadau2;
-  }
+Scheme RequestDecoder::SchemeOf(v1::Discretization::Scheme scheme) {
+  if (scheme == v1::Discretization::SCHEME_UNSPECIFIED) return Scheme::kRadau2;
+  const std::optional<Scheme> known = DecodeScheme(scheme);
+  if (!known) RefuseEnum("discretization.scheme", scheme);
+  return known.value_or(Scheme::kRadau2);
 }
 
 NlpSolver RequestDecoder::DecodeSolver(v1::NlpSolver solver) {
@@ -288,7 +281,7 @@ GaitRequest RequestDecoder::Decode(const v1::SolveSpec& spec) {
   request.ground_contact.touch_down = DecodeTouchDown(spec.ground_contact().touch_down());
   request.limits = {DecodeRanges(spec.limits().joint_position()), DecodeNumbers(spec.limits().joint_velocity()),
                     DecodeRanges(spec.limits().joint_effort()), spec.limits().allow_body_overlap()};
-  request.discretization = {DecodeScheme(spec.discretization().scheme()),
+  request.discretization = {SchemeOf(spec.discretization().scheme()),
                             ROLLGAIT_OPTIONAL(spec.discretization(), single_support_intervals),
                             ROLLGAIT_OPTIONAL(spec.discretization(), double_support_intervals)};
   const v1::Accuracy& accuracy = spec.accuracy();

@@ -3,6 +3,7 @@
 #include "server/convert/gait_events_convert.h"
 #include "server/convert/model_convert.h"
 #include "server/convert/normative_convert.h"
+#include "server/convert/scheme_convert.h"
 
 namespace rollgait::server {
 namespace {
@@ -23,18 +24,6 @@ v1::Termination EncodeTermination(Termination termination) {
       return v1::TERMINATION_NUMERICAL_DIFFICULTY;
     case Termination::kCancelled:
       return v1::TERMINATION_CANCELLED;
-  }
-  ROLLGAIT_CHECK(false);
-}
-
-v1::Discretization::Scheme EncodeScheme(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::kRadau2:
-      return v1::Discretization::SCHEME_RADAU2;
-    case Scheme::kRadau3:
-      return v1::Discretization::SCHEME_RADAU3;
-    case Scheme::kHermiteSimpson:
-      return v1::Discretization::SCHEME_HERMITE_SIMPSON;
   }
   ROLLGAIT_CHECK(false);
 }

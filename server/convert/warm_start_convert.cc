@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "server/convert/scheme_convert.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -62,19 +64,6 @@ bool DecodePhase(const v1::TrajectoryPhase& phase, size_t joints, size_t actuate
          DecodeTimes(phase.point_accelerations(), count, joints, &decoded->point_accelerations) &&
          DecodeTimes(phase.point_efforts(), count, actuated, &decoded->point_efforts) &&
          DecodeTimes(phase.point_forces(), count, 3 * decoded->contacts.size(), &decoded->point_forces);
-}
-
-std::optional<Scheme> DecodeScheme(v1::Discretization::Scheme scheme) {
-  switch (scheme) {
-    case v1::Discretization::SCHEME_RADAU2:
-      return Scheme::kRadau2;
-    case v1::Discretization::SCHEME_RADAU3:
-      return Scheme::kRadau3;
-    case v1::Discretization::SCHEME_HERMITE_SIMPSON:
-      return Scheme::kHermiteSimpson;
-    default:
-      return std::nullopt;
-  }
 }
 
 // Where the collocation points of an interval are: from those of the first one.

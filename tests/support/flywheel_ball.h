@@ -96,9 +96,7 @@ struct FlywheelBall {
     trajectory.cycle = Cycle::kFull;
     trajectory.duration = kDuration;
     trajectory.displacement = Position(kDuration)[0];
-    trajectory.point_fractions = {1.0 / 3, 1.0};
-    if (scheme == Scheme::kRadau3) trajectory.point_fractions = {(4 - std::sqrt(6)) / 10, (4 + std::sqrt(6)) / 10, 1.0};
-    if (scheme == Scheme::kHermiteSimpson) trajectory.point_fractions = {0.0, 0.5, 1.0};
+    trajectory.point_fractions = TraitsOf(scheme).points;
     const int s = static_cast<int>(trajectory.point_fractions.size());
     trajectory.points_per_interval = s;
     for (int p = 0; p < 2; ++p) {

@@ -11,8 +11,8 @@ from rollgait.v1 import solve_spec_pb2 as pb
 
 _PRESETS = {"torque": pb.PRESET_TORQUE, "transport": pb.PRESET_TRANSPORT, "human": pb.PRESET_HUMAN}
 _LEVELS = {"draft": pb.Accuracy.LEVEL_DRAFT, "standard": pb.Accuracy.LEVEL_STANDARD, "fine": pb.Accuracy.LEVEL_FINE}
-_SCHEMES = {"radau2": pb.Discretization.SCHEME_RADAU2, "radau3": pb.Discretization.SCHEME_RADAU3,
-            "hermite-simpson": pb.Discretization.SCHEME_HERMITE_SIMPSON}
+_SCHEMES = {name[len("SCHEME_"):].lower().replace("_", "-"): number
+            for name, number in pb.Discretization.Scheme.items() if number}
 _SOLVERS = {"interior-point": pb.NLP_SOLVER_INTERIOR_POINT, "ipopt": pb.NLP_SOLVER_IPOPT}
 _CYCLES = {"half": pb.CYCLE_HALF, "full": pb.CYCLE_FULL}
 

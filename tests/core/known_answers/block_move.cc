@@ -12,8 +12,8 @@ KnownProblem BlockMove() {
   PrescribeEnds(known.problem.get(), {0, 0}, {1, 0});
   AddCost(known.problem.get(), 12, [](const FormulaPoint& z) { return z.u(0) * z.u(0); });
   known.guess = StraightGuess({1}, {0, 0}, {1, 0}, {0});
-  for (const Scheme scheme : {Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson}) {
-    known.runs.push_back({scheme, Mesh::Uniform({4})});  // efforts are linear: exact
+  for (const SchemeTraits& traits : Schemes()) {
+    known.runs.push_back({traits.scheme, Mesh::Uniform({4})});  // efforts are linear: exact
   }
   return known;
 }

@@ -26,12 +26,13 @@ TEST(BlockMoveTest, EffortsHaveTheDegreeThatThePhaseAllows) {
       known.problem->phases[0].effort_degree = degree;
       const KnownSolution solution = SolveKnown(known, run.scheme, Mesh::Uniform({4}));
       EXPECT_EQ(solution.result.termination, Termination::kOptimal) << solution.result.message;
-      EXPECT_NEAR(solution.objective, degree == 0 ? 12 / (1 - 1.0 / 16) : 12, 1e-9) << NameOf(run.scheme) << degree;
+      EXPECT_NEAR(solution.objective, degree == 0 ? 12 / (1 - 1.0 / 16) : 12, 1e-9)
+          << TraitsOf(run.scheme).name << degree;
       const Trajectory trajectory = solution.nlp->Extract(solution.result.x.data());
       for (int k = 0; degree == 0 && k < 4; ++k) {
         const int s = trajectory.points_per_interval;
         const auto efforts = trajectory.phases[0].point_efforts.row(0).segment(k * s, s);
-        EXPECT_LT(efforts.maxCoeff() - efforts.minCoeff(), 1e-9) << NameOf(run.scheme) << k;
+        EXPECT_LT(efforts.maxCoeff() - efforts.minCoeff(), 1e-9) << TraitsOf(run.scheme).name << k;
       }
     }
   }

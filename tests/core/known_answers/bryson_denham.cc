@@ -19,8 +19,8 @@ KnownProblem BrysonDenham() {
   known.added.between.resize(3);
   for (BoundedBetween& phase : known.added.between) phase.range = {0};
   known.guess = StraightGuess({0.3, 0.4, 0.3}, {0, 1}, {0, -1}, {0});
-  for (const Scheme scheme : {Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson}) {
-    known.runs.push_back({scheme, Mesh::Uniform({1, 1, 1})});  // efforts are linear in every phase: exact
+  for (const SchemeTraits& traits : Schemes()) {
+    known.runs.push_back({traits.scheme, Mesh::Uniform({1, 1, 1})});  // efforts are linear in every phase: exact
   }
   return known;
 }

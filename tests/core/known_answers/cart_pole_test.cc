@@ -17,7 +17,7 @@ TEST(CartPoleTest, HasItsKnownObjectiveAndEnergy) {
   double work = 0;
   for (size_t k = 0; k + 1 < phase.node_times.size(); ++k) {
     const double h = phase.node_times[k + 1] - phase.node_times[k];
-    const VectorX weights = Radau3().b;
+    const VectorX weights = TableauOf(Scheme::kRadau3).b;
     ASSERT_EQ(weights.size(), s);
     for (int i = 0; i < s; ++i) {
       const int point = static_cast<int>(k) * s + i;

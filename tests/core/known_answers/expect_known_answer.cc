@@ -29,7 +29,7 @@ KnownError ExpectKnownAnswer(const KnownProblem& known) {
   KnownError reached;
   const KnownRun* reaching = nullptr;
   for (const KnownRun& run : known.runs) {
-    SCOPED_TRACE(answer.problem + ", " + NameOf(run.scheme));
+    SCOPED_TRACE(answer.problem + ", " + TraitsOf(run.scheme).name);
     KnownError measured = MeasureError(known, run);
     const KnownSolution& last = measured.solutions.back();
     EXPECT_TRUE(measured.converged) << last.result.message;

@@ -71,18 +71,6 @@ Mesh SplitAtBounds(const OptimalControlProblem& problem, const KnownSolution& so
 
 }  // namespace
 
-const char* NameOf(Scheme scheme) {
-  switch (scheme) {
-    case Scheme::kRadau2:
-      return "Radau-2";
-    case Scheme::kRadau3:
-      return "Radau-3";
-    case Scheme::kHermiteSimpson:
-      return "Hermite–Simpson";
-  }
-  return "";
-}
-
 KnownSolution SolveKnown(const KnownProblem& known, Scheme scheme, const Mesh& mesh, const KnownSolution* from,
                          KnownSolver solver) {
   KnownSolution solution;

@@ -31,8 +31,6 @@ struct KnownError {
 };
 KnownError MeasureError(const KnownProblem& known, const KnownRun& run);
 
-const char* NameOf(Scheme scheme);
-
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_TESTS_CORE_KNOWN_ANSWERS_SOLVE_KNOWN_H_

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/math/collocation.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
@@ -36,7 +37,8 @@ TEST(Bernstein, MonomialsKeepTheirPolynomial) {
 }
 
 TEST(Bernstein, ValuesAtThePointsOfEveryScheme) {
-  for (const Tableau& tableau : {Radau2(), Radau3(), HermiteSimpson()}) {
+  for (const Scheme scheme : EveryScheme()) {
+    const Tableau tableau = TableauOf(scheme);
     VectorX values(tableau.points());
     for (int i = 0; i < values.size(); ++i) values(i) = std::sin(3 * tableau.c(i)) + 0.1;
     const MatrixX m = BernsteinFromValues(tableau.c);

@@ -4,14 +4,16 @@
 
 #include <cmath>
 
+#include "tests/support/every_scheme.h"
+
 namespace rollgait {
 namespace {
 
 double Power(double t, int p) { return p == 0 ? 1 : std::pow(t, p); }
 
-class CollocationTest : public ::testing::TestWithParam<Tableau (*)()> {
+class CollocationTest : public ::testing::TestWithParam<Scheme> {
  protected:
-  const Tableau tableau_ = GetParam()();
+  const Tableau tableau_ = TableauOf(GetParam());
 };
 
 // Σ b_j c_j^(k−1) = 1/k up to the order of the scheme, and not beyond.
@@ -22,7 +24,7 @@ TEST_P(CollocationTest, QuadratureHasItsOrder) {
     if (k <= tableau_.order) {
       EXPECT_NEAR(sum, 1.0 / k, 1e-14) << k;
     } else {
-      EXPECT_GT(std::abs(sum - 1.0 / k), 1e-4);
+      EXPECT_GT(std::abs(sum - 1.0 / k), 1e-6);
     }
   }
 }
@@ -67,8 +69,9 @@ TEST_P(CollocationTest, EliminationIsExactForPolynomials) {
           }
         }
         const double t = tableau_.c(i) * h;
-        // Accelerations are differences of positions divided by h²: rounding grows by 1/h².
-        const double rounding = 1e-13 * (1 + 1 / (h * h));
+        // Accelerations are differences of positions divided by h², with coefficients of up to 200: rounding grows by
+        // 1/h².
+        const double rounding = 1e-12 * (1 + 1 / (h * h));
         if (degree <= s - 2 || i == s - 1) {
           EXPECT_NEAR(z[0], q(t), 1e-13 * (1 + std::abs(q(t))));
         }
@@ -101,23 +104,23 @@ TEST_P(CollocationTest, DerivativesByTheStepMeetDifferences) {
   EXPECT_GT(present, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, CollocationTest, ::testing::Values(&Radau2, &Radau3, &HermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, CollocationTest, ::testing::ValuesIn(EveryScheme()));
 
 TEST(Collocation, TableauxOfTheBooks) {
   Eigen::Matrix2d radau;
   radau << 5.0 / 12, -1.0 / 12, 3.0 / 4, 1.0 / 4;
-  EXPECT_TRUE(Radau2().A.isApprox(radau, 1e-14));
+  EXPECT_TRUE(TableauOf(Scheme::kRadau2).A.isApprox(radau, 1e-14));
   Matrix3 lobatto;
   lobatto << 0, 0, 0, 5.0 / 24, 1.0 / 3, -1.0 / 24, 1.0 / 6, 2.0 / 3, 1.0 / 6;
-  EXPECT_TRUE(HermiteSimpson().A.isApprox(lobatto, 1e-14));
-  EXPECT_TRUE(HermiteSimpson().starts_at_node());
-  EXPECT_FALSE(Radau3().starts_at_node());
-  EXPECT_NEAR(Radau3().A(0, 0), (88 - 7 * std::sqrt(6.0)) / 360, 1e-14);
+  EXPECT_TRUE(TableauOf(Scheme::kHermiteSimpson).A.isApprox(lobatto, 1e-14));
+  EXPECT_TRUE(TableauOf(Scheme::kHermiteSimpson).starts_at_node());
+  EXPECT_FALSE(TableauOf(Scheme::kRadau3).starts_at_node());
+  EXPECT_NEAR(TableauOf(Scheme::kRadau3).A(0, 0), (88 - 7 * std::sqrt(6.0)) / 360, 1e-14);
 }
 
 // v₁ = (4/3)((q₂ − q₀)/h − v₂/4): Radau-2 needs no acceleration among its unknowns.
 TEST(Collocation, RadauTwoEliminatesAllAccelerations) {
-  const EliminatedScheme scheme(Radau2());
+  const EliminatedScheme scheme(TableauOf(Scheme::kRadau2));
   const double h = 0.2;
   ASSERT_EQ(scheme.sources(), 4);
   EXPECT_NEAR(scheme.Value(EliminatedScheme::kVelocity, 0, 0, h), -4.0 / 3 / h, 1e-13);

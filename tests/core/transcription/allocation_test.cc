@@ -6,6 +6,7 @@
 #include "core/transcription/collocation_nlp.h"
 #include "tests/core/transcription/planar_request.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
@@ -49,8 +50,7 @@ TEST_P(AllocationTest, EvaluationsAllocateNothing) {
   EXPECT_TRUE(finite);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, AllocationTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, AllocationTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

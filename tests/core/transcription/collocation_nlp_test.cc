@@ -9,6 +9,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "tests/core/transcription/planar_request.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
@@ -179,7 +180,7 @@ TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
   EXPECT_EQ(kinds["periodicity"], Plastic() ? 9 : 18);
   EXPECT_EQ(kinds["touch-down"], problem_->mirrored ? 1 : 2);
   EXPECT_EQ(kinds["speed"], 1);
-  const bool shared_instants = std::get<0>(GetParam()) == Scheme::kHermiteSimpson;
+  const bool shared_instants = TraitsOf(std::get<0>(GetParam())).points.front() == 0;
   // Six efforts at every instant; of forces x and z of a foot at those within a phase: the only such phase stands on
   // one foot.
   const int within = nlp_->layout().intervals() - nlp_->layout().phases();
@@ -190,11 +191,11 @@ TEST_P(CollocationNlpTest, RowsAreDescribedInOrder) {
   EXPECT_EQ(kinds["position"], Plastic() ? 9 * (feet - 1) : 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    HalfCycle, CollocationNlpTest,
-    ::testing::Combine(::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson),
-                       ::testing::Values(Normalization::kPerDistance, Normalization::kPerTime, Normalization::kNone),
-                       ::testing::Values(Cycle::kHalf), ::testing::Values(TouchDown::kSmooth)));
+INSTANTIATE_TEST_SUITE_P(HalfCycle, CollocationNlpTest,
+                         ::testing::Combine(::testing::ValuesIn(EveryScheme()),
+                                            ::testing::Values(Normalization::kPerDistance, Normalization::kPerTime,
+                                                              Normalization::kNone),
+                                            ::testing::Values(Cycle::kHalf), ::testing::Values(TouchDown::kSmooth)));
 // Twice as many unknowns: every scheme and every normalization once.
 INSTANTIATE_TEST_SUITE_P(
     FullCycle, CollocationNlpTest,

@@ -6,13 +6,10 @@
 #include "core/math/collocation.h"
 #include "core/multibody/body_dynamics.h"
 #include "core/trajectory/sampling.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
-
-Tableau TableauOf(Scheme scheme) {
-  return scheme == Scheme::kRadau2 ? Radau2() : scheme == Scheme::kRadau3 ? Radau3() : HermiteSimpson();
-}
 
 class ExchangeTest : public ::testing::TestWithParam<Scheme> {
  protected:
@@ -107,8 +104,7 @@ TEST_P(ExchangeTest, EquationsOfMotionHoldAtStagePositions) {
   EXPECT_GT(of_polynomial, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, ExchangeTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, ExchangeTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

@@ -168,11 +168,11 @@ TEST_P(IntervalPathRowsTest, ForcesVanishWhereContactsChangeAtRest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, IntervalPathRowsTest,
-                         ::testing::Values(PathRowsCase{"planar", Scheme::kRadau2},
-                                           PathRowsCase{"planar", Scheme::kRadau3},
-                                           PathRowsCase{"planar", Scheme::kHermiteSimpson},
-                                           PathRowsCase{"human29", Scheme::kRadau2}));
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, IntervalPathRowsTest,
+    ::testing::Values(PathRowsCase{"planar", Scheme::kRadau2}, PathRowsCase{"planar", Scheme::kRadau3},
+                      PathRowsCase{"planar", Scheme::kHermiteSimpson}, PathRowsCase{"planar", Scheme::kRadau4},
+                      PathRowsCase{"planar", Scheme::kLobatto5}, PathRowsCase{"human29", Scheme::kRadau2}));
 
 }  // namespace
 }  // namespace rollgait

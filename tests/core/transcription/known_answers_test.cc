@@ -6,6 +6,7 @@
 #include "core/nlp/solve_nlp.h"
 #include "core/ocp/costs/point_costs.h"
 #include "core/transcription/collocation_nlp.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
@@ -176,15 +177,18 @@ class TrackedSine {
   std::unique_ptr<CollocationNlp> nlp_;
 };
 
-// Node states converge with the order of the scheme: 3, 5 and 4. The odd leading term of the cost's error is a total
-// derivative along the motion and vanishes over a period, so that the cost gains an order with both Radau schemes.
+// Node states converge with the order of the scheme. The odd leading term of the cost's error is a total derivative
+// along the motion and vanishes over a period, so that the cost gains an order with the Radau schemes. That of order 9
+// takes coarser meshes, on which rounding does not show, but further terms of the error do.
 TEST_P(KnownAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
-  const auto coarse = TrackedSine(GetParam(), UnevenMesh(8)).Measure();
-  const auto fine = TrackedSine(GetParam(), UnevenMesh(16)).Measure();
-  const double order = GetParam() == Scheme::kRadau2 ? 3 : (GetParam() == Scheme::kRadau3 ? 5 : 4);
-  const double cost_order = GetParam() == Scheme::kRadau3 ? 6 : 4;
-  EXPECT_NEAR(std::log2(coarse.position / fine.position), order, 0.3);
-  EXPECT_NEAR(std::log2(coarse.cost / fine.cost), cost_order, 0.1);
+  const SchemeTraits& traits = TraitsOf(GetParam());
+  const bool is_highest = traits.order == 9;
+  const int pairs = is_highest ? 4 : 8;
+  const auto coarse = TrackedSine(GetParam(), UnevenMesh(pairs)).Measure();
+  const auto fine = TrackedSine(GetParam(), UnevenMesh(2 * pairs)).Measure();
+  const double order = traits.order, cost_order = order + traits.order % 2;
+  EXPECT_NEAR(std::log2(coarse.position / fine.position), order, is_highest ? 1 : 0.3);
+  EXPECT_NEAR(std::log2(coarse.cost / fine.cost), cost_order, is_highest ? 0.5 : 0.1);
   EXPECT_LT(fine.cost, 2e-4);
 }
 
@@ -209,8 +213,7 @@ TEST_P(KnownAnswersTest, EffortRateOfASine) {
   EXPECT_LT(error(16), 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, KnownAnswersTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, KnownAnswersTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

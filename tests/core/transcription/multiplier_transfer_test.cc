@@ -35,7 +35,8 @@ class MultiplierTransferTest : public ::testing::TestWithParam<Scheme> {
   NlpResult solution_;
 };
 INSTANTIATE_TEST_SUITE_P(Schemes, MultiplierTransferTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson,
+                                           Scheme::kLobatto4));
 
 TEST_P(MultiplierTransferTest, TheSameMeshKeepsThemAll) {
   ASSERT_EQ(solution_.termination, Termination::kOptimal);

@@ -95,7 +95,7 @@ class PathRowsFixture : public ::testing::TestWithParam<PathRowsCase> {
   }
 
   bool InSpace() const { return problem_->contacts[0].directions.size() == 3; }
-  bool Lobatto() const { return GetParam().scheme == Scheme::kHermiteSimpson; }
+  bool Lobatto() const { return TraitsOf(GetParam().scheme).points.front() == 0; }
 
   double least_force_ = 0;
   int knee_ = 0;

@@ -8,6 +8,7 @@
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/transcription/collocation_nlp.h"
+#include "tests/support/every_scheme.h"
 
 namespace rollgait {
 namespace {
@@ -47,7 +48,8 @@ class SeparationRowsTest : public ::testing::TestWithParam<Scheme> {
 // program every other row and its bounds are as without them.
 TEST_P(SeparationRowsTest, RowsAndBounds) {
   ASSERT_EQ(added_.separated.size(), 3u);
-  const int points = GetParam() == Scheme::kRadau3 ? 3 : 2;  // Hermite-Simpson: three with the first
+  const SchemeTraits& traits = TraitsOf(GetParam());
+  const int points = static_cast<int>(traits.points.size()) - (traits.points.front() == 0 ? 1 : 0);
   int distances = 0, other = 0;
   VectorX values(nlp_->constraints());
   ASSERT_TRUE(nlp_->Constraints(x_.data(), values.data()));
@@ -117,8 +119,7 @@ TEST_P(SeparationRowsTest, DerivativesMeetDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, SeparationRowsTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, SeparationRowsTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/support/every_scheme.h"
 #include "tests/support/flywheel_ball.h"
 
 namespace rollgait {
@@ -139,8 +140,7 @@ TEST_P(JointLimits, NaNIsPastEveryLimit) {
   EXPECT_EQ(Judge()[Criterion::kJointVelocity].value, kInfinity);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, JointLimits,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, JointLimits, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/validation/report.h"
+#include "tests/support/every_scheme.h"
 #include "tests/support/flywheel_ball.h"
 
 namespace rollgait {
@@ -202,8 +203,7 @@ TEST_P(ValidateTest, NothingHidesBehindNaN) {
   EXPECT_EQ(Report().max_velocity_defect, kInfinity);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, ValidateTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, ValidateTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

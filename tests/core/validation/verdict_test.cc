@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/validation/report.h"
+#include "tests/support/every_scheme.h"
 #include "tests/support/flywheel_ball.h"
 
 namespace rollgait {
@@ -210,8 +211,7 @@ TEST_P(VerdictTest, NaNIsNeverWithin) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, VerdictTest,
-                         ::testing::Values(Scheme::kRadau2, Scheme::kRadau3, Scheme::kHermiteSimpson));
+INSTANTIATE_TEST_SUITE_P(Schemes, VerdictTest, ::testing::ValuesIn(EveryScheme()));
 
 }  // namespace
 }  // namespace rollgait

@@ -257,7 +257,7 @@ TEST(DecodeRequest, RefusesEnumValuesWithoutAName) {
   spec.mutable_model()->set_sex(static_cast<v1::ModelSelection::Sex>(9));
   spec.set_cycle(static_cast<v1::Cycle>(-1));
   spec.set_cost_normalization(static_cast<v1::CostNormalization>(77));
-  spec.mutable_discretization()->set_scheme(static_cast<v1::Discretization::Scheme>(4));
+  spec.mutable_discretization()->set_scheme(static_cast<v1::Discretization::Scheme>(99));
   spec.set_preset(static_cast<v1::Preset>(4));
   spec.mutable_accuracy()->set_level(static_cast<v1::Accuracy::Level>(4));
   spec.set_nlp_solver(static_cast<v1::NlpSolver>(3));
