@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/ocp/cost_traits.h"
+#include "core/ocp/costs/angular_momentum.h"
 #include "core/ocp/costs/muscle_costs.h"
 #include "core/ocp/costs/point_costs.h"
 #include "core/ocp/costs/rate_costs.h"
@@ -40,6 +41,7 @@ inline constexpr std::tuple kCostTable{
         {"squared_acceleration", "squared acceleration", "rad²/s³", 0, -4, WeightedJoints::kAll}},
     CostRow<cost::SquaredForceRate>{
         {"squared_force_rate", "squared force rate", "N²/s", 2, -6, WeightedJoints::kActuated, true}},
+    CostRow<cost::SquaredAngularMomentum>{{"squared_angular_momentum", "squared angular momentum", "N² m² s³", 2, -2}},
 };
 
 namespace cost {
