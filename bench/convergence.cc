@@ -85,7 +85,7 @@ int Main(int argc, char** argv) {
   request.body.model = "planar";
   request.slope = slope * std::numbers::pi / 180;
   request.motion.speed = 1.3;
-  request.costs.push_back({GaitRequest::SquaredTorque{}, 1.0});
+  request.costs.push_back({cost::SquaredTorque{}, 1.0});
   if (smooth) {
     // Nothing switches within a phase: limits and cones so wide that none is active.
     request.ground_contact.friction_coefficient = 5;
@@ -96,7 +96,7 @@ int Main(int argc, char** argv) {
       request.limits.joint_velocity[joint] = 100;
     }
   }
-  if (rate > 0) request.costs.push_back({GaitRequest::SquaredTorqueRate{}, rate});
+  if (rate > 0) request.costs.push_back({cost::SquaredTorqueRate{}, rate});
   const Result<GaitSpec> spec = CheckRequest(request);
   if (!spec.ok()) return 1;
   // All schemes start from the same solution, so that they stay in one local minimum.

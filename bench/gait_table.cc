@@ -41,12 +41,16 @@ FootShape FeetOf(const std::string& name) {
   return name == "two" ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid;
 }
 
-decltype(GaitRequest::CostTerm::term) TermOf(const std::string& name) {
-  if (name == "force-rate") return GaitRequest::SquaredForceRate{};
-  if (name == "rate") return GaitRequest::SquaredTorqueRate{};
-  if (name == "work") return GaitRequest::MechanicalWork{};
-  if (name == "time") return GaitRequest::Time{};
-  return GaitRequest::SquaredTorque{};
+// A few by a short name, each by its field of CostTerm.
+cost::Term TermOf(const std::string& name) {
+  if (name == "force-rate") return cost::SquaredForceRate{};
+  if (name == "rate") return cost::SquaredTorqueRate{};
+  if (name == "work") return cost::MechanicalWork{};
+  cost::Term term;
+  ForEachCost([&]<typename Kind>(const CostRow<Kind>& row) {
+    if (name == row.traits.field) term = Kind{};
+  });
+  return term;
 }
 
 std::vector<GaitRequest::CostTerm> CostsOf(const std::string& text) {

@@ -28,7 +28,7 @@ struct Problem {
     GaitRequest request;
     request.body.model = model;
     request.motion.speed = 1.3;
-    request.costs = {{GaitRequest::SquaredTorque{}, 1.0}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+    request.costs = {{cost::SquaredTorque{}, 1.0}, {cost::SquaredTorqueRate{}, 1e-4}};
     spec = std::make_unique<GaitSpec>(CheckRequest(request).value());
     ocp = BuildProblem(*spec);
     nlp = std::make_unique<CollocationNlp>(*ocp, scheme, Mesh::Uniform({8, 16}));

@@ -25,7 +25,7 @@ GaitSpec Spec(GaitRequest request, double smoothing) {
   const GaitSpec body = CheckRequest(request).value();
   request.costs = PresetCosts(preset, body.scene, body.similarity);
   for (GaitRequest::CostTerm& cost : request.costs) {
-    if (auto* work = std::get_if<GaitRequest::MuscleWork>(&cost.term)) work->smoothing = smoothing;
+    if (auto* work = std::get_if<cost::MuscleWork>(&cost.term)) work->smoothing = smoothing;
   }
   return CheckRequest(request).value();
 }

@@ -25,15 +25,15 @@
 namespace rollgait {
 namespace {
 
-using Term = decltype(GaitRequest::CostTerm::term);
+using Term = cost::Term;
 
 std::string NameOf(const Term& term) {
-  if (std::holds_alternative<GaitRequest::MuscleEffort>(term)) return "effort";
-  if (std::holds_alternative<GaitRequest::MuscleWork>(term)) return "work";
-  if (std::holds_alternative<GaitRequest::PassiveLoad>(term)) return "passive";
-  if (std::holds_alternative<GaitRequest::SquaredTorqueRate>(term)) return "rate";
-  if (std::holds_alternative<GaitRequest::SquaredAcceleration>(term)) return "acceleration";
-  return std::holds_alternative<GaitRequest::Tracking>(term) ? "posture" : "";
+  if (std::holds_alternative<cost::MuscleEffort>(term)) return "effort";
+  if (std::holds_alternative<cost::MuscleWork>(term)) return "work";
+  if (std::holds_alternative<cost::PassiveLoad>(term)) return "passive";
+  if (std::holds_alternative<cost::SquaredTorqueRate>(term)) return "rate";
+  if (std::holds_alternative<cost::SquaredAcceleration>(term)) return "acceleration";
+  return std::holds_alternative<cost::Tracking>(term) ? "posture" : "";
 }
 
 // Joints of this name on either side.
@@ -50,8 +50,8 @@ struct ScaleJoint {
   const std::string& joint;
   double factor;
 
-  void operator()(GaitRequest::Tracking& posture) const {
-    for (GaitRequest::Tracking::Channel& channel : posture.channels) {
+  void operator()(cost::Tracking& posture) const {
+    for (cost::Tracking::Channel& channel : posture.channels) {
       if (channel.joint != joint) continue;
       channel.weight = channel.weight.value_or(1) * factor;
       return;
@@ -69,7 +69,7 @@ struct ScaleJoint {
 // False if the preset has no such term or the body no such joint.
 bool Apply(const std::string& name, double factor, const Scene& scene, std::vector<GaitRequest::CostTerm>* costs) {
   if (name == "force-rate") {
-    costs->push_back({GaitRequest::SquaredForceRate{}, factor});
+    costs->push_back({cost::SquaredForceRate{}, factor});
     return true;
   }
   const size_t dot = name.find('.');

@@ -109,7 +109,7 @@ int Main(int argc, char** argv) {
     }
   }
   if (!request.preset) {
-    request.costs = {{GaitRequest::SquaredTorque{}, 1.0}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+    request.costs = {{cost::SquaredTorque{}, 1.0}, {cost::SquaredTorqueRate{}, 1e-4}};
   }
   std::printf("%5s %5s %8s %5s %5s %9s | %8s %12s %8s\n", "N", "all", "unknowns", "iter", "total", "objective", "cpu s",
               "ms/iteration", "peak MB");

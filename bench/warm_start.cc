@@ -42,7 +42,7 @@ int Main(int argc, char** argv) {
   }
   request.starts = 1;
   if (!request.preset) {
-    request.costs = {{GaitRequest::SquaredTorque{}, 1.0}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+    request.costs = {{cost::SquaredTorque{}, 1.0}, {cost::SquaredTorqueRate{}, 1e-4}};
   }
   const Result<GaitSpec> level = CheckRequest(request);
   if (!level.ok()) {

@@ -188,9 +188,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--preset", flags.preset, "Cost", "Costs by name: torque, transport or human (closest to people)");
   AddRepeatedFlag(
       command, "--cost", flags.costs,
-      "torque, torque-rate, force-rate, work, time, effort, muscle-work, passive-load or acceleration, with "
-      "[:WEIGHT]; added to those of preset and file, or another weight for their term",
-      "cost")
+      CostWordList() + ", with [:WEIGHT]; added to those of preset and file, or another weight for their term", "cost")
       ->group("Cost");
   add("--normalize", flags.normalization, "Cost", "Divide the cost by: distance, time or none");
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");

@@ -7,11 +7,14 @@
 namespace rollgait::client {
 namespace {
 
-// A cost term with the field of this name set and nothing in it.
-v1::CostTerm EmptyTerm(const char* field) {
-  v1::CostTerm term;
-  term.GetReflection()->MutableMessage(&term, v1::CostTerm::descriptor()->FindFieldByName(field));
-  return term;
+// The fields of CostTerm.term that have a word, in the order of the proto.
+std::vector<const google::protobuf::FieldDescriptor*> WordedCosts() {
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  const google::protobuf::OneofDescriptor* term = v1::CostTerm::descriptor()->FindOneofByName("term");
+  for (int i = 0; i < term->field_count(); ++i) {
+    if (!term->field(i)->options().GetExtension(v1::cost_word).empty()) fields.push_back(term->field(i));
+  }
+  return fields;
 }
 
 template <typename Value>
@@ -107,16 +110,24 @@ const WordTable<v1::Accuracy::Level>& AccuracyWords() {
 }
 
 const WordTable<v1::CostTerm>& CostWords() {
-  static const WordTable<v1::CostTerm> words = {{"torque", EmptyTerm("squared_torque")},
-                                                {"torque-rate", EmptyTerm("squared_torque_rate")},
-                                                {"force-rate", EmptyTerm("squared_force_rate")},
-                                                {"work", EmptyTerm("mechanical_work")},
-                                                {"muscle-work", EmptyTerm("muscle_work")},
-                                                {"time", EmptyTerm("time")},
-                                                {"effort", EmptyTerm("muscle_effort")},
-                                                {"passive-load", EmptyTerm("passive_load")},
-                                                {"acceleration", EmptyTerm("squared_acceleration")}};
+  static const WordTable<v1::CostTerm> words = [] {
+    WordTable<v1::CostTerm> all;
+    for (const google::protobuf::FieldDescriptor* field : WordedCosts()) {
+      v1::CostTerm& term = all[field->options().GetExtension(v1::cost_word)];
+      term.GetReflection()->MutableMessage(&term, field);
+    }
+    return all;
+  }();
   return words;
+}
+
+std::string CostWordList() {
+  std::string list;
+  const std::vector<const google::protobuf::FieldDescriptor*> fields = WordedCosts();
+  for (size_t i = 0; i < fields.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 < fields.size() ? ", " : " or ") + fields[i]->options().GetExtension(v1::cost_word);
+  }
+  return list;
 }
 
 const WordTable<v1::SolveState>& StateWords() {

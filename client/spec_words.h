@@ -23,8 +23,10 @@ const WordTable<v1::CostNormalization>& NormalizationWords();
 const WordTable<v1::Discretization::Scheme>& SchemeWords();
 const WordTable<v1::NlpSolver>& SolverWords();
 const WordTable<v1::Accuracy::Level>& AccuracyWords();
-// Terms without weight or parameters.
+// Terms without weight or parameters, by the option cost_word of their fields.
 const WordTable<v1::CostTerm>& CostWords();
+// "torque, time or work", in the order of the proto.
+std::string CostWordList();
 const WordTable<v1::SolveState>& StateWords();
 // Also "none": no verdict yet, no termination yet.
 const WordTable<v1::Verdict>& VerdictWords();

@@ -16,8 +16,8 @@ std::vector<CostValue> ReportCosts(const OptimalControlProblem& problem, Colloca
   for (size_t t = 0; t < problem.costs.size(); ++t) {
     const CostDescription& term = problem.costs[t];
     CostValue value;
-    value.name = term.Name();
-    value.unit = term.Unit();
+    value.name = term.name;
+    value.unit = term.unit;
     value.weight = term.weight;
     value.value = integrals(static_cast<int>(t));
     value.unsmoothed = unsmoothed(static_cast<int>(t));

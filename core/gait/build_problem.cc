@@ -4,34 +4,13 @@
 #include <cmath>
 
 #include "core/models/passive_torque.h"
-#include "core/ocp/costs/body_torque.h"
-#include "core/ocp/costs/muscle_costs.h"
-#include "core/ocp/costs/point_costs.h"
+#include "core/ocp/cost_context.h"
+#include "core/ocp/cost_table.h"
 
 namespace rollgait {
 namespace {
 
-VectorX JointWeights(const Model& model, const std::map<std::string, double>& named) {
-  VectorX weights = VectorX::Ones(static_cast<int>(model.actuated().size()));
-  for (int j = 0; j < weights.size(); ++j) {
-    const auto it = named.find(model.joint(model.actuated()[j]).name);
-    if (it != named.end()) weights(j) = it->second;
-  }
-  return weights;
-}
-
-TrackingCost DescribeTracking(const GaitRequest::Tracking& tracking, const Model& model) {
-  TrackingCost cost;
-  for (const GaitRequest::Tracking::Channel& channel : tracking.channels) {
-    const int joint = model.Find(channel.joint);
-    ROLLGAIT_CHECK(joint >= 0);
-    cost.channels.push_back({joint, channel.weight.value(), CubicSpline(channel.positions)});
-  }
-  return cost;
-}
-
-std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale,
-                                        const std::map<std::string, double>& weights) {
+std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale, const JointWeights& weights) {
   std::vector<MuscledJoint> joints;
   for (int index : scene.model.actuated()) {
     const Joint& joint = scene.model.joint(index);
@@ -42,50 +21,18 @@ std::vector<MuscledJoint> MuscledJoints(const Scene& scene, double passive_scale
   return joints;
 }
 
-// Describes each kind of term.
-struct TermDescription {
-  const Scene& scene;
-  double passive_scale;
-  const OptimalControlProblem& problem;
-  PointLayout layout;
-  // Mechanical power of a walker, W: about 0.5 J per newton of weight and metre.
-  double power() const { return 0.5 * problem.force_size(); }
-
-  using Term = decltype(CostDescription::term);
-  Term operator()(const GaitRequest::SquaredTorque& term) const {
-    if (scene.selection.rolling_body) {
-      return std::make_unique<BodyTorqueCost>(problem.model.actuated()[1], layout, std::pow(problem.effort_size(), 2));
-    }
-    return std::make_unique<SquaredTorqueCost>(JointWeights(problem.model, term.joint_weights), layout,
-                                               problem.effort_size());
+void DescribeCosts(const GaitSpec& spec, OptimalControlProblem* problem) {
+  const CostContext context{
+      *problem, problem->Layout(0), spec.scene.selection.rolling_body.has_value(),
+      [&spec](const JointWeights& weights) { return MuscledJoints(spec.scene, spec.passive_scale, weights); }};
+  std::vector<CostDescription> costs;
+  for (const GaitSpec::CostTerm& cost : spec.costs) {
+    const CostTraits& traits = TraitsOf(cost.term);
+    costs.push_back({std::visit([&context](const auto& term) { return Make(term, context); }, cost.term), cost.weight,
+                     traits.name, traits.unit});
   }
-  Term operator()(const GaitRequest::SquaredTorqueRate& term) const {
-    return EffortRateCost{JointWeights(problem.model, term.joint_weights), problem.effort_size()};
-  }
-  Term operator()(const GaitRequest::SquaredForceRate&) const { return ForceRateCost{problem.force_size()}; }
-  Term operator()(const GaitRequest::MechanicalWork& term) const {
-    return std::make_unique<MechanicalWorkCost>(term.smoothing.value(), problem.model.actuated(), layout, power());
-  }
-  Term operator()(const GaitRequest::Time&) const { return std::make_unique<TimeCost>(); }
-  Term operator()(const GaitRequest::Tracking& term) const { return DescribeTracking(term, problem.model); }
-  Term operator()(const GaitRequest::MuscleEffort& term) const {
-    return std::make_unique<MuscleEffortCost>(MuscledJoints(scene, passive_scale, term.joint_weights),
-                                              term.exponent.value(), layout);
-  }
-  Term operator()(const GaitRequest::MuscleWork& term) const {
-    return std::make_unique<MuscleWorkCost>(MuscledJoints(scene, passive_scale, term.joint_weights),
-                                            term.positive_efficiency.value(), term.negative_efficiency.value(),
-                                            term.smoothing.value(), layout, power());
-  }
-  Term operator()(const GaitRequest::PassiveLoad& term) const {
-    return std::make_unique<PassiveLoadCost>(MuscledJoints(scene, passive_scale, term.joint_weights), layout);
-  }
-  Term operator()(const GaitRequest::SquaredAcceleration& term) const {
-    VectorX weights = VectorX::Zero(problem.model.size());
-    for (const auto& [name, weight] : term.joint_weights) weights(problem.model.Find(name)) = weight;
-    return std::make_unique<SquaredAccelerationCost>(weights, layout);
-  }
-};
+  problem->costs = std::move(costs);
+}
 
 CostDenominator Denominator(GaitRequest::Normalization normalization) {
   switch (normalization) {
@@ -158,10 +105,7 @@ std::unique_ptr<OptimalControlProblem> BuildProblem(const GaitSpec& spec) {
   if (spec.lift_off_point) problem->lift_off_point = Scaled(1, *spec.lift_off_point);
   problem->plastic_touch_down = spec.touch_down == GaitRequest::TouchDown::kPlastic;
   DescribeTravel(spec, problem.get());
-  const TermDescription describe{spec.scene, spec.passive_scale, *problem, problem->Layout(0)};
-  for (const GaitSpec::CostTerm& term : spec.costs) {
-    problem->costs.push_back({std::visit(describe, term.term), term.weight});
-  }
+  DescribeCosts(spec, problem.get());
   return problem;
 }
 

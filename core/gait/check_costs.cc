@@ -8,96 +8,61 @@ namespace {
 
 const NumberLimits kWeightLimits{0, kMaxWeight};
 
-using Weights = std::map<std::string, double>;
-
-// The weights of all actuated joints: those given, 1 for the rest.
-Weights CheckWeights(const std::string& path, const Weights& weights, const Scene* scene, RequestCheck& check) {
-  Weights completed;
+// The weights of all actuated joints: those given, 1 for the rest. And those given of other joints, if they may be
+// weighted.
+JointWeights CheckWeights(const std::string& path, const JointWeights& weights, WeightedJoints weighted,
+                          const Scene* scene, RequestCheck& check) {
+  JointWeights completed;
   if (scene != nullptr) {
     for (int joint : scene->model.actuated()) completed[scene->model.joint(joint).name] = 1;
   }
   for (const auto& [joint, weight] : weights) {
     const std::string field = Keyed(path, joint);
     check.Number(field, weight, 1, kWeightLimits);
-    if (scene == nullptr || check.Joint(field, joint, *scene, true) >= 0) completed[joint] = weight;
+    const bool must_be_actuated = weighted == WeightedJoints::kActuated;
+    if (scene == nullptr || check.Joint(field, joint, *scene, must_be_actuated) >= 0) completed[joint] = weight;
   }
   return completed;
 }
 
-// Checks one term and fills its optionals.
+// Checks one term and fills its optionals, by its row of the table.
 struct TermCheck {
   std::string path;
   const Scene* scene;
   const Similarity& similarity;
   RequestCheck& check;
 
-  double DefaultSmoothing() const { return 5 * similarity.power(); }  // W
-
-  void operator()(GaitRequest::SquaredTorque& term) const {
-    term.joint_weights = CheckWeights(path + ".squared_torque.joint_weights", term.joint_weights, scene, check);
+  template <typename Term>
+  void operator()(Term& term) const {
+    const CostRow<Term>& row = RowOf<Term>();
+    const std::string field = path + "." + row.traits.field;
+    row.ForEachParameter([&](const CostParameter<Term>& parameter) {
+      const double fallback = parameter.is_smoothing ? parameter.fallback * similarity.power() : parameter.fallback;
+      std::optional<double>& value = term.*parameter.member;
+      value =
+          check.Number(field + "." + parameter.field, value, fallback, {parameter.min, parameter.max, parameter.unit});
+    });
+    if constexpr (HasJointWeights<Term>) {
+      term.joint_weights =
+          CheckWeights(field + ".joint_weights", term.joint_weights, row.traits.weighted, scene, check);
+    }
+    if constexpr (HasChannels<Term>) CheckChannels(field + ".channels", term.channels);
   }
 
-  void operator()(GaitRequest::SquaredTorqueRate& term) const {
-    term.joint_weights = CheckWeights(path + ".squared_torque_rate.joint_weights", term.joint_weights, scene, check);
-  }
-
-  void operator()(GaitRequest::MechanicalWork& term) const {
-    term.smoothing =
-        check.Number(path + ".mechanical_work.smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
-  }
-
-  void operator()(GaitRequest::SquaredForceRate&) const {}
-
-  void operator()(GaitRequest::Time&) const {}
-
-  void operator()(GaitRequest::Tracking& term) const {
-    const std::string channels = path + ".tracking.channels";
-    if (term.channels.empty()) check.Add(channels, "no channel; give at least one joint with its positions");
+  void CheckChannels(const std::string& path_of_all, std::vector<cost::Tracking::Channel>& channels) const {
+    if (channels.empty()) check.Add(path_of_all, "no channel; give at least one joint with its positions");
     std::set<std::string> seen;
-    for (size_t i = 0; i < term.channels.size(); ++i) {
-      const std::string field = Indexed(channels, i);
-      CheckChannel(field, term.channels[i]);
-      if (!seen.insert(term.channels[i].joint).second) {
+    for (size_t i = 0; i < channels.size(); ++i) {
+      const std::string field = Indexed(path_of_all, i);
+      CheckChannel(field, channels[i]);
+      if (!seen.insert(channels[i].joint).second) {
         check.Add(field + ".joint",
-                  "joint " + Quoted(term.channels[i].joint) + " is tracked twice; give one channel a joint");
+                  "joint " + Quoted(channels[i].joint) + " is tracked twice; give one channel a joint");
       }
     }
   }
 
-  void operator()(GaitRequest::MuscleEffort& term) const {
-    const std::string field = path + ".muscle_effort";
-    term.exponent = check.Number(field + ".exponent", term.exponent, 2, {2, 10});
-    term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
-  }
-
-  void operator()(GaitRequest::MuscleWork& term) const {
-    const std::string field = path + ".muscle_work";
-    const NumberLimits efficiency{0.01, 100};
-    term.positive_efficiency = check.Number(field + ".positive_efficiency", term.positive_efficiency, 0.25, efficiency);
-    term.negative_efficiency = check.Number(field + ".negative_efficiency", term.negative_efficiency, 1.2, efficiency);
-    term.smoothing = check.Number(field + ".smoothing_w", term.smoothing, DefaultSmoothing(), {0.01, 1000, "W"});
-    term.joint_weights = CheckWeights(field + ".joint_weights", term.joint_weights, scene, check);
-  }
-
-  void operator()(GaitRequest::PassiveLoad& term) const {
-    term.joint_weights = CheckWeights(path + ".passive_load.joint_weights", term.joint_weights, scene, check);
-  }
-
-  // Of every joint, the base too; those that are not named have weight 1, of the base 0.
-  void operator()(GaitRequest::SquaredAcceleration& term) const {
-    const std::string field = path + ".squared_acceleration.joint_weights";
-    Weights completed;
-    if (scene != nullptr) {
-      for (int joint : scene->model.actuated()) completed[scene->model.joint(joint).name] = 1;
-    }
-    for (const auto& [joint, weight] : term.joint_weights) {
-      check.Number(Keyed(field, joint), weight, 1, kWeightLimits);
-      if (scene == nullptr || check.Joint(Keyed(field, joint), joint, *scene, false) >= 0) completed[joint] = weight;
-    }
-    term.joint_weights = completed;
-  }
-
-  void CheckChannel(const std::string& field, GaitRequest::Tracking::Channel& channel) const {
+  void CheckChannel(const std::string& field, cost::Tracking::Channel& channel) const {
     if (scene != nullptr) check.Joint(field + ".joint", channel.joint, *scene, false);
     channel.weight = check.Number(field + ".weight", channel.weight, 1, kWeightLimits);
     const size_t count = channel.positions.size();

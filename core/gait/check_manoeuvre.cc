@@ -94,12 +94,12 @@ bool CheckTerms(const GaitRequest& request, RequestCheck& check) {
   for (size_t i = 0; i < request.costs.size(); ++i) {
     const std::string path = Indexed("costs", i);
     const auto& term = request.costs[i].term;
-    if (const auto* torque = std::get_if<GaitRequest::SquaredTorque>(&term)) {
+    if (const auto* torque = std::get_if<cost::SquaredTorque>(&term)) {
       if (!torque->joint_weights.empty()) {
         check.Add(path + ".squared_torque.joint_weights",
                   "means nothing for a rolling body, whose cost is the square of the couple on it; leave it out");
       }
-    } else if (std::holds_alternative<GaitRequest::Time>(term)) {
+    } else if (std::holds_alternative<cost::Time>(term)) {
       time = time || request.costs[i].weight.value_or(1) > 0;
     } else {
       check.Add(path, "is a cost of joints, which a rolling body has none of; give squared_torque or time");

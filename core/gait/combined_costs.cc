@@ -10,47 +10,26 @@
 namespace rollgait {
 namespace {
 
-template <typename Value>
-void KeepUnset(const std::optional<Value>& preset, std::optional<Value>* own) {
+void KeepUnset(const std::optional<double>& preset, std::optional<double>* own) {
   if (!*own) *own = preset;
-}
-
-void KeepUnset(const std::map<std::string, double>& preset, std::map<std::string, double>* own) {
-  if (own->empty()) *own = preset;
 }
 
 // Fills what the request's term leaves unset with the parameters of the preset's term of the same kind.
 struct ParametersOfPreset {
-  const decltype(GaitRequest::CostTerm::term)& preset;
+  const cost::Term& preset;
 
   template <typename Term>
-  const Term& Same(const Term&) const {
+  void operator()(Term& own) const {
     const Term* const same = std::get_if<Term>(&preset);
     ROLLGAIT_CHECK(same != nullptr);
-    return *same;
-  }
-
-  void operator()(GaitRequest::SquaredTorque& own) const { KeepUnset(Same(own).joint_weights, &own.joint_weights); }
-  void operator()(GaitRequest::SquaredTorqueRate& own) const { KeepUnset(Same(own).joint_weights, &own.joint_weights); }
-  void operator()(GaitRequest::SquaredForceRate&) const {}
-  void operator()(GaitRequest::MechanicalWork& own) const { KeepUnset(Same(own).smoothing, &own.smoothing); }
-  void operator()(GaitRequest::Time&) const {}
-  void operator()(GaitRequest::MuscleEffort& own) const {
-    KeepUnset(Same(own).exponent, &own.exponent);
-    KeepUnset(Same(own).joint_weights, &own.joint_weights);
-  }
-  void operator()(GaitRequest::MuscleWork& own) const {
-    KeepUnset(Same(own).positive_efficiency, &own.positive_efficiency);
-    KeepUnset(Same(own).negative_efficiency, &own.negative_efficiency);
-    KeepUnset(Same(own).smoothing, &own.smoothing);
-    KeepUnset(Same(own).joint_weights, &own.joint_weights);
-  }
-  void operator()(GaitRequest::PassiveLoad& own) const { KeepUnset(Same(own).joint_weights, &own.joint_weights); }
-  void operator()(GaitRequest::SquaredAcceleration& own) const {
-    KeepUnset(Same(own).joint_weights, &own.joint_weights);
-  }
-  void operator()(GaitRequest::Tracking& own) const {
-    if (own.channels.empty()) own.channels = Same(own).channels;
+    RowOf<Term>().ForEachParameter(
+        [&](const CostParameter<Term>& parameter) { KeepUnset(same->*parameter.member, &(own.*parameter.member)); });
+    if constexpr (HasJointWeights<Term>) {
+      if (own.joint_weights.empty()) own.joint_weights = same->joint_weights;
+    }
+    if constexpr (HasChannels<Term>) {
+      if (own.channels.empty()) own.channels = same->channels;
+    }
   }
 };
 

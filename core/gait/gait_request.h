@@ -4,12 +4,12 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/gait/manoeuvre_request.h"
 #include "core/models/catalog.h"
 #include "core/nlp/nlp_solver.h"
+#include "core/ocp/cost_table.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/criteria.h"
 
@@ -37,44 +37,8 @@ struct GaitRequest {
     std::optional<int> intervals;
     std::optional<double> min_duration, max_duration;  // s
   };
-  struct SquaredTorque {
-    std::map<std::string, double> joint_weights;
-  };
-  struct SquaredTorqueRate {
-    std::map<std::string, double> joint_weights;
-  };
-  struct SquaredForceRate {};
-  struct MechanicalWork {
-    std::optional<double> smoothing;  // W
-  };
-  struct Time {};
-  struct MuscleEffort {
-    std::optional<double> exponent;
-    std::map<std::string, double> joint_weights;
-  };
-  struct MuscleWork {
-    std::optional<double> positive_efficiency, negative_efficiency;
-    std::optional<double> smoothing;  // W
-    std::map<std::string, double> joint_weights;
-  };
-  struct PassiveLoad {
-    std::map<std::string, double> joint_weights;
-  };
-  struct SquaredAcceleration {
-    std::map<std::string, double> joint_weights;
-  };
-  struct Tracking {
-    struct Channel {
-      std::string joint;
-      std::vector<double> positions;
-      std::optional<double> weight;
-    };
-    std::vector<Channel> channels;
-  };
   struct CostTerm {
-    std::variant<SquaredTorque, SquaredTorqueRate, MechanicalWork, Time, Tracking, MuscleEffort, MuscleWork,
-                 PassiveLoad, SquaredAcceleration, SquaredForceRate>
-        term;
+    cost::Term term;
     std::optional<double> weight;
   };
   enum class Normalization { kPerDistance, kPerTime, kNone };

@@ -24,7 +24,7 @@ struct GaitSpec {
     double min_duration, max_duration;
   };
   struct CostTerm {
-    decltype(GaitRequest::CostTerm::term) term;  // optionals inside are filled
+    cost::Term term;  // optionals inside are filled
     double weight;
   };
   Scene scene;            // limits of the request already applied to its joints

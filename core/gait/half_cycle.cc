@@ -40,7 +40,7 @@ struct IsSymmetric {
 
   // A position that is held, alike on both sides, means the same in either step; but not that of the base along x and
   // y: the second step is further on, and a step lies beside its mirror image, a full cycle where it starts.
-  bool operator()(const GaitRequest::Tracking& tracking) const {
+  bool operator()(const cost::Tracking& tracking) const {
     return std::all_of(tracking.channels.begin(), tracking.channels.end(), [&](const auto& channel) {
       const JointRole role = model.joint(model.Find(channel.joint)).role;
       if (role == JointRole::kBaseForward || role == JointRole::kBaseLateral) return false;

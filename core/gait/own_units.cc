@@ -5,41 +5,12 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "core/gait/judge_solution.h"
 #include "core/gait/power_smoothing.h"
 
 namespace rollgait {
 namespace {
-
-// −k of the dimension M^m T^k of each integrand.
-struct TimePower {
-  int operator()(const GaitRequest::SquaredTorque&) const { return 4; }
-  int operator()(const GaitRequest::SquaredTorqueRate&) const { return 6; }
-  int operator()(const GaitRequest::SquaredForceRate&) const { return 6; }
-  int operator()(const GaitRequest::MechanicalWork&) const { return 3; }
-  int operator()(const GaitRequest::Time&) const { return 0; }
-  int operator()(const GaitRequest::Tracking&) const { return 0; }
-  int operator()(const GaitRequest::MuscleEffort&) const { return 0; }  // torque over strength
-  int operator()(const GaitRequest::MuscleWork&) const { return 3; }
-  int operator()(const GaitRequest::PassiveLoad&) const { return 0; }
-  int operator()(const GaitRequest::SquaredAcceleration&) const { return 4; }
-};
-
-// m of the same.
-struct MassPower {
-  int operator()(const GaitRequest::SquaredTorque&) const { return 2; }
-  int operator()(const GaitRequest::SquaredTorqueRate&) const { return 2; }
-  int operator()(const GaitRequest::SquaredForceRate&) const { return 2; }
-  int operator()(const GaitRequest::MechanicalWork&) const { return 1; }
-  int operator()(const GaitRequest::Time&) const { return 0; }
-  int operator()(const GaitRequest::Tracking&) const { return 0; }
-  int operator()(const GaitRequest::MuscleEffort&) const { return 0; }
-  int operator()(const GaitRequest::MuscleWork&) const { return 1; }
-  int operator()(const GaitRequest::PassiveLoad&) const { return 0; }
-  int operator()(const GaitRequest::SquaredAcceleration&) const { return 0; }
-};
 
 // Of a force or moment in SI units, in these; the same of an impulse and a power.
 double OfForce(const Units& units) { return units.time * units.time / units.mass; }
@@ -80,8 +51,8 @@ CriterionValues ScaledBounds(double unit, CriterionValues bounds) {
 
 // Of ∫ … dt in these units, in SI units.
 double OfIntegral(const Units& units, const GaitSpec::CostTerm& cost) {
-  return std::pow(units.time, 1 - std::visit(TimePower{}, cost.term)) *
-         std::pow(units.mass, std::visit(MassPower{}, cost.term));
+  const CostTraits& traits = TraitsOf(cost.term);
+  return std::pow(units.time, 1 + traits.time_power) * std::pow(units.mass, traits.mass_power);
 }
 
 // The weight of a term in these units of time and mass.

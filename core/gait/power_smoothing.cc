@@ -5,9 +5,15 @@
 
 namespace rollgait {
 std::optional<double>* SmoothingOf(GaitSpec::CostTerm* cost) {
-  if (auto* work = std::get_if<GaitRequest::MechanicalWork>(&cost->term)) return &work->smoothing;
-  if (auto* work = std::get_if<GaitRequest::MuscleWork>(&cost->term)) return &work->smoothing;
-  return nullptr;
+  std::optional<double>* smoothing = nullptr;
+  std::visit(
+      [&smoothing]<typename Term>(Term& term) {
+        RowOf<Term>().ForEachParameter([&](const CostParameter<Term>& parameter) {
+          if (parameter.is_smoothing) smoothing = &(term.*parameter.member);
+        });
+      },
+      cost->term);
+  return smoothing;
 }
 
 std::optional<double> LeastSmoothing(const GaitSpec& spec) {

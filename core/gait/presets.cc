@@ -23,8 +23,8 @@ std::map<std::string, double> OfBody(const std::map<JointRole, double>& weights,
 }
 
 // Upright trunk and pelvis.
-GaitRequest::Tracking Posture(const Scene& scene) {
-  GaitRequest::Tracking posture;
+cost::Tracking Posture(const Scene& scene) {
+  cost::Tracking posture;
   for (const JointRole role : {JointRole::kBasePitch, JointRole::kTrunkFlexion}) {
     const int joint = scene.model.Find(role);
     if (joint >= 0) posture.channels.push_back({scene.model.joint(joint).name, {0, 0}, 1.0});
@@ -61,16 +61,16 @@ struct WeightFactors {
 };
 
 void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* costs) {
-  GaitRequest::MuscleEffort effort;
+  cost::MuscleEffort effort;
   effort.joint_weights = OfBody(
       {{JointRole::kHipFlexion, 0.5}, {JointRole::kKneeFlexion, 0.1}, {JointRole::kAnkleDorsiflexion, 0.2}}, scene);
   std::erase_if(effort.joint_weights,  // of a joint without muscles nothing is known
                 [&](const auto& named) { return !scene.model.joint(scene.model.Find(named.first)).actuated; });
   costs->Add(std::move(effort), factors.ratio);
-  costs->Add(GaitRequest::MuscleWork{}, 5e-4 * factors.energy);
-  costs->Add(GaitRequest::PassiveLoad{}, 1.2 * factors.ratio);
-  costs->Add(GaitRequest::SquaredTorqueRate{}, 2e-8 * factors.torque_rate);
-  GaitRequest::SquaredAcceleration acceleration;
+  costs->Add(cost::MuscleWork{}, 5e-4 * factors.energy);
+  costs->Add(cost::PassiveLoad{}, 1.2 * factors.ratio);
+  costs->Add(cost::SquaredTorqueRate{}, 2e-8 * factors.torque_rate);
+  cost::SquaredAcceleration acceleration;
   acceleration.joint_weights = OfBody({{JointRole::kHipFlexion, 0.6},
                                        {JointRole::kKneeFlexion, 0.3},
                                        {JointRole::kAnkleDorsiflexion, 2.7},
@@ -78,7 +78,7 @@ void AddHumanCosts(const Scene& scene, const WeightFactors& factors, Costs* cost
                                        {JointRole::kBaseVertical, 0.7}},
                                       scene);
   costs->Add(std::move(acceleration), 2.7e-6 * factors.acceleration);
-  GaitRequest::Tracking posture = Posture(scene);
+  cost::Tracking posture = Posture(scene);
   if (!posture.channels.empty()) costs->Add(std::move(posture), 0.5 * factors.ratio);
 }
 
@@ -96,14 +96,14 @@ std::vector<GaitRequest::CostTerm> PresetCosts(Preset preset, const Scene& scene
   Costs costs;
   switch (preset) {
     case Preset::kTorque:
-      costs.Add(GaitRequest::SquaredTorque{}, 1);
+      costs.Add(cost::SquaredTorque{}, 1);
       return costs.Take();
     case Preset::kTransport:
-      costs.Add(GaitRequest::MuscleWork{}, 1 / (scene.selection.mass * kGravity * similarity.gravity));
+      costs.Add(cost::MuscleWork{}, 1 / (scene.selection.mass * kGravity * similarity.gravity));
       // Work alone leaves efforts undetermined, and on coarse meshes pays for energy that is none.
-      costs.Add(GaitRequest::SquaredTorqueRate{}, 3e-8 * factors.torque_rate);
-      costs.Add(GaitRequest::SquaredAcceleration{}, 3e-6 * factors.acceleration);
-      costs.Add(GaitRequest::MuscleEffort{}, 0.05 * factors.ratio);
+      costs.Add(cost::SquaredTorqueRate{}, 3e-8 * factors.torque_rate);
+      costs.Add(cost::SquaredAcceleration{}, 3e-6 * factors.acceleration);
+      costs.Add(cost::MuscleEffort{}, 0.05 * factors.ratio);
       return costs.Take();
     case Preset::kHuman:
       AddHumanCosts(scene, factors, &costs);

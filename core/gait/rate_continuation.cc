@@ -19,7 +19,7 @@ constexpr double kFirstWeight = 1e-4;
 double TorqueWeight(const GaitSpec& spec) {
   double weight = 0;
   for (const GaitSpec::CostTerm& cost : spec.costs) {
-    if (std::holds_alternative<GaitRequest::SquaredTorque>(cost.term)) weight += cost.weight;
+    if (std::holds_alternative<cost::SquaredTorque>(cost.term)) weight += cost.weight;
   }
   return weight;
 }
@@ -27,7 +27,7 @@ double TorqueWeight(const GaitSpec& spec) {
 GaitSpec WithRatesAt(double rate_weight, GaitSpec spec) {
   const double weight = rate_weight * std::pow(spec.similarity.time(), 2) * TorqueWeight(spec);
   GaitSpec::CostTerm& rate = spec.costs.emplace_back();
-  rate.term = GaitRequest::SquaredTorqueRate{};
+  rate.term = cost::SquaredTorqueRate{};
   rate.weight = weight;
   return spec;
 }

@@ -37,7 +37,7 @@ double GuessDuration(const GaitSpec& spec) {
   const GaitSpec::Phase& phase = spec.phases.front();
   double torque = 0, time = 0;
   for (const GaitSpec::CostTerm& term : spec.costs) {
-    (std::holds_alternative<GaitRequest::Time>(term.term) ? time : torque) += term.weight;
+    (std::holds_alternative<cost::Time>(term.term) ? time : torque) += term.weight;
   }
   double duration = phase.min_duration;
   if (time > 0) {

@@ -47,8 +47,6 @@ enum class CostForm { kMinimised, kUnsmoothed };
 class PointCost {
  public:
   virtual ~PointCost() = default;
-  virtual std::string Name() const = 0;
-  virtual std::string Unit() const = 0;  // of the integral
   // Order of magnitude of the integrand in walking, to scale the objective.
   virtual double Typical() const = 0;
   virtual Entries HessianPattern() const = 0;

@@ -63,8 +63,8 @@ namespace {
 
 bool EffortsAreContinuous(const std::vector<CostDescription>& costs) {
   return std::any_of(costs.begin(), costs.end(), [](const CostDescription& cost) {
-    const auto* rate = std::get_if<EffortRateCost>(&cost.term);
-    return rate != nullptr && cost.weight > 0 && rate->weights.minCoeff() > 0;
+    return cost.IsRateOf(RateCost::Of::kEfforts) && cost.weight > 0 &&
+           std::get<RateCost>(cost.term).weights.minCoeff() > 0;
   });
 }
 

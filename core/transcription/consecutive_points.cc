@@ -88,26 +88,24 @@ std::vector<std::pair<std::string, Change>> ForceChanges(const OptimalControlPro
   return named;
 }
 
-std::vector<Change> RateChanges(const EffortRateCost& cost, const OptimalControlProblem& problem,
+std::vector<Change> RateChanges(const RateCost& cost, const OptimalControlProblem& problem,
                                 const DecisionLayout& layout, const VectorX& point_fractions) {
   std::vector<Change> all;
   for (const PointLink& link : ConsecutivePoints(layout, point_fractions)) {
     if (link.ratio == 0) continue;
-    std::vector<Change> changes = EffortChanges(problem, layout, link);
-    for (size_t j = 0; j < changes.size(); ++j) {
-      changes[j].weight = cost.weights(static_cast<int>(j));
-      all.push_back(std::move(changes[j]));
+    switch (cost.of) {
+      case RateCost::Of::kEfforts: {
+        std::vector<Change> changes = EffortChanges(problem, layout, link);
+        for (size_t j = 0; j < changes.size(); ++j) {
+          changes[j].weight = cost.weights(static_cast<int>(j));
+          all.push_back(std::move(changes[j]));
+        }
+        break;
+      }
+      case RateCost::Of::kForces:
+        for (auto& [name, change] : ForceChanges(problem, layout, link)) all.push_back(std::move(change));
+        break;
     }
-  }
-  return all;
-}
-
-std::vector<Change> RateChanges(const ForceRateCost&, const OptimalControlProblem& problem,
-                                const DecisionLayout& layout, const VectorX& point_fractions) {
-  std::vector<Change> all;
-  for (const PointLink& link : ConsecutivePoints(layout, point_fractions)) {
-    if (link.ratio == 0) continue;
-    for (auto& [name, change] : ForceChanges(problem, layout, link)) all.push_back(std::move(change));
   }
   return all;
 }

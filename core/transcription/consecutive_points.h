@@ -34,9 +34,7 @@ std::vector<std::pair<std::string, Change>> ForceChanges(const OptimalControlPro
                                                          const DecisionLayout& layout, const PointLink& link);
 
 // The changes that a rate cost sums, each with its weight.
-std::vector<Change> RateChanges(const EffortRateCost& cost, const OptimalControlProblem& problem,
-                                const DecisionLayout& layout, const VectorX& point_fractions);
-std::vector<Change> RateChanges(const ForceRateCost& cost, const OptimalControlProblem& problem,
+std::vector<Change> RateChanges(const RateCost& cost, const OptimalControlProblem& problem,
                                 const DecisionLayout& layout, const VectorX& point_fractions);
 
 }  // namespace rollgait

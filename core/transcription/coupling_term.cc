@@ -21,10 +21,7 @@ std::unique_ptr<CouplingTerm> MakeCouplingTerm(const OptimalControlProblem& prob
     const EliminatedScheme& scheme;
     using Term = std::unique_ptr<CouplingTerm>;
     Term operator()(const std::unique_ptr<PointCost>&) const { return nullptr; }
-    Term operator()(const EffortRateCost& rate) const {
-      return std::make_unique<RateTerm>(layout, RateChanges(rate, problem, layout, scheme.tableau().c));
-    }
-    Term operator()(const ForceRateCost& rate) const {
+    Term operator()(const RateCost& rate) const {
       return std::make_unique<RateTerm>(layout, RateChanges(rate, problem, layout, scheme.tableau().c));
     }
     Term operator()(const TrackingCost& tracking) const {

@@ -6,7 +6,6 @@
 //    before; as leaves they would carry all that the chain of nodes carries, so they then go with the node.
 
 #include <algorithm>
-#include <variant>
 
 #include "core/transcription/collocation_nlp.h"
 
@@ -21,9 +20,8 @@ EliminationGroups CollocationNlp::elimination_groups() const {
   const auto assign = [&groups](int first, int end, int group) {
     std::fill(groups.variables.begin() + first, groups.variables.begin() + end, group);
   };
-  const bool tied = std::any_of(problem_.costs.begin(), problem_.costs.end(), [](const CostDescription& cost) {
-    return std::holds_alternative<EffortRateCost>(cost.term);
-  });
+  const bool tied = std::any_of(problem_.costs.begin(), problem_.costs.end(),
+                                [](const CostDescription& cost) { return cost.IsRateOf(RateCost::Of::kEfforts); });
   for (int k = 0; k < layout_.intervals(); ++k) {
     const int first = k * per_interval, between = first + points, node = first + points + 1;
     assign(layout_.node(k), layout_.end_node(k), node);

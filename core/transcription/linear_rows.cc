@@ -122,8 +122,8 @@ void AddContinuityRows(const OptimalControlProblem& problem, const DecisionLayou
   bool efforts = false, forces = false;
   for (const CostDescription& cost : problem.costs) {
     if (cost.weight <= 0) continue;
-    efforts |= std::holds_alternative<EffortRateCost>(cost.term);
-    forces |= std::holds_alternative<ForceRateCost>(cost.term);
+    efforts |= cost.IsRateOf(RateCost::Of::kEfforts);
+    forces |= cost.IsRateOf(RateCost::Of::kForces);
   }
   const auto add = [rows](const std::string& name, const char* unit, Change change, double size) {
     for (auto& [unknown, coefficient] : change.terms) coefficient /= size;

@@ -1,70 +1,94 @@
 #include "server/convert/cost_convert.h"
 
+#include "core/base/check.h"
 #include "server/convert/field_decoding.h"
 
 namespace rollgait::server {
 namespace {
 
-GaitRequest::Tracking DecodeTracking(const v1::CostTerm::Tracking& tracking) {
-  GaitRequest::Tracking decoded;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+const FieldDescriptor* FieldOf(const Message& message, const char* name) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);
+  ROLLGAIT_CHECK(field != nullptr);
+  return field;
+}
+
+std::optional<double> DecodeNumber(const Message& message, const char* name) {
+  const FieldDescriptor* field = FieldOf(message, name);
+  const Reflection& fields = *message.GetReflection();
+  return fields.HasField(message, field) ? std::optional(fields.GetDouble(message, field)) : std::nullopt;
+}
+
+void EncodeNumber(const std::optional<double>& number, const char* name, Message* message) {
+  if (number) message->GetReflection()->SetDouble(message, FieldOf(*message, name), *number);
+}
+
+// Of map<string, double>; entries have the fields key and value.
+JointWeights DecodeWeights(const Message& message) {
+  const FieldDescriptor* field = FieldOf(message, "joint_weights");
+  const Reflection& fields = *message.GetReflection();
+  JointWeights weights;
+  for (int i = 0; i < fields.FieldSize(message, field); ++i) {
+    const Message& entry = fields.GetRepeatedMessage(message, field, i);
+    const Reflection& of_entry = *entry.GetReflection();
+    weights[of_entry.GetString(entry, FieldOf(entry, "key"))] = of_entry.GetDouble(entry, FieldOf(entry, "value"));
+  }
+  return weights;
+}
+
+void EncodeWeights(const JointWeights& weights, Message* message) {
+  const FieldDescriptor* field = FieldOf(*message, "joint_weights");
+  for (const auto& [joint, weight] : weights) {
+    Message* entry = message->GetReflection()->AddMessage(message, field);
+    entry->GetReflection()->SetString(entry, FieldOf(*entry, "key"), joint);
+    entry->GetReflection()->SetDouble(entry, FieldOf(*entry, "value"), weight);
+  }
+}
+
+std::vector<cost::Tracking::Channel> DecodeChannels(const v1::CostTerm::Tracking& tracking) {
+  std::vector<cost::Tracking::Channel> channels;
   for (const v1::CostTerm::Tracking::Channel& channel : tracking.channels()) {
-    decoded.channels.push_back({channel.joint(),
-                                {channel.positions().begin(), channel.positions().end()},
-                                ROLLGAIT_OPTIONAL(channel, weight)});
+    channels.push_back({channel.joint(),
+                        {channel.positions().begin(), channel.positions().end()},
+                        ROLLGAIT_OPTIONAL(channel, weight)});
   }
-  return decoded;
+  return channels;
 }
 
-GaitRequest::MuscleWork DecodeMuscleWork(const v1::CostTerm::MuscleWork& work) {
-  return {ROLLGAIT_OPTIONAL(work, positive_efficiency), ROLLGAIT_OPTIONAL(work, negative_efficiency),
-          ROLLGAIT_OPTIONAL(work, smoothing_w), DecodeNumbers(work.joint_weights())};
+void EncodeChannels(const std::vector<cost::Tracking::Channel>& channels, v1::CostTerm::Tracking* tracking) {
+  for (const cost::Tracking::Channel& channel : channels) {
+    v1::CostTerm::Tracking::Channel& encoded = *tracking->add_channels();
+    encoded.set_joint(channel.joint);
+    encoded.mutable_positions()->Add(channel.positions.begin(), channel.positions.end());
+    if (channel.weight) encoded.set_weight(*channel.weight);
+  }
 }
 
-void EncodeNumbers(const std::map<std::string, double>& numbers, google::protobuf::Map<std::string, double>* encoded) {
-  for (const auto& [name, number] : numbers) (*encoded)[name] = number;
+template <typename Term>
+Term DecodeTerm(const CostRow<Term>& row, const v1::CostTerm& cost, const Message& message) {
+  Term term;
+  row.ForEachParameter(
+      [&](const CostParameter<Term>& parameter) { term.*parameter.member = DecodeNumber(message, parameter.field); });
+  if constexpr (HasJointWeights<Term>) term.joint_weights = DecodeWeights(message);
+  if constexpr (HasChannels<Term>) term.channels = DecodeChannels(cost.tracking());
+  return term;
 }
 
+// Sets the field of the term's kind, in the oneof, to the term.
 struct TermEncoder {
-  v1::CostTerm& cost;
+  v1::CostTerm* cost;
 
-  void operator()(const GaitRequest::SquaredTorque& term) const {
-    EncodeNumbers(term.joint_weights, cost.mutable_squared_torque()->mutable_joint_weights());
-  }
-  void operator()(const GaitRequest::SquaredTorqueRate& term) const {
-    EncodeNumbers(term.joint_weights, cost.mutable_squared_torque_rate()->mutable_joint_weights());
-  }
-  void operator()(const GaitRequest::SquaredForceRate&) const { cost.mutable_squared_force_rate(); }
-  void operator()(const GaitRequest::MechanicalWork& term) const {
-    v1::CostTerm::MechanicalWork& work = *cost.mutable_mechanical_work();
-    if (term.smoothing) work.set_smoothing_w(*term.smoothing);
-  }
-  void operator()(const GaitRequest::Time&) const { cost.mutable_time(); }
-  void operator()(const GaitRequest::Tracking& term) const {
-    v1::CostTerm::Tracking& tracking = *cost.mutable_tracking();
-    for (const GaitRequest::Tracking::Channel& channel : term.channels) {
-      v1::CostTerm::Tracking::Channel& encoded = *tracking.add_channels();
-      encoded.set_joint(channel.joint);
-      encoded.mutable_positions()->Add(channel.positions.begin(), channel.positions.end());
-      if (channel.weight) encoded.set_weight(*channel.weight);
-    }
-  }
-  void operator()(const GaitRequest::MuscleEffort& term) const {
-    v1::CostTerm::MuscleEffort& effort = *cost.mutable_muscle_effort();
-    if (term.exponent) effort.set_exponent(*term.exponent);
-    EncodeNumbers(term.joint_weights, effort.mutable_joint_weights());
-  }
-  void operator()(const GaitRequest::MuscleWork& term) const {
-    v1::CostTerm::MuscleWork& work = *cost.mutable_muscle_work();
-    if (term.positive_efficiency) work.set_positive_efficiency(*term.positive_efficiency);
-    if (term.negative_efficiency) work.set_negative_efficiency(*term.negative_efficiency);
-    if (term.smoothing) work.set_smoothing_w(*term.smoothing);
-    EncodeNumbers(term.joint_weights, work.mutable_joint_weights());
-  }
-  void operator()(const GaitRequest::PassiveLoad& term) const {
-    EncodeNumbers(term.joint_weights, cost.mutable_passive_load()->mutable_joint_weights());
-  }
-  void operator()(const GaitRequest::SquaredAcceleration& term) const {
-    EncodeNumbers(term.joint_weights, cost.mutable_squared_acceleration()->mutable_joint_weights());
+  template <typename Term>
+  void operator()(const Term& term) const {
+    const CostRow<Term>& row = RowOf<Term>();
+    Message* message = cost->GetReflection()->MutableMessage(cost, FieldOf(*cost, row.traits.field));
+    row.ForEachParameter(
+        [&](const CostParameter<Term>& parameter) { EncodeNumber(term.*parameter.member, parameter.field, message); });
+    if constexpr (HasJointWeights<Term>) EncodeWeights(term.joint_weights, message);
+    if constexpr (HasChannels<Term>) EncodeChannels(term.channels, cost->mutable_tracking());
   }
 };
 
@@ -72,7 +96,7 @@ struct TermEncoder {
 
 v1::CostTerm EncodeCost(const GaitRequest::CostTerm& cost) {
   v1::CostTerm encoded;
-  std::visit(TermEncoder{encoded}, cost.term);
+  std::visit(TermEncoder{&encoded}, cost.term);
   if (cost.weight) encoded.set_weight(*cost.weight);
   return encoded;
 }
@@ -80,41 +104,19 @@ v1::CostTerm EncodeCost(const GaitRequest::CostTerm& cost) {
 GaitRequest::CostTerm DecodeCost(const std::string& field, const v1::CostTerm& cost, Violations* violations) {
   GaitRequest::CostTerm decoded;
   decoded.weight = ROLLGAIT_OPTIONAL(cost, weight);
-  switch (cost.term_case()) {
-    case v1::CostTerm::kSquaredTorque:
-      decoded.term = GaitRequest::SquaredTorque{DecodeNumbers(cost.squared_torque().joint_weights())};
-      break;
-    case v1::CostTerm::kSquaredTorqueRate:
-      decoded.term = GaitRequest::SquaredTorqueRate{DecodeNumbers(cost.squared_torque_rate().joint_weights())};
-      break;
-    case v1::CostTerm::kMechanicalWork:
-      decoded.term = GaitRequest::MechanicalWork{ROLLGAIT_OPTIONAL(cost.mechanical_work(), smoothing_w)};
-      break;
-    case v1::CostTerm::kTime:
-      decoded.term = GaitRequest::Time{};
-      break;
-    case v1::CostTerm::kTracking:
-      decoded.term = DecodeTracking(cost.tracking());
-      break;
-    case v1::CostTerm::kMuscleEffort:
-      decoded.term = GaitRequest::MuscleEffort{ROLLGAIT_OPTIONAL(cost.muscle_effort(), exponent),
-                                               DecodeNumbers(cost.muscle_effort().joint_weights())};
-      break;
-    case v1::CostTerm::kMuscleWork:
-      decoded.term = DecodeMuscleWork(cost.muscle_work());
-      break;
-    case v1::CostTerm::kPassiveLoad:
-      decoded.term = GaitRequest::PassiveLoad{DecodeNumbers(cost.passive_load().joint_weights())};
-      break;
-    case v1::CostTerm::kSquaredAcceleration:
-      decoded.term = GaitRequest::SquaredAcceleration{DecodeNumbers(cost.squared_acceleration().joint_weights())};
-      break;
-    case v1::CostTerm::kSquaredForceRate:
-      decoded.term = GaitRequest::SquaredForceRate{};
-      break;
-    case v1::CostTerm::TERM_NOT_SET:
-      violations->push_back({field, "no term; set one, for example squared_torque"});
+  const FieldDescriptor* given =
+      cost.GetReflection()->GetOneofFieldDescriptor(cost, v1::CostTerm::descriptor()->FindOneofByName("term"));
+  if (given == nullptr) {
+    violations->push_back({field, "no term; set one, for example squared_torque"});
+    return decoded;
   }
+  bool known = false;
+  ForEachCost([&](const auto& row) {
+    if (given->name() != row.traits.field) return;
+    decoded.term = DecodeTerm(row, cost, cost.GetReflection()->GetMessage(cost, given));
+    known = true;
+  });
+  ROLLGAIT_CHECK(known);  // a test holds table and proto together
   return decoded;
 }
 

@@ -7,9 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "client/bound_flags.h"
 #include "client/failure.h"
+#include "client/spec_words.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -21,6 +23,21 @@ v1::SolveSpec Parse(const std::string& line) {
   AddSpecFlags(app, flags);
   app.parse(line);
   return BuildSpec(flags);
+}
+
+// Each has its word in the proto, and from there in the flag, its help and its completion.
+TEST(SpecFlagsTest, EveryCostButTrackingHasAWord) {
+  const google::protobuf::OneofDescriptor& terms = *v1::CostTerm::descriptor()->FindOneofByName("term");
+  const std::vector<std::string> words = FlagWords("--cost");
+  ASSERT_EQ(static_cast<int>(words.size()), terms.field_count() - 1) << "a word is missing, or two terms have the same";
+  std::set<int> terms_of_words;
+  for (const std::string& word : words) {
+    EXPECT_THAT(CostWordList(), ::testing::HasSubstr(word));
+    terms_of_words.insert(Parse("--cost " + word + ":2").costs(0).term_case());
+  }
+  EXPECT_EQ(terms_of_words.size(), words.size());
+  EXPECT_EQ(terms_of_words.count(v1::CostTerm::kTracking), 0u) << "what it tracks, a file says";
+  EXPECT_EQ(CostWordList().rfind("torque, ", 0), 0u);
 }
 
 TEST(SpecFlagsTest, NothingGivenIsTheEmptyRequest) {

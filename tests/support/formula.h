@@ -108,8 +108,6 @@ class FormulaCost : public PointCost {
   FormulaCost(const PointLayout& layout, double typical, Integrand l)
       : layout_(layout), typical_(typical), l_(std::move(l)) {}
 
-  std::string Name() const override { return "formula"; }
-  std::string Unit() const override { return ""; }
   double Typical() const override { return typical_; }
   Entries HessianPattern() const override { return AllPairsWithoutAccelerations(layout_); }
   double Value(const PointContext& at) override { return l_({layout_, at.z}).value; }

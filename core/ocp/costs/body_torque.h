@@ -14,8 +14,6 @@ class BodyTorqueCost : public PointCost {
  public:
   // middle_joint: index of the second of the three joints. The efforts of the layout are those of the three.
   BodyTorqueCost(int middle_joint, const PointLayout& layout, double typical);
-  std::string Name() const override { return "squared torque"; }
-  std::string Unit() const override { return "N² m² s"; }
   double Typical() const override { return typical_; }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;

@@ -205,4 +205,25 @@ void SquaredAccelerationCost::AddHessian(const PointContext&, double weight, Eig
   for (int j = 0; j < layout_.n; ++j) hessian(layout_.a() + j, layout_.a() + j) += 2 * weight * weights_(j);
 }
 
+namespace cost {
+
+CostIntegral Make(const MuscleEffort& term, const CostContext& context) {
+  return std::make_unique<MuscleEffortCost>(context.muscles(term.joint_weights), term.exponent.value(), context.layout);
+}
+
+CostIntegral Make(const MuscleWork& term, const CostContext& context) {
+  return std::make_unique<MuscleWorkCost>(context.muscles(term.joint_weights), term.positive_efficiency.value(),
+                                          term.negative_efficiency.value(), term.smoothing.value(), context.layout,
+                                          context.TypicalPower());
+}
+
+CostIntegral Make(const PassiveLoad& term, const CostContext& context) {
+  return std::make_unique<PassiveLoadCost>(context.muscles(term.joint_weights), context.layout);
+}
+
+CostIntegral Make(const SquaredAcceleration& term, const CostContext& context) {
+  return std::make_unique<SquaredAccelerationCost>(context.WeightsOfAll(term.joint_weights), context.layout);
+}
+
+}  // namespace cost
 }  // namespace rollgait

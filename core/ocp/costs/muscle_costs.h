@@ -1,29 +1,46 @@
 #ifndef ROLLGAIT_CORE_OCP_COSTS_MUSCLE_COSTS_H_
 #define ROLLGAIT_CORE_OCP_COSTS_MUSCLE_COSTS_H_
 
+#include <optional>
 #include <vector>
 
-#include "core/math/exponential_spring.h"
+#include "core/ocp/cost_context.h"
+#include "core/ocp/cost_description.h"
 #include "core/ocp/costs/power_price.h"
-#include "core/ocp/point_function.h"
 
 namespace rollgait {
 
-// One actuated joint as its muscles see it. What ligaments and stretched muscles give (`passive`) costs nothing: the
-// muscles pay for  m = τ − p(q), the rest of the joint's torque.
-struct MuscledJoint {
-  int coordinate = 0;   // index into q and v
-  double strength = 1;  // N m, > 0
-  double weight = 1;
-  ExponentialSpring passive;  // rad -> N m
+namespace cost {
+
+// As requested: see rollgait.v1.CostTerm.
+struct MuscleEffort {
+  std::optional<double> exponent;
+  JointWeights joint_weights;
 };
+struct MuscleWork {
+  std::optional<double> positive_efficiency, negative_efficiency;
+  std::optional<double> smoothing;  // W
+  JointWeights joint_weights;
+};
+struct PassiveLoad {
+  JointWeights joint_weights;
+};
+struct SquaredAcceleration {
+  JointWeights joint_weights;
+};
+
+// Contract: what is optional is set.
+CostIntegral Make(const MuscleEffort& term, const CostContext& context);
+CostIntegral Make(const MuscleWork& term, const CostContext& context);
+CostIntegral Make(const PassiveLoad& term, const CostContext& context);
+CostIntegral Make(const SquaredAcceleration& term, const CostContext& context);
+
+}  // namespace cost
 
 // Σ w_j |m_j / S_j|^κ, dimensionless, κ ≥ 2: effort of muscles against their strength S_j.
 class MuscleEffortCost : public PointCost {
  public:
   MuscleEffortCost(std::vector<MuscledJoint> joints, double exponent, const PointLayout& layout);
-  std::string Name() const override { return "muscle effort"; }
-  std::string Unit() const override { return "s"; }
   double Typical() const override;
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
@@ -43,8 +60,6 @@ class MuscleWorkCost : public PointCost {
  public:
   MuscleWorkCost(std::vector<MuscledJoint> joints, double positive_efficiency, double negative_efficiency,
                  double smoothing, const PointLayout& layout, double typical);
-  std::string Name() const override { return "muscle work"; }
-  std::string Unit() const override { return "J"; }
   double Typical() const override { return typical_ * price_.mean(); }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
@@ -65,8 +80,6 @@ class MuscleWorkCost : public PointCost {
 class PassiveLoadCost : public PointCost {
  public:
   PassiveLoadCost(std::vector<MuscledJoint> joints, const PointLayout& layout);
-  std::string Name() const override { return "passive load"; }
-  std::string Unit() const override { return "s"; }
   double Typical() const override;
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
@@ -82,8 +95,6 @@ class PassiveLoadCost : public PointCost {
 class SquaredAccelerationCost : public PointCost {
  public:
   SquaredAccelerationCost(VectorX weights, const PointLayout& layout);
-  std::string Name() const override { return "squared acceleration"; }
-  std::string Unit() const override { return "rad²/s³"; }
   double Typical() const override;
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;

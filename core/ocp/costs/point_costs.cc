@@ -1,6 +1,9 @@
 #include "core/ocp/costs/point_costs.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/ocp/costs/body_torque.h"
 
 namespace rollgait {
 
@@ -80,4 +83,24 @@ void MechanicalWorkCost::AddHessian(const PointContext& at, double weight, Eigen
   }
 }
 
+namespace cost {
+
+CostIntegral Make(const SquaredTorque& term, const CostContext& context) {
+  const OptimalControlProblem& problem = context.problem;
+  if (context.rolling_body) {
+    return std::make_unique<BodyTorqueCost>(problem.model.actuated()[1], context.layout,
+                                            std::pow(problem.effort_size(), 2));
+  }
+  return std::make_unique<SquaredTorqueCost>(context.EffortWeights(term.joint_weights), context.layout,
+                                             problem.effort_size());
+}
+
+CostIntegral Make(const MechanicalWork& term, const CostContext& context) {
+  return std::make_unique<MechanicalWorkCost>(term.smoothing.value(), context.problem.model.actuated(), context.layout,
+                                              context.TypicalPower());
+}
+
+CostIntegral Make(const Time&, const CostContext&) { return std::make_unique<TimeCost>(); }
+
+}  // namespace cost
 }  // namespace rollgait

@@ -1,17 +1,36 @@
 #ifndef ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
 #define ROLLGAIT_CORE_OCP_COSTS_POINT_COSTS_H_
 
+#include <optional>
+#include <vector>
+
+#include "core/ocp/cost_context.h"
+#include "core/ocp/cost_description.h"
 #include "core/ocp/costs/power_price.h"
-#include "core/ocp/point_function.h"
 
 namespace rollgait {
+namespace cost {
+
+// As requested: see rollgait.v1.CostTerm.
+struct SquaredTorque {
+  JointWeights joint_weights;
+};
+struct MechanicalWork {
+  std::optional<double> smoothing;  // W
+};
+struct Time {};
+
+// Contract: what is optional is set.
+CostIntegral Make(const SquaredTorque& term, const CostContext& context);
+CostIntegral Make(const MechanicalWork& term, const CostContext& context);
+CostIntegral Make(const Time& term, const CostContext& context);
+
+}  // namespace cost
 
 // Σ w_j τ_j², N² m².  Source: section 4.2 of the paper.
 class SquaredTorqueCost : public PointCost {
  public:
   SquaredTorqueCost(VectorX weights, const PointLayout& layout, double effort_size);
-  std::string Name() const override { return "squared torque"; }
-  std::string Unit() const override { return "N² m² s"; }
   double Typical() const override;
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
@@ -28,8 +47,6 @@ class SquaredTorqueCost : public PointCost {
 class MechanicalWorkCost : public PointCost {
  public:
   MechanicalWorkCost(double smoothing, std::vector<int> actuated, const PointLayout& layout, double typical);
-  std::string Name() const override { return "mechanical work"; }
-  std::string Unit() const override { return "J"; }
   double Typical() const override { return typical_; }
   Entries HessianPattern() const override;
   double Value(const PointContext& at) override;
@@ -47,8 +64,6 @@ class MechanicalWorkCost : public PointCost {
 // 1: the integral is the duration, s.
 class TimeCost : public PointCost {
  public:
-  std::string Name() const override { return "time"; }
-  std::string Unit() const override { return "s"; }
   double Typical() const override { return 1; }
   Entries HessianPattern() const override { return {}; }
   double Value(const PointContext&) override { return 1; }

@@ -81,7 +81,7 @@ TEST(CheckRequest, StandardFullCycleHasFourPhases) {
 TEST(CheckRequest, DefaultCostIsSquaredTorqueOfEveryActuatedJoint) {
   const GaitSpec spec = CheckRequest(Planar()).value();
   ASSERT_EQ(spec.costs.size(), 1u);
-  const auto& term = std::get<GaitRequest::SquaredTorque>(spec.costs[0].term);
+  const auto& term = std::get<cost::SquaredTorque>(spec.costs[0].term);
   EXPECT_EQ(spec.costs[0].weight, 1);
   EXPECT_EQ(term.joint_weights.size(), spec.scene.model.actuated().size());
   for (const auto& [joint, weight] : term.joint_weights) EXPECT_EQ(weight, 1) << joint;
@@ -116,14 +116,14 @@ TEST(CheckRequest, AppliesLimitsToTheJointsOfTheScene) {
 
 TEST(CheckRequest, FillsTheOptionalsOfCosts) {
   GaitRequest request = Planar();
-  request.costs.push_back({GaitRequest::MechanicalWork{}, {}});
-  request.costs.push_back({GaitRequest::Tracking{{{"hip_l", {0, 1}, {}}}}, 2.5});
-  request.costs.push_back({GaitRequest::SquaredTorqueRate{{{"hip_l", 0.0}}}, {}});
+  request.costs.push_back({cost::MechanicalWork{}, {}});
+  request.costs.push_back({cost::Tracking{{{"hip_l", {0, 1}, {}}}}, 2.5});
+  request.costs.push_back({cost::SquaredTorqueRate{{{"hip_l", 0.0}}}, {}});
   const GaitSpec spec = CheckRequest(request).value();
-  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(spec.costs[0].term).smoothing, 5);
-  EXPECT_EQ(std::get<GaitRequest::Tracking>(spec.costs[1].term).channels[0].weight, 1);
+  EXPECT_EQ(std::get<cost::MechanicalWork>(spec.costs[0].term).smoothing, 5);
+  EXPECT_EQ(std::get<cost::Tracking>(spec.costs[1].term).channels[0].weight, 1);
   EXPECT_EQ(spec.costs[1].weight, 2.5);
-  const auto& weights = std::get<GaitRequest::SquaredTorqueRate>(spec.costs[2].term).joint_weights;
+  const auto& weights = std::get<cost::SquaredTorqueRate>(spec.costs[2].term).joint_weights;
   EXPECT_EQ(weights.at("hip_l"), 0);
   EXPECT_EQ(weights.at("hip_r"), 1);
 }

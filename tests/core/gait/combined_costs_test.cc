@@ -37,7 +37,7 @@ class CombinedCosts : public testing::Test {
 TEST_F(CombinedCosts, NothingGivenIsSquaredTorque) {
   const std::vector<CombinedCost> costs = Combine(GaitRequest());
   ASSERT_EQ(costs.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<GaitRequest::SquaredTorque>(costs[0].cost.term));
+  EXPECT_TRUE(std::holds_alternative<cost::SquaredTorque>(costs[0].cost.term));
 }
 
 TEST_F(CombinedCosts, APresetAloneIsItsTerms) {
@@ -52,10 +52,10 @@ TEST_F(CombinedCosts, APresetAloneIsItsTerms) {
 
 TEST_F(CombinedCosts, AnotherKindIsAdded) {
   GaitRequest request = Human();
-  request.costs = {{GaitRequest::SquaredForceRate{}, 1e-9}, {GaitRequest::Time{}, 2.0}};
+  request.costs = {{cost::SquaredForceRate{}, 1e-9}, {cost::Time{}, 2.0}};
   const std::vector<CombinedCost> costs = Combine(request);
   ASSERT_EQ(costs.size(), preset_.size() + 2);
-  EXPECT_TRUE(std::holds_alternative<GaitRequest::SquaredForceRate>(costs[preset_.size()].cost.term));
+  EXPECT_TRUE(std::holds_alternative<cost::SquaredForceRate>(costs[preset_.size()].cost.term));
   EXPECT_EQ(costs[preset_.size()].cost.weight, 1e-9);
   EXPECT_EQ(costs[preset_.size()].field, "costs[0]");
   EXPECT_EQ(costs.back().field, "costs[1]");
@@ -63,37 +63,36 @@ TEST_F(CombinedCosts, AnotherKindIsAdded) {
 
 TEST_F(CombinedCosts, TheSameKindGetsTheNewWeightAndKeepsTheRest) {
   GaitRequest request = Human();
-  request.costs = {{GaitRequest::MuscleEffort{}, 3.0}};
+  request.costs = {{cost::MuscleEffort{}, 3.0}};
   const std::vector<CombinedCost> costs = Combine(request);
   ASSERT_EQ(costs.size(), preset_.size());
-  const int effort = Find<GaitRequest::MuscleEffort>(costs);
+  const int effort = Find<cost::MuscleEffort>(costs);
   ASSERT_EQ(effort, 0);
   EXPECT_EQ(costs[0].cost.weight, 3.0);
   EXPECT_EQ(costs[0].field, "costs[0]");
-  const auto& of_preset = std::get<GaitRequest::MuscleEffort>(preset_[0].term);
+  const auto& of_preset = std::get<cost::MuscleEffort>(preset_[0].term);
   ASSERT_FALSE(of_preset.joint_weights.empty());
-  EXPECT_EQ(std::get<GaitRequest::MuscleEffort>(costs[0].cost.term).joint_weights, of_preset.joint_weights);
+  EXPECT_EQ(std::get<cost::MuscleEffort>(costs[0].cost.term).joint_weights, of_preset.joint_weights);
 }
 
 TEST_F(CombinedCosts, TheSameKindGetsNewParametersAndKeepsTheWeight) {
   GaitRequest request = Human();
-  request.costs = {{GaitRequest::MuscleWork{0.3, {}, {}, {}}, {}},
-                   {GaitRequest::Tracking{{{"hip_l", {0, 1}, 2.0}}}, {}}};
+  request.costs = {{cost::MuscleWork{0.3, {}, {}, {}}, {}}, {cost::Tracking{{{"hip_l", {0, 1}, 2.0}}}, {}}};
   const std::vector<CombinedCost> costs = Combine(request);
-  const int work = Find<GaitRequest::MuscleWork>(costs), tracking = Find<GaitRequest::Tracking>(costs);
+  const int work = Find<cost::MuscleWork>(costs), tracking = Find<cost::Tracking>(costs);
   ASSERT_GE(work, 0);
   ASSERT_GE(tracking, 0);
   EXPECT_EQ(costs[static_cast<size_t>(work)].cost.weight, 5e-4);
-  EXPECT_EQ(std::get<GaitRequest::MuscleWork>(costs[static_cast<size_t>(work)].cost.term).positive_efficiency, 0.3);
+  EXPECT_EQ(std::get<cost::MuscleWork>(costs[static_cast<size_t>(work)].cost.term).positive_efficiency, 0.3);
   EXPECT_EQ(costs[static_cast<size_t>(tracking)].cost.weight, 0.5);
-  const auto& channels = std::get<GaitRequest::Tracking>(costs[static_cast<size_t>(tracking)].cost.term).channels;
+  const auto& channels = std::get<cost::Tracking>(costs[static_cast<size_t>(tracking)].cost.term).channels;
   ASSERT_EQ(channels.size(), 1u);
   EXPECT_EQ(channels[0].joint, "hip_l");
 }
 
 TEST_F(CombinedCosts, ASecondTermOfAKindIsAdded) {
   GaitRequest request = Human();
-  request.costs = {{GaitRequest::PassiveLoad{}, 1.0}, {GaitRequest::PassiveLoad{}, 2.0}};
+  request.costs = {{cost::PassiveLoad{}, 1.0}, {cost::PassiveLoad{}, 2.0}};
   const std::vector<CombinedCost> costs = Combine(request);
   ASSERT_EQ(costs.size(), preset_.size() + 1);
   EXPECT_EQ(costs.back().cost.weight, 2.0);
@@ -102,11 +101,11 @@ TEST_F(CombinedCosts, ASecondTermOfAKindIsAdded) {
 // A term that a request takes out of the preset is checked and completed like every other.
 TEST_F(CombinedCosts, ReachTheSpecification) {
   GaitRequest request = Human();
-  request.costs = {{GaitRequest::SquaredAcceleration{}, 0.0}, {GaitRequest::SquaredForceRate{}, 1e-9}};
+  request.costs = {{cost::SquaredAcceleration{}, 0.0}, {cost::SquaredForceRate{}, 1e-9}};
   const GaitSpec spec = CheckRequest(request).value();
   ASSERT_EQ(spec.costs.size(), preset_.size() + 1);
   EXPECT_EQ(spec.costs[4].weight, 0);
-  EXPECT_EQ(std::get<GaitRequest::SquaredAcceleration>(spec.costs[4].term).joint_weights.at("ankle_l"), 2.7);
+  EXPECT_EQ(std::get<cost::SquaredAcceleration>(spec.costs[4].term).joint_weights.at("ankle_l"), 2.7);
   EXPECT_EQ(spec.costs.back().weight, 1e-9);
   EXPECT_TRUE(spec.duty_factor);
 }

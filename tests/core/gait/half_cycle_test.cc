@@ -61,33 +61,30 @@ TEST(HalfCycleOf, IsEmptyWhereLeftAndRightDiffer) {
   request.limits.joint_effort = {{"hip_r", {-50, 50}}};
   EXPECT_FALSE(HasHalf(request));
   request = Planar();
-  request.costs = {{GaitRequest::SquaredTorque{{{"hip_l", 2}, {"hip_r", 2}}}, 1}};
+  request.costs = {{cost::SquaredTorque{{{"hip_l", 2}, {"hip_r", 2}}}, 1}};
   EXPECT_TRUE(HasHalf(request));
-  request.costs = {{GaitRequest::SquaredTorque{{{"hip_l", 2}, {"hip_r", 1}}}, 1}};
+  request.costs = {{cost::SquaredTorque{{{"hip_l", 2}, {"hip_r", 1}}}, 1}};
   EXPECT_FALSE(HasHalf(request));
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::Tracking{{{"hip_l", {0, 0.1, 0.2, 0.1}, {}}}}, 1}};
+  request.costs = {{cost::SquaredTorque{}, 1}, {cost::Tracking{{{"hip_l", {0, 0.1, 0.2, 0.1}, {}}}}, 1}};
   EXPECT_FALSE(HasHalf(request));
   // A posture that is held is that of both steps.
-  using Channel = GaitRequest::Tracking::Channel;
-  request.costs = {{GaitRequest::SquaredTorque{}, 1},
-                   {GaitRequest::Tracking{{Channel{"base_pitch", {0.1, 0.1}, 1}}}, 1}};
+  using Channel = cost::Tracking::Channel;
+  request.costs = {{cost::SquaredTorque{}, 1}, {cost::Tracking{{Channel{"base_pitch", {0.1, 0.1}, 1}}}, 1}};
   EXPECT_TRUE(HasHalf(request));
   // Where the base is held forward or to the side, the second step is not what the first one is.
-  request.costs.back().term = GaitRequest::Tracking{{Channel{"base_x", {0, 0}, 1}}};
+  request.costs.back().term = cost::Tracking{{Channel{"base_x", {0, 0}, 1}}};
   EXPECT_FALSE(HasHalf(request));
   GaitRequest in_space = request;
   in_space.body.model = "human29";
-  in_space.costs.back().term = GaitRequest::Tracking{{Channel{"base_y", {0, 0}, 1}}};
+  in_space.costs.back().term = cost::Tracking{{Channel{"base_y", {0, 0}, 1}}};
   EXPECT_FALSE(HasHalf(in_space));
-  in_space.costs.back().term = GaitRequest::Tracking{{Channel{"base_roll", {0, 0}, 1}}};
+  in_space.costs.back().term = cost::Tracking{{Channel{"base_roll", {0, 0}, 1}}};
   EXPECT_TRUE(HasHalf(in_space));
-  request.costs.back().term = GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}}};
+  request.costs.back().term = cost::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}}};
   EXPECT_FALSE(HasHalf(request));
-  request.costs.back().term =
-      GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 1}}};
+  request.costs.back().term = cost::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 1}}};
   EXPECT_TRUE(HasHalf(request));
-  request.costs.back().term =
-      GaitRequest::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 2}}};
+  request.costs.back().term = cost::Tracking{{Channel{"knee_l", {0.1, 0.1}, 1}, Channel{"knee_r", {0.1, 0.1}, 2}}};
   EXPECT_FALSE(HasHalf(request));
   request = Planar();
   request.preset = Preset::kHuman;
@@ -142,7 +139,7 @@ class BothStepsOf : public ::testing::TestWithParam<Case> {};
 TEST_P(BothStepsOf, AreAMotionOfTheFullCycleAtTheSameCost) {
   GaitRequest request = Full(GetParam().model, GetParam().feet, GetParam().touch_down);
   // Rates leave no sharp forces, which a program evaluates off its points.
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  request.costs = {{cost::SquaredTorque{}, 1}, {cost::SquaredTorqueRate{}, 1e-4}};
   const GaitSpec full = CheckRequest(request).value();
   const GaitSpec half = HalfCycleOf(full).value();
   GaitSolution step = OptimizingGaitSolver().Solve(half, SolveControl());

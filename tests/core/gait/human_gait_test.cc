@@ -36,7 +36,7 @@ class HumanGait : public ::testing::TestWithParam<int> {};
 // The paper's three slopes, with torque and a little torque rate.
 TEST_P(HumanGait, WalksInSpace) {
   GaitRequest request = Draft("human29", GetParam(), 20, 10);
-  request.costs = {{GaitRequest::SquaredTorque{}, std::nullopt}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  request.costs = {{cost::SquaredTorque{}, std::nullopt}, {cost::SquaredTorqueRate{}, 1e-4}};
   const GaitSolution solution = Solve(request);
   ExpectWalk(solution);
   ASSERT_TRUE(solution.accuracy && solution.trajectory);

@@ -70,7 +70,7 @@ TEST(ClosedForm, SpinInPlace) {
 TEST(ClosedForm, FreeDurationIsTheOneOfLeastCost) {
   GaitRequest request = RollTo(1, 0, 1);
   request.manoeuvre->duration.reset();
-  request.costs = {{GaitRequest::SquaredTorque{}, {}}, {GaitRequest::Time{}, 0.05}};
+  request.costs = {{cost::SquaredTorque{}, {}}, {cost::Time{}, 0.05}};
   const GaitSolution solution = Solve(request);
   CheckMotion(solution);
   const double duration = std::pow(36 * std::pow(kBallRoll * 10, 2) / 0.05, 0.25);

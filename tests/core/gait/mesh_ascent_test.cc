@@ -16,7 +16,7 @@ GaitRequest Fine(int intervals) {
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   request.discretization.single_support_intervals = intervals;
   request.discretization.double_support_intervals = intervals / 2;
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  request.costs = {{cost::SquaredTorque{}, 1}, {cost::SquaredTorqueRate{}, 1e-4}};
   return request;
 }
 
@@ -63,7 +63,7 @@ TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
 // alone but for the two that are known to be the request's at each end.
 TEST(Ascend, HasShortIntervalsAtTheEndsOfPhases) {
   GaitRequest request = Fine(96);
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}};
+  request.costs = {{cost::SquaredTorque{}, 1}};
   EXPECT_EQ(Solve(Check(request)).meshes[1].intervals, (std::vector<int>{6 + 18 + 6, 6 + 42 + 6}));
   request = Fine(192);
   const GaitSolution solution = Solve(Check(request));

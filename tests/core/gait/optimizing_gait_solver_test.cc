@@ -133,7 +133,7 @@ TEST(OptimumOfAMesh, IsThatOfEveryFinerMeshAndEveryScheme) {
   EXPECT_NEAR(objective(Scheme::kRadau3, 48) / fine, 1, 5e-3);
   EXPECT_NEAR(objective(Scheme::kHermiteSimpson, 48) / fine, 1, 5e-3);
   // Prices of rates need finer meshes, where the foot comes down.
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}, {GaitRequest::SquaredTorqueRate{}, 1e-4}};
+  request.costs = {{cost::SquaredTorque{}, 1}, {cost::SquaredTorqueRate{}, 1e-4}};
   EXPECT_NEAR(objective(Scheme::kRadau2, 64) / objective(Scheme::kRadau2, 128), 1, 1e-2);
 }
 

@@ -30,7 +30,7 @@ TEST(Presets, FitEveryBody) {
 TEST(Presets, TorqueIsTheCostOfThePaper) {
   const GaitSpec spec = CheckRequest(Request("planar", Preset::kTorque)).value();
   ASSERT_EQ(spec.costs.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<GaitRequest::SquaredTorque>(spec.costs[0].term));
+  EXPECT_TRUE(std::holds_alternative<cost::SquaredTorque>(spec.costs[0].term));
   EXPECT_EQ(spec.starts, 1);
   EXPECT_FALSE(spec.duty_factor);
 }
@@ -61,8 +61,8 @@ TEST(Presets, WeightsScaleWithMass) {
   heavy.body.mass = 120;
   const GaitSpec a = CheckRequest(light).value(), b = CheckRequest(heavy).value();
   for (size_t t = 0; t < a.costs.size(); ++t) {
-    const bool rate = std::holds_alternative<GaitRequest::SquaredTorqueRate>(a.costs[t].term);
-    const bool work = std::holds_alternative<GaitRequest::MuscleWork>(a.costs[t].term);
+    const bool rate = std::holds_alternative<cost::SquaredTorqueRate>(a.costs[t].term);
+    const bool work = std::holds_alternative<cost::MuscleWork>(a.costs[t].term);
     EXPECT_NEAR(a.costs[t].weight / b.costs[t].weight, rate ? 4 : work ? 2 : 1, 1e-12);
   }
 }

@@ -34,7 +34,7 @@ TEST(RateContinuation, IsForSquaredTorqueAlone) {
     EXPECT_FALSE(LeavesRatesFree(CheckRequest(request).value()));
   }
   request.preset.reset();
-  request.costs = {{GaitRequest::Time{}, 1}};
+  request.costs = {{cost::Time{}, 1}};
   EXPECT_FALSE(LeavesRatesFree(CheckRequest(request).value()));
 }
 

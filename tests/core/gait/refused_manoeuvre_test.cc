@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
              "cost_normalization", "may be zero"},
         Case{"work",
              [](GaitRequest& r) {
-               r.costs = {{GaitRequest::MechanicalWork{}, {}}};
+               r.costs = {{cost::MechanicalWork{}, {}}};
              },
              "costs[0]", "squared_torque or time"},
         Case{"chart_limit",

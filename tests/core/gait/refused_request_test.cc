@@ -93,34 +93,34 @@ const BadCase kBadCases[] = {
     {"BadWeightBesideAPreset",
      [](GaitRequest& r) {
        r.preset = Preset::kHuman;
-       r.costs.push_back({GaitRequest::Time{}, {}});
-       r.costs.push_back({GaitRequest::PassiveLoad{}, -1.0});
+       r.costs.push_back({cost::Time{}, {}});
+       r.costs.push_back({cost::PassiveLoad{}, -1.0});
      },
      "costs[1].weight", "-1"},
     {"TooManyCostsWithThoseOfThePreset",
      [](GaitRequest& r) {
        r.preset = Preset::kHuman;
-       r.costs.assign(27, {GaitRequest::Time{}, {}});
+       r.costs.assign(27, {cost::Time{}, {}});
      },
      "costs", "33 terms, those of the preset included"},
     {"EffortBelowTheSquare",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::MuscleEffort{1.5, {}}, {}});
+       r.costs.push_back({cost::MuscleEffort{1.5, {}}, {}});
      },
      "costs[0].muscle_effort.exponent", "[2, 10]"},
     {"MuscleWithoutEfficiency",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::MuscleWork{0.0, {}, {}, {}}, {}});
+       r.costs.push_back({cost::MuscleWork{0.0, {}, {}, {}}, {}});
      },
      "costs[0].muscle_work.positive_efficiency", "[0.01, 100]"},
     {"PassiveLoadOfNoJoint",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::PassiveLoad{{{"tail", 1}}}, {}});
+       r.costs.push_back({cost::PassiveLoad{{{"tail", 1}}}, {}});
      },
      "costs[0].passive_load.joint_weights[\"tail\"]", "no joint"},
     {"NegativeAcceleration",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", -1}}}, {}});
+       r.costs.push_back({cost::SquaredAcceleration{{{"base_z", -1}}}, {}});
      },
      "costs[0].squared_acceleration.joint_weights[\"base_z\"]", "-1"},
     {"DerivedSpeed",
@@ -231,47 +231,47 @@ const BadCase kBadCases[] = {
      "phases.phases", "6000 mesh intervals"},
     {"NegativeCostWeight",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::Time{}, -1});
+       r.costs.push_back({cost::Time{}, -1});
      },
      "costs[0].weight", "-1 is outside [0, 1000000]"},
     {"NegativeJointWeight",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::SquaredTorque{{{"knee_l", -0.5}}}, {}});
+       r.costs.push_back({cost::SquaredTorque{{{"knee_l", -0.5}}}, {}});
      },
      "costs[0].squared_torque.joint_weights[\"knee_l\"]", "-0.5"},
     {"UnknownJointWeight",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::SquaredTorqueRate{{{"tail", 1}}}, {}});
+       r.costs.push_back({cost::SquaredTorqueRate{{{"tail", 1}}}, {}});
      },
      "costs[0].squared_torque_rate.joint_weights[\"tail\"]", "no joint \"tail\""},
     {"UnactuatedJointWeight",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::SquaredTorque{{{"base_pitch", 1}}}, {}});
+       r.costs.push_back({cost::SquaredTorque{{{"base_pitch", 1}}}, {}});
      },
      "costs[0].squared_torque.joint_weights[\"base_pitch\"]", "not actuated"},
     {"Smoothing",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::MechanicalWork{0}, {}});
+       r.costs.push_back({cost::MechanicalWork{0}, {}});
      },
      "costs[0].mechanical_work.smoothing_w", "[0.01, 1000] W"},
     {"TrackingNothing",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::Tracking{}, {}});
+       r.costs.push_back({cost::Tracking{}, {}});
      },
      "costs[0].tracking.channels", "no channel"},
     {"TrackingOnePosition",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::Tracking{{{"hip_l", {1}, {}}}}, {}});
+       r.costs.push_back({cost::Tracking{{{"hip_l", {1}, {}}}}, {}});
      },
      "costs[0].tracking.channels[0].positions", "1 positions"},
     {"TrackingTwice",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::Tracking{{{"hip_l", {1, 2}, {}}, {"hip_l", {1, 2}, {}}}}, {}});
+       r.costs.push_back({cost::Tracking{{{"hip_l", {1, 2}, {}}, {"hip_l", {1, 2}, {}}}}, {}});
      },
      "costs[0].tracking.channels[1].joint", "twice"},
     {"TrackingNan",
      [](GaitRequest& r) {
-       r.costs.push_back({GaitRequest::Tracking{{{"hip_l", {1, kNan}, {}}}}, {}});
+       r.costs.push_back({cost::Tracking{{{"hip_l", {1, kNan}, {}}}}, {}});
      },
      "costs[0].tracking.channels[0].positions[1]", "nan"},
     {"NoFriction", [](GaitRequest& r) { r.ground_contact.friction_coefficient = 0; },

@@ -14,12 +14,12 @@ GaitRequest Draft(std::optional<double> smoothing) {
   request.motion.speed = 1.3;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   request.discretization.single_support_intervals = 8;
-  GaitRequest::MuscleWork work;
+  cost::MuscleWork work;
   work.smoothing = smoothing;
   request.costs = {{work, 1e-3},
-                   {GaitRequest::SquaredTorqueRate{}, 3e-8},
-                   {GaitRequest::SquaredAcceleration{}, 3e-6},
-                   {GaitRequest::MuscleEffort{}, 0.05}};
+                   {cost::SquaredTorqueRate{}, 3e-8},
+                   {cost::SquaredAcceleration{}, 3e-6},
+                   {cost::MuscleEffort{}, 0.05}};
   return request;
 }
 
@@ -29,15 +29,15 @@ GaitSolution Solve(const GaitRequest& request) {
 
 TEST(PowerSmoothing, IsTheLeastOfAllTermsAndNoneWithoutPowers) {
   GaitRequest request = Draft(3);
-  GaitRequest::MechanicalWork work;
+  cost::MechanicalWork work;
   work.smoothing = 7;
   request.costs.push_back({work, 1e-3});
   const GaitSpec spec = CheckRequest(request).value();
   EXPECT_EQ(LeastSmoothing(spec), 3);
   const GaitSpec smooth = SmoothedBy(5, spec);
-  EXPECT_EQ(std::get<GaitRequest::MuscleWork>(smooth.costs.front().term).smoothing, 5);
-  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(smooth.costs.back().term).smoothing, 7);
-  request.costs = {{GaitRequest::SquaredTorque{}, 1}};
+  EXPECT_EQ(std::get<cost::MuscleWork>(smooth.costs.front().term).smoothing, 5);
+  EXPECT_EQ(std::get<cost::MechanicalWork>(smooth.costs.back().term).smoothing, 7);
+  request.costs = {{cost::SquaredTorque{}, 1}};
   EXPECT_EQ(LeastSmoothing(CheckRequest(request).value()), std::nullopt);
 }
 

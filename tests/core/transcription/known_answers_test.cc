@@ -196,7 +196,7 @@ TEST_P(KnownAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
 TEST_P(KnownAnswersTest, EffortRateOfASine) {
   const auto problem = MassOnRail(0, {0, 0, -9.81});
   CostDescription rate;
-  rate.term = EffortRateCost{VectorX::Constant(1, 3.0), problem->effort_size()};
+  rate.term = RateCost{RateCost::Of::kEfforts, VectorX::Constant(1, 3.0)};
   problem->costs.push_back(std::move(rate));
   const auto error = [&](int pairs) {
     CollocationNlp nlp(*problem, GetParam(), UnevenMesh(pairs));

@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
 #define ROLLGAIT_TESTS_CORE_TRANSCRIPTION_PLANAR_REQUEST_H_
 
+#include <algorithm>
+
 #include "core/gait/gait_spec.h"
 
 namespace rollgait {
@@ -14,17 +16,24 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
   request.motion.duty_factor = GaitRequest::Range{0.55, 0.65};
   request.ground_contact.touch_down_point = GaitRequest::Range{-0.95, -0.2};
   request.ground_contact.lift_off_point = GaitRequest::Range{0.2, 0.95};
-  request.costs.push_back({GaitRequest::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
-  request.costs.push_back({GaitRequest::SquaredTorqueRate{}, 1e-3});
-  request.costs.push_back({GaitRequest::MechanicalWork{5.0}, 30.0});
-  request.costs.push_back({GaitRequest::Time{}, 100.0});
+  request.costs.push_back({cost::SquaredTorque{{{"hip_l", 2.0}}}, 1.0});
+  request.costs.push_back({cost::SquaredTorqueRate{}, 1e-3});
+  request.costs.push_back({cost::MechanicalWork{5.0}, 30.0});
+  request.costs.push_back({cost::Time{}, 100.0});
   request.costs.push_back(
-      {GaitRequest::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}}, 5e4});
-  request.costs.push_back({GaitRequest::MuscleEffort{3.0, {{"knee_r", 0.5}}}, 5e3});
-  request.costs.push_back({GaitRequest::MuscleWork{{}, {}, 5.0, {}}, 10.0});
-  request.costs.push_back({GaitRequest::PassiveLoad{}, 1e4});
-  request.costs.push_back({GaitRequest::SquaredAcceleration{{{"base_z", 0.5}}}, 0.1});
-  request.costs.push_back({GaitRequest::SquaredForceRate{}, 1e-3});
+      {cost::Tracking{{{"hip_l", {0.3, 0.2, -0.1, -0.3}, 2.0}, {"base_z", {0.9, 0.95}, 0.5}}}, 5e4});
+  request.costs.push_back({cost::MuscleEffort{3.0, {{"knee_r", 0.5}}}, 5e3});
+  request.costs.push_back({cost::MuscleWork{{}, {}, 5.0, {}}, 10.0});
+  request.costs.push_back({cost::PassiveLoad{}, 1e4});
+  request.costs.push_back({cost::SquaredAcceleration{{{"base_z", 0.5}}}, 0.1});
+  request.costs.push_back({cost::SquaredForceRate{}, 1e-3});
+  // Of a kind that is not among these, one with its defaults.
+  ForEachCost([&request]<typename Term>(const CostRow<Term>&) {
+    const bool given = std::any_of(request.costs.begin(), request.costs.end(), [](const GaitRequest::CostTerm& cost) {
+      return std::holds_alternative<Term>(cost.term);
+    });
+    if (!given) request.costs.push_back({Term{}, 1.0});
+  });
   return request;
 }
 

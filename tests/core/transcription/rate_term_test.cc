@@ -42,7 +42,7 @@ TEST_P(ForceRateTest, IsTheSumOverTheTrajectory) {
   GaitRequest request;
   request.body.model = GetParam();
   request.body.feet = FootShape::kTwoEllipsoids;
-  request.costs.push_back({GaitRequest::SquaredForceRate{}, 1.0});
+  request.costs.push_back({cost::SquaredForceRate{}, 1.0});
   const GaitSpec spec = CheckRequest(request).value();
   const auto problem = BuildProblem(spec);
   CollocationNlp nlp(*problem, Scheme::kRadau2, Mesh::Uniform({1, 2, 2, 1}));

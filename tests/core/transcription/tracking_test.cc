@@ -21,7 +21,7 @@ GaitRequest CoarseWalk() {
   request.discretization.single_support_intervals = 5;
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   request.accuracy.max_refinements = 0;
-  request.costs.push_back({GaitRequest::SquaredTorque{}, 1.0});
+  request.costs.push_back({cost::SquaredTorque{}, 1.0});
   return request;
 }
 
@@ -47,7 +47,7 @@ double WorstDeviation(const Trajectory& trajectory, int joint) {
 TEST(Tracking, ALargeWeightMakesTheWalkFollow) {
   const GaitRequest free_walk = CoarseWalk();
   GaitRequest tracking_walk = free_walk;
-  GaitRequest::Tracking tracking;
+  cost::Tracking tracking;
   tracking.channels.push_back({"base_pitch", {}, std::nullopt});
   for (int i = 0; i < kKnots; ++i) tracking.channels[0].positions.push_back(Lean(i / (kKnots - 1.0)));
   tracking_walk.costs.emplace_back().term = tracking;

@@ -179,26 +179,25 @@ TEST(DecodeRequest, EveryCostTermArrives) {
       costs { squared_force_rate {} weight: 13 })"))
                                   .value();
   ASSERT_EQ(request.costs.size(), 10u);
-  EXPECT_TRUE(std::holds_alternative<GaitRequest::SquaredForceRate>(request.costs[9].term));
+  EXPECT_TRUE(std::holds_alternative<cost::SquaredForceRate>(request.costs[9].term));
   EXPECT_EQ(request.costs[9].weight, 13);
-  const auto& effort = std::get<GaitRequest::MuscleEffort>(request.costs[5].term);
+  const auto& effort = std::get<cost::MuscleEffort>(request.costs[5].term);
   EXPECT_EQ(effort.exponent, 3);
   EXPECT_THAT(effort.joint_weights, ElementsAre(Pair("d", 9)));
-  const auto& work = std::get<GaitRequest::MuscleWork>(request.costs[6].term);
+  const auto& work = std::get<cost::MuscleWork>(request.costs[6].term);
   EXPECT_EQ(work.positive_efficiency, 0.2);
   EXPECT_EQ(work.negative_efficiency, 1.1);
   EXPECT_EQ(work.smoothing, 7);
   EXPECT_THAT(work.joint_weights, ElementsAre(Pair("e", 10)));
-  EXPECT_THAT(std::get<GaitRequest::PassiveLoad>(request.costs[7].term).joint_weights, ElementsAre(Pair("f", 11)));
-  EXPECT_THAT(std::get<GaitRequest::SquaredAcceleration>(request.costs[8].term).joint_weights,
-              ElementsAre(Pair("g", 12)));
+  EXPECT_THAT(std::get<cost::PassiveLoad>(request.costs[7].term).joint_weights, ElementsAre(Pair("f", 11)));
+  EXPECT_THAT(std::get<cost::SquaredAcceleration>(request.costs[8].term).joint_weights, ElementsAre(Pair("g", 12)));
   EXPECT_EQ(request.costs[0].weight, 3);
   EXPECT_FALSE(request.costs[1].weight);
-  EXPECT_THAT(std::get<GaitRequest::SquaredTorque>(request.costs[0].term).joint_weights, ElementsAre(Pair("a", 2)));
-  EXPECT_THAT(std::get<GaitRequest::SquaredTorqueRate>(request.costs[1].term).joint_weights, ElementsAre(Pair("b", 4)));
-  EXPECT_EQ(std::get<GaitRequest::MechanicalWork>(request.costs[2].term).smoothing, 5);
-  EXPECT_TRUE(std::holds_alternative<GaitRequest::Time>(request.costs[3].term));
-  const auto& channel = std::get<GaitRequest::Tracking>(request.costs[4].term).channels.at(0);
+  EXPECT_THAT(std::get<cost::SquaredTorque>(request.costs[0].term).joint_weights, ElementsAre(Pair("a", 2)));
+  EXPECT_THAT(std::get<cost::SquaredTorqueRate>(request.costs[1].term).joint_weights, ElementsAre(Pair("b", 4)));
+  EXPECT_EQ(std::get<cost::MechanicalWork>(request.costs[2].term).smoothing, 5);
+  EXPECT_TRUE(std::holds_alternative<cost::Time>(request.costs[3].term));
+  const auto& channel = std::get<cost::Tracking>(request.costs[4].term).channels.at(0);
   EXPECT_EQ(channel.joint, "c");
   EXPECT_THAT(channel.positions, ElementsAre(6, 7));
   EXPECT_EQ(channel.weight, 8);

@@ -80,27 +80,5 @@ TEST(SpellOut, RefusesWhatASolveRefuses) {
   EXPECT_EQ(spelled.violations()[0].field, "slope_rad");
 }
 
-TEST(EncodeCost, IsTheInverseOfDecodeCost) {
-  v1::CostTerm tracking, work, effort, mechanical;
-  v1::CostTerm::Tracking::Channel& channel = *tracking.mutable_tracking()->add_channels();
-  channel.set_joint("hip_l");
-  channel.add_positions(0.25);
-  channel.add_positions(0.5);
-  channel.set_weight(3);
-  tracking.set_weight(0.125);
-  work.mutable_muscle_work()->set_positive_efficiency(0.3);
-  work.mutable_muscle_work()->set_negative_efficiency(1.5);
-  work.mutable_muscle_work()->set_smoothing_w(7);
-  (*work.mutable_muscle_work()->mutable_joint_weights())["hip_l"] = 0.5;
-  effort.mutable_muscle_effort()->set_exponent(3);
-  mechanical.mutable_mechanical_work()->set_smoothing_w(2);
-  for (const v1::CostTerm& cost : {tracking, work, effort, mechanical}) {
-    Violations violations;
-    EXPECT_TRUE(MessageDifferencer::Equals(EncodeCost(DecodeCost("cost", cost, &violations)), cost))
-        << cost.DebugString();
-    EXPECT_TRUE(violations.empty());
-  }
-}
-
 }  // namespace
 }  // namespace rollgait::server
