@@ -18,11 +18,13 @@ KnownProblem Brachistochrone() {
   time.term = std::make_unique<TimeCost>();
   known.problem->costs.push_back(std::move(time));
   known.guess = StraightGuess({2}, {0, 0, 0, 0, 10, 0}, {10, 15, 10, 10, 5, 9}, {1});
-  known.runs = {
-      {Scheme::kRadau2, Mesh::Uniform({10}), 2, 3, false}, {Scheme::kHermiteSimpson, Mesh::Uniform({10}), 2, 4, false},
-      {Scheme::kRadau3, Mesh::Uniform({5}), 2, 5},         {Scheme::kLobatto4, Mesh::Uniform({3}), 2, 6},
-      {Scheme::kRadau4, Mesh::Uniform({2}), 2, 7},         {Scheme::kLobatto5, Mesh::Uniform({2}), 2, 8},
-      {Scheme::kRadau5, Mesh::Uniform({1}), 2}};
+  known.runs = {{Scheme::kRadau2, Mesh::Uniform({10}), 2, 3, false},
+                {Scheme::kHermiteSimpson, Mesh::Uniform({10}), 2, 4, false},
+                {Scheme::kRadau3, Mesh::Uniform({5}), 2, 5},
+                {Scheme::kLobatto4, Mesh::Uniform({3}), 2, 6},
+                {Scheme::kRadau4, Mesh::Uniform({2}), 2, 7},
+                {Scheme::kLobatto5, Mesh::Uniform({2}), 2, 8},
+                {Scheme::kRadau5, Mesh::Uniform({1}), 2}};
   return known;
 }
 
