@@ -22,9 +22,6 @@ constexpr char kLabel[] = "tradeoff";
 // Of the meshes on the way to the reference, and of its last one, which keeps 100 times that where it is only
 // acceptable.
 constexpr double kStepTolerance = 1e-6, kReferenceTolerance = 1e-8;
-constexpr double kFarAngle_deg = 1;    // A point further from the reference is followed to its own minimum.
-constexpr double kWellKnown = 0.5;     // of an error: how far the reference's two meshes may be apart
-constexpr double kOtherMinimum = 0.5;  // of a point's error that is left on the reference's mesh
 constexpr int kReferenceHalvings = 2;
 
 // Whether the solver came from the start it was given to a solution; only from an optimal one it may go on.
@@ -118,9 +115,8 @@ void FindMinima(Solver& solver, const v1::SolveSpec& task, const v1::SolveResult
   std::vector<TradeoffRow*> far;
   for (TradeoffRow& row : rows) {
     if (!row.errors) continue;
-    row.minimum = Minimum::kSame;
+    row.minimum = MinimumOf(row.errors->angle_deg, std::nullopt);
     if (row.errors->angle_deg <= kFarAngle_deg) continue;
-    row.minimum = Minimum::kUnknown;
     specs.push_back(Continued(task, row.point, {row.point.scheme, intervals, kStepTolerance}, row.solve.name()));
     far.push_back(&row);
   }
@@ -128,8 +124,8 @@ void FindMinima(Solver& solver, const v1::SolveSpec& task, const v1::SolveResult
   const std::vector<v1::Solve> solves = solver.Solve(specs, "far point");
   for (size_t i = 0; i < far.size(); ++i) {
     if (!IsReached(solves[i], false)) continue;
-    const double left_deg = ErrorsAgainst(reference, solves[i].result()).angle_deg;
-    far[i]->minimum = left_deg > kOtherMinimum * far[i]->errors->angle_deg ? Minimum::kOther : Minimum::kSame;
+    const double followed_deg = ErrorsAgainst(reference, solves[i].result()).angle_deg;
+    far[i]->minimum = MinimumOf(far[i]->errors->angle_deg, followed_deg);
   }
 }
 
@@ -184,7 +180,7 @@ ExitCode RunTradeoff(const TradeoffOptions& options, const GlobalOptions& global
     for (size_t i = 0; i < rows.size(); ++i) {
       if (!rows[i].is_optimal) continue;
       rows[i].errors = ErrorsAgainst(truth, solves[i].result());
-      rows[i].is_well_known = apart_deg <= kWellKnown * rows[i].errors->angle_deg;
+      rows[i].is_well_known = IsWellKnown(rows[i].errors->angle_deg, apart_deg);
     }
     FindMinima(solver, task, truth, finest->point.intervals << kReferenceHalvings, rows);
     MarkFront(rows);

@@ -12,10 +12,24 @@
 namespace rollgait::client {
 namespace {
 
+struct SchemeOrder {
+  v1::Discretization::Scheme scheme;
+  int order;
+};
+constexpr SchemeOrder kOrders[] = {{v1::Discretization::SCHEME_RADAU2, 3},
+                                   {v1::Discretization::SCHEME_RADAU3, 5},
+                                   {v1::Discretization::SCHEME_HERMITE_SIMPSON, 4}};
+
 constexpr double kLeastTolerance = 1e-12, kMostTolerance = 1e-2;  // of the service
 
 [[noreturn]] void Refuse(const std::string& flag, const std::string& text, const std::string& why) {
   throw Failure(ExitCode::kUsage, flag + " " + text + ": " + why);
+}
+
+std::string WordList() {
+  std::string list;
+  for (const auto& [word, scheme] : SchemeWords()) list += (list.empty() ? "" : ", ") + word;
+  return list;
 }
 
 std::vector<std::string> ParseSchemes(const std::string& text) {
@@ -23,11 +37,12 @@ std::vector<std::string> ParseSchemes(const std::string& text) {
   std::istringstream stream(text + ",");
   for (std::string word; std::getline(stream, word, ',');) {
     if (SchemeWords().count(word) == 0) {
-      Refuse("--scheme", text, "\"" + word + "\" must be radau2, radau3 or hermite-simpson");
+      Refuse("--scheme", text, "\"" + word + "\" must be one of " + WordList());
     }
     if (std::find(schemes.begin(), schemes.end(), word) != schemes.end()) {
       Refuse("--scheme", text, "has " + word + " twice");
     }
+    OrderOf(word);  // Refuses a scheme without a row.
     schemes.push_back(word);
   }
   return schemes;
@@ -86,14 +101,10 @@ v1::SolveSpec SpecOfPoint(v1::SolveSpec task, const TradeoffPoint& point) {
 }
 
 int OrderOf(const std::string& scheme) {
-  switch (SchemeWords().at(scheme)) {
-    case v1::Discretization::SCHEME_RADAU3:
-      return 5;
-    case v1::Discretization::SCHEME_HERMITE_SIMPSON:
-      return 4;
-    default:
-      return 3;
+  for (const SchemeOrder& row : kOrders) {
+    if (row.scheme == SchemeWords().at(scheme)) return row.order;
   }
+  throw Failure(ExitCode::kUsage, "--scheme " + scheme + ": tradeoff does not know its order");
 }
 
 }  // namespace rollgait::client

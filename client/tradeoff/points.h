@@ -28,7 +28,7 @@ std::vector<TradeoffPoint> MakeTradeoffPoints(const std::string& schemes, const 
 // it is a manoeuvre or names its own phases or a warm start.
 v1::SolveSpec SpecOfPoint(v1::SolveSpec task, const TradeoffPoint& point);
 
-// Order of the scheme at the end of an interval.
+// Order of the scheme at the end of an interval. Throws Failure(kUsage) for a scheme without a row in the table.
 int OrderOf(const std::string& scheme);
 
 }  // namespace rollgait::client

@@ -7,14 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "client/tradeoff/minimum.h"
 #include "client/tradeoff/points.h"
 #include "client/tradeoff/true_errors.h"
 #include "rollgait/v1/solve.pb.h"
 
 namespace rollgait::client {
-
-// Where a point lies as seen from the reference. kUnknown: it is far from it, and could not be followed to a fine mesh.
-enum class Minimum { kSame, kOther, kUnknown };
 
 struct TradeoffRow {
   TradeoffPoint point;
@@ -24,7 +22,7 @@ struct TradeoffRow {
   std::optional<TrueErrors> errors;     // none without a reference
   std::optional<TrueErrors> estimated;  // by the service, with --errors
   Minimum minimum = Minimum::kUnknown;
-  bool is_well_known = false;  // The two meshes of the reference differ by at most half of the angle's error.
+  bool is_well_known = false;  // the error of the angle
   bool is_on_front = false;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "client/failure.h"
+#include "client/spec_words.h"
 #include "client/text.h"
 #include "client/tradeoff/points.h"
 #include "client/tradeoff/tradeoff_table.h"
@@ -23,6 +24,7 @@ TEST(TradeoffPointsTest, AllCombinationsTheLastAxisFastest) {
   EXPECT_EQ(points[7].scheme, "radau2");
   EXPECT_EQ(points[7].intervals, 8);
   EXPECT_GT(OrderOf("radau3"), OrderOf("hermite-simpson"));
+  for (const auto& [word, scheme] : SchemeWords()) EXPECT_GE(OrderOf(word), 3) << word;
   EXPECT_GT(OrderOf("hermite-simpson"), OrderOf("radau2"));
 }
 
@@ -37,7 +39,8 @@ TEST(TradeoffPointsTest, WhatIsOutsideIsRefusedWithFlagAndLimit) {
     return std::string("accepted");
   };
   EXPECT_EQ(why("radau2", "250", "1e-12"), "accepted");
-  EXPECT_THAT(why("euler", "8", "1e-6"), HasSubstr("--scheme euler: \"euler\" must be radau2"));
+  EXPECT_THAT(why("euler", "8", "1e-6"),
+              HasSubstr("--scheme euler: \"euler\" must be one of hermite-simpson, radau2, radau3"));
   EXPECT_THAT(why("radau2,radau2", "8", "1e-6"), HasSubstr("--scheme"));
   EXPECT_THAT(why("radau2,", "8", "1e-6"), HasSubstr("--scheme"));
   EXPECT_THAT(why("radau2", "251", "1e-6"), HasSubstr("--intervals 251: 251 must be a whole number in [1, 250]"));
@@ -94,6 +97,15 @@ TEST(TradeoffErrorsTest, OtherPhasesAreRefused) {
   v1::SolveResult other = sample.result();
   other.mutable_trajectory()->mutable_phases()->RemoveLast();
   EXPECT_THROW(ErrorsAgainst(sample.result(), other), Failure);
+}
+
+TEST(TradeoffMinimumTest, AnotherOneKeepsMostOfTheError) {
+  EXPECT_EQ(MinimumOf(0.9, std::nullopt), Minimum::kSame) << "too near to be another one";
+  EXPECT_EQ(MinimumOf(1.1, std::nullopt), Minimum::kUnknown);
+  EXPECT_EQ(MinimumOf(8, 3.9), Minimum::kSame);
+  EXPECT_EQ(MinimumOf(8, 4.1), Minimum::kOther);
+  EXPECT_TRUE(IsWellKnown(0.4, 0.19));
+  EXPECT_FALSE(IsWellKnown(0.4, 0.21));
 }
 
 TradeoffRow RowAt(double cpu_time_s, double angle_deg) {
