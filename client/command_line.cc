@@ -105,6 +105,34 @@ void AddSweep(CLI::App& app, SweepOptions& options) {
       "not a success. Example: rollgait sweep --model planar --slope -10:10:5 --speed 1,1.3 --output hills");
 }
 
+void AddTradeoff(CLI::App& app, TradeoffOptions& options) {
+  CLI::App* const tradeoff =
+      app.add_subcommand("tradeoff", "CPU time against true error of one gait over schemes, meshes and tolerances");
+  AddSpecFlags(*tradeoff, options.spec);
+  for (const char* flag : {"--scheme", "--intervals", "--double-intervals", "--tolerance", "--max-refinements",
+                           "--errors", "--max-error", "--warm-start"}) {
+    tradeoff->remove_option(tradeoff->get_option(flag));
+  }
+  tradeoff->add_option("--scheme", options.schemes, "Schemes, separated by commas")
+      ->capture_default_str()
+      ->group("Grid");
+  tradeoff
+      ->add_option("--intervals", options.intervals, "Of single support: FROM:TO:STEP, or numbers separated by commas")
+      ->capture_default_str()
+      ->group("Grid");
+  tradeoff->add_option("--tolerance", options.tolerances, "Scaled KKT errors, separated by commas")
+      ->capture_default_str()
+      ->group("Grid");
+  tradeoff->add_flag("--errors", options.estimate_errors,
+                     "Also solve each point with the estimate of its errors; its time does not count");
+  tradeoff->add_option("-o,--output", options.output,
+                       "Write tradeoff.csv, tradeoff.json and tradeoff.html into this folder");
+  AddReconnect(*tradeoff, options.reconnect_s);
+  tradeoff->footer(
+      "Ctrl-C leaves the solves alone; the same command attaches to them.\n"
+      "Example: rollgait tradeoff --model planar --speed 1.3 --accuracy draft --scheme radau2,radau3 --output front");
+}
+
 void AddListFilters(CLI::App& command, ListFilter& filter) {
   AddRepeatedFlag(command, "--state", filter.states, "Only queued, running, succeeded, failed or cancelled", "state");
   CLI::Option* const tenant =
@@ -291,6 +319,7 @@ void AddCommandLine(CLI::App& app, Arguments& arguments) {
   AddGlobal(app, arguments.global);
   AddSolveCommands(app, arguments);
   AddSweep(app, arguments.sweep);
+  AddTradeoff(app, arguments.tradeoff);
   AddSceneCommands(app, arguments);
   AddOtherCommands(app, arguments);
 }

@@ -8,6 +8,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/simulation_commands.h"
 #include "client/commands/sweep.h"
+#include "client/commands/tradeoff.h"
 
 namespace CLI {
 class App;
@@ -27,6 +28,7 @@ struct Arguments {
   ViewOptions view;
   ReproducePaperOptions paper;
   SweepOptions sweep;
+  TradeoffOptions tradeoff;
   ModelsOptions models;
   CreateModelOptions created_model;
   ExportOptions exported;

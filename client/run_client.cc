@@ -7,6 +7,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/simulation_commands.h"
 #include "client/commands/sweep.h"
+#include "client/commands/tradeoff.h"
 #include "client/completion_scripts.h"
 #include "client/help_topics.h"
 #include "client/man_page.h"
@@ -47,6 +48,7 @@ ExitCode Run(const CLI::App& app, const Arguments& arguments, const Terminal& te
   const GlobalOptions& global = arguments.global;
   if (command == "solve") return RunSolve(arguments.solve, global, terminal);
   if (command == "sweep") return RunSweep(arguments.sweep, global, terminal);
+  if (command == "tradeoff") return RunTradeoff(arguments.tradeoff, global, terminal);
   if (command == "watch") return RunWatch(arguments.watch, global, terminal);
   if (command == "get") return RunGet(arguments.get, global, terminal);
   if (command == "list") return RunList(arguments.list, global, terminal);

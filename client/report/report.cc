@@ -68,4 +68,10 @@ std::string PageHtml(const std::vector<ReportedSolve>& solves, const std::string
   return Page(data, kReportPaperJs, "");
 }
 
+std::string TradeoffHtml(const nlohmann::json& tradeoff) {
+  nlohmann::json data = ReportData({}, "Time against error");
+  data["tradeoff"] = tradeoff;
+  return Page(data, kReportTradeoffJs, "");
+}
+
 }  // namespace rollgait::client

@@ -26,6 +26,9 @@ std::string LiveHtml(const v1::Solve& solve, const std::string& nonce);
 // The page that lays these solves beside the paper; `paper` as PaperData makes it.
 std::string PageHtml(const std::vector<ReportedSolve>& solves, const std::string& title, const nlohmann::json& paper);
 
+// The page of `rollgait tradeoff`; `tradeoff` as TradeoffJson makes it.
+std::string TradeoffHtml(const nlohmann::json& tradeoff);
+
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_REPORT_REPORT_H_

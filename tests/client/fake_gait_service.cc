@@ -106,6 +106,9 @@ grpc::Status FakeGaitService::Create(const v1::CreateSolveRequest& request, cons
   record.solve = SampleSolve("solves/" + id, request.spec().slope_rad());
   *record.solve.mutable_spec() = request.spec();
   *record.solve.mutable_labels() = request.labels();
+  if (!request.spec().warm_start().empty()) {
+    record.solve.mutable_result()->mutable_warm_started_from()->set_name(request.spec().warm_start());
+  }
   record.solve.set_priority(request.priority());
   v1::SolveEvent running = NewEvent(record.solve.name(), 1);
   running.mutable_state_change()->set_state(v1::SOLVE_STATE_RUNNING);

@@ -1,0 +1,205 @@
+#include "client/commands/tradeoff.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include "client/commands/follow.h"
+#include "client/output.h"
+#include "client/report/report.h"
+#include "client/sweep/batches.h"
+#include "client/sweep/folder.h"
+#include "client/sweep/leave.h"
+#include "client/sweep/request_digest.h"
+#include "client/sweep/solve_group.h"
+#include "client/text.h"
+#include "client/tradeoff/tradeoff_table.h"
+
+namespace rollgait::client {
+namespace {
+
+constexpr char kLabel[] = "tradeoff";
+// Of the meshes on the way to the reference, and of its last one, which keeps 100 times that where it is only
+// acceptable.
+constexpr double kStepTolerance = 1e-6, kReferenceTolerance = 1e-8;
+constexpr int kReferenceHalvings = 2;
+
+// Whether the solver came from the start it was given to a solution; only from an optimal one it may go on.
+bool IsReached(const v1::Solve& solve, bool goes_on) {
+  const v1::Termination end = solve.result().termination();
+  return solve.state() == v1::SOLVE_STATE_SUCCEEDED && solve.result().has_trajectory() &&
+         solve.result().has_warm_started_from() &&
+         (end == v1::TERMINATION_OPTIMAL || (!goes_on && end == v1::TERMINATION_ACCEPTABLE));
+}
+
+// Makes solves, or attaches to those that the same command made, and follows them to their ends.
+class Solver {
+ public:
+  Solver(Connection& connection, Progress& progress, Leave& leave, double reconnect_s, std::string name)
+      : connection_(connection),
+        progress_(progress),
+        leave_(leave),
+        reconnect_s_(reconnect_s),
+        name_(std::move(name)) {}
+
+  // The finished solves, in the order of the requests.
+  std::vector<v1::Solve> Solve(const std::vector<v1::SolveSpec>& specs, const std::string& what) {
+    std::vector<v1::CreateSolveRequest> requests(specs.size());
+    for (size_t i = 0; i < specs.size(); ++i) {
+      *requests[i].mutable_spec() = specs[i];
+      (*requests[i].mutable_labels())[kLabel] = name_;
+      requests[i].set_request_id("tradeoff-" + Digest(name_ + "\n" + Digest(BytesOf(specs[i]))));
+    }
+    std::vector<v1::Solve> solves =
+        CreateInBatches(connection_, requests, [this](double seconds) { leave_.Wait(seconds); });
+    size_t done = 0;
+    const auto on_event = [&](size_t place, const v1::SolveEvent& event) {
+      if (!event.has_finished()) return;
+      solves[place] = event.finished();
+      progress_.Note(what + " " + std::to_string(++done) + "/" + std::to_string(specs.size()) + ": " +
+                     event.finished().name() + " " + StateName(event.finished().state()));
+    };
+    FollowAll(connection_, std::vector<v1::Solve>(solves), reconnect_s_, leave_, on_event,
+              [this](const std::string& note) { progress_.Note(note); });
+    return solves;
+  }
+
+ private:
+  Connection& connection_;
+  Progress& progress_;
+  Leave& leave_;
+  const double reconnect_s_;
+  const std::string name_;
+};
+
+// The finest of the optimal points: of the highest order, then of most intervals, then of the least tolerance.
+const TradeoffRow* FinestOf(const std::vector<TradeoffRow>& rows) {
+  const auto rank = [](const TradeoffRow& row) {
+    return std::tuple(OrderOf(row.point.scheme), row.point.intervals, -row.point.tolerance);
+  };
+  const TradeoffRow* finest = nullptr;
+  for (const TradeoffRow& row : rows) {
+    if (row.is_optimal && (finest == nullptr || rank(*finest) < rank(row))) finest = &row;
+  }
+  return finest;
+}
+
+// The request of `from` on another mesh, from the solution `name`.
+v1::SolveSpec Continued(const v1::SolveSpec& task, const TradeoffPoint& from, const TradeoffPoint& to,
+                        const std::string& name) {
+  v1::SolveSpec spec = SpecOfPoint(task, {from.scheme, to.intervals, std::min(to.tolerance, from.tolerance)});
+  spec.set_warm_start(name);
+  return spec;
+}
+
+// The last two meshes of the reference, the finest last; empty if a step from one to the next fails.
+std::vector<v1::Solve> SolveReference(Solver& solver, const v1::SolveSpec& task, const TradeoffRow& finest) {
+  std::vector<v1::Solve> steps;
+  std::string from = finest.solve.name();
+  TradeoffPoint to = finest.point;
+  for (int i = 1; i <= kReferenceHalvings; ++i) {
+    const bool goes_on = i < kReferenceHalvings;
+    to.intervals *= 2;
+    to.tolerance = goes_on ? kStepTolerance : kReferenceTolerance;
+    steps.push_back(solver.Solve({Continued(task, finest.point, to, from)}, "reference").front());
+    if (!IsReached(steps.back(), goes_on)) return {};
+    from = steps.back().name();
+  }
+  return steps;
+}
+
+// Follows the points that are far from the reference to the reference's mesh.
+void FindMinima(Solver& solver, const v1::SolveSpec& task, const v1::SolveResult& reference, int intervals,
+                std::vector<TradeoffRow>& rows) {
+  std::vector<v1::SolveSpec> specs;
+  std::vector<TradeoffRow*> far;
+  for (TradeoffRow& row : rows) {
+    if (!row.errors) continue;
+    row.minimum = MinimumOf(row.errors->angle_deg, std::nullopt);
+    if (row.errors->angle_deg <= kFarAngle_deg) continue;
+    specs.push_back(Continued(task, row.point, {row.point.scheme, intervals, kStepTolerance}, row.solve.name()));
+    far.push_back(&row);
+  }
+  if (specs.empty()) return;
+  const std::vector<v1::Solve> solves = solver.Solve(specs, "far point");
+  for (size_t i = 0; i < far.size(); ++i) {
+    if (!IsReached(solves[i], false)) continue;
+    const double followed_deg = ErrorsAgainst(reference, solves[i].result()).angle_deg;
+    far[i]->minimum = MinimumOf(far[i]->errors->angle_deg, followed_deg);
+  }
+}
+
+ExitCode FirstFailure(const std::vector<v1::Solve>& solves) {
+  for (const v1::Solve& solve : solves) {
+    if (ExitCodeOf(solve) != ExitCode::kSuccess) return ExitCodeOf(solve);
+  }
+  return ExitCode::kSuccess;
+}
+
+void Write(const TradeoffOptions& options, const nlohmann::json& data, const std::vector<TradeoffRow>& rows,
+           const Terminal& terminal) {
+  const std::filesystem::path folder = options.output;
+  WriteDocument(TradeoffCsv(rows), (folder / "tradeoff.csv").string(), terminal.out);
+  WriteDocument(data.dump(2) + "\n", (folder / "tradeoff.json").string(), terminal.out);
+  WriteDocument(TradeoffHtml(data), (folder / "tradeoff.html").string(), terminal.out);
+}
+
+}  // namespace
+
+ExitCode RunTradeoff(const TradeoffOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  const v1::SolveSpec task = BuildSpec(options.spec);
+  const auto points = MakeTradeoffPoints(options.schemes, options.intervals, options.tolerances);
+  std::vector<v1::SolveSpec> specs, estimating;
+  std::string all;
+  for (const TradeoffPoint& point : points) {
+    specs.push_back(SpecOfPoint(task, point));
+    estimating.push_back(specs.back());
+    estimating.back().mutable_accuracy()->set_estimate_errors(true);
+    all += Digest(BytesOf(specs.back()));
+  }
+  const std::string name = Digest(all);
+  if (!options.output.empty()) MakeFolder("--output", options.output);
+
+  Progress progress(terminal, global.json || global.quiet ? Progress::Style::kSilent : ProgressStyle(global, terminal));
+  Leave leave(progress);
+  Connection connection(global);
+  Solver solver(connection, progress, leave, options.reconnect_s, name);
+  const std::vector<v1::Solve> solves = solver.Solve(specs, "point");
+  std::vector<TradeoffRow> rows;
+  for (size_t i = 0; i < points.size(); ++i) rows.push_back(RowOfPoint(points[i], solves[i]));
+  if (options.estimate_errors) {
+    const std::vector<v1::Solve> twins = solver.Solve(estimating, "estimate");
+    for (size_t i = 0; i < rows.size(); ++i) rows[i].estimated = EstimateOf(twins[i].result());
+  }
+  const TradeoffRow* const finest = FinestOf(rows);
+  std::vector<v1::Solve> reference;
+  if (finest != nullptr) reference = SolveReference(solver, task, *finest);
+  if (!reference.empty()) {
+    const v1::SolveResult& truth = reference.back().result();
+    const double apart_deg = ErrorsAgainst(truth, reference.front().result()).angle_deg;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i].is_optimal) continue;
+      rows[i].errors = ErrorsAgainst(truth, solves[i].result());
+      rows[i].is_well_known = IsWellKnown(rows[i].errors->angle_deg, apart_deg);
+    }
+    FindMinima(solver, task, truth, finest->point.intervals << kReferenceHalvings, rows);
+    MarkFront(rows);
+  }
+  progress.End();
+  const auto data = TradeoffJson(name, reference.empty() ? "" : reference.back().name(), rows);
+  if (!options.output.empty()) Write(options, data, rows, terminal);
+  if (global.json) {
+    terminal.out << data.dump() << std::endl;
+  } else if (!global.quiet) {
+    terminal.out << TradeoffText(rows) << std::flush;
+  }
+  if (reference.empty()) {
+    throw Failure(ExitCode::kNoSolution,
+                  finest == nullptr ? "tradeoff: no point is optimal, so there is no reference and no error is known"
+                                    : "tradeoff: the reference was not reached from " + finest->solve.name() +
+                                          ", so no error is known; try a finer mesh in --intervals");
+  }
+  return FirstFailure(solves);
+}
+
+}  // namespace rollgait::client
