@@ -20,7 +20,7 @@ constexpr int kThreadsOfAKind = 4;
 constexpr int kIterations = 200;  // of a solve: two seconds
 constexpr int kBatch = 256;
 constexpr size_t kModelBytes = 200'000;
-constexpr int kUnreadConnections = 50, kUnreadStreams = 1000;
+constexpr int kUnreadConnections = 4, kUnreadStreams = 1000;
 
 struct Material {
   const v1::Model& model;
@@ -122,6 +122,7 @@ constexpr std::array kKinds = {Kind{"CreateSolve", FillQueue},
                                Kind{"CreateModel", FillStorage},
                                Kind{"ListSolves", List},
                                Kind{"Simulate", Simulate}};
+constexpr char kUnreadName[] = "unread answers";
 constexpr std::array kUnread = {"unread_results", "unread_watches"};
 
 }  // namespace
@@ -144,10 +145,14 @@ HostileTenant::HostileTenant(Options options) : options_(std::move(options)), co
 void HostileTenant::Attack(double seconds) {
   stopping_ = false;
   std::vector<std::thread> threads;
+  const auto chosen = [this](const std::string& name) { return options_.only.empty() || options_.only == name; };
   for (size_t kind = 0; kind < kKinds.size(); ++kind) {
+    if (!chosen(kKinds[kind].name)) continue;
     for (int i = 0; i < kThreadsOfAKind; ++i) threads.emplace_back([this, kind] { Repeat(kind); });
   }
-  for (const char* attack : kUnread) threads.emplace_back([this, attack, seconds] { LeaveUnread(attack, seconds); });
+  for (const char* attack : kUnread) {
+    if (chosen(kUnreadName)) threads.emplace_back([this, attack, seconds] { LeaveUnread(attack, seconds); });
+  }
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   stopping_ = true;
   for (std::thread& thread : threads) thread.join();
@@ -185,7 +190,9 @@ std::vector<HostileTenant::Tally> HostileTenant::tallies() const {
   for (size_t kind = 0; kind < kKinds.size(); ++kind) {
     tallies.push_back({kKinds[kind].name, counts_[kind].served, counts_[kind].refused});
   }
-  tallies.push_back({"answers never read", unread_, 0});
+  tallies.push_back({kUnreadName, unread_, 0});
+  if (!options_.only.empty())
+    std::erase_if(tallies, [this](const Tally& tally) { return tally.name != options_.only; });
   return tallies;
 }
 

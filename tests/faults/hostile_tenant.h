@@ -23,6 +23,7 @@ class HostileTenant {
     std::string address, token;
     std::string token_file;  // with the same token
     std::string solve;       // "solves/{id}", a finished one of its own
+    std::string only;        // the one attack to make; empty: all
   };
   // Of one kind of attack.
   struct Tally {
@@ -33,7 +34,7 @@ class HostileTenant {
   explicit HostileTenant(Options options);
   // Attacks for so many seconds; returns when all has ended.
   void Attack(double seconds);
-  // Of all attacks so far. One that was never served has attacked nothing.
+  // Of the attacks so far. One that was never served has attacked nothing.
   std::vector<Tally> tallies() const;
 
  private:

@@ -216,6 +216,7 @@ struct Options {
   double seconds = 10;
   double floor_ms = 0;
   int most_running = 3;
+  std::string only;
 };
 
 // Prints a row for each measure. False: one is above its bound.
@@ -262,7 +263,7 @@ int Run(const Options& options) {
   const std::string hostile_token = token("hostile"), token_file = directory.path() + "/token";
   std::ofstream(token_file) << hostile_token;
   const GoodTenant first(server.address(), hostile_token);  // makes a solve for answers that are not read
-  HostileTenant hostile({server.address(), hostile_token, token_file, first.solve()});
+  HostileTenant hostile({server.address(), hostile_token, token_file, first.solve(), options.only});
 
   good.Run(1);  // connections, caches
   std::vector<Phase> alone, attacked;
@@ -307,6 +308,7 @@ int Main(int argc, char** argv) {
   app.add_option("--max-running", options.most_running, "Solves of a tenant that run at once, of 4")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
+  app.add_option("--only", options.only, "One attack alone, by its name in the last lines");
   CLI11_PARSE(app, argc, argv);
   try {
     return Run(options);
