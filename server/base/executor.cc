@@ -20,7 +20,9 @@ Executor::~Executor() { Stop(); }
 size_t Executor::MostActive(const std::string& lane) const {
   if (lane.empty()) return thread_count_;
   const bool shared = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
-  return std::max<size_t>(1, thread_count_ / (shared ? 4 : 2));
+  const size_t most =
+      shared ? std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2) : thread_count_ / 2;
+  return std::max<size_t>(1, most);
 }
 
 void Executor::Offer(Lanes::iterator lane) {
