@@ -86,7 +86,7 @@ int Quotas::watches(const std::string& tenant) const {
 }
 
 Outcome<std::shared_ptr<void>> Backpressure::Enter(const std::string& lane) {
-  const int most_of_lane = lane.empty() ? most_at_once_ : (most_at_once_ + 1) / 2;
+  const int most_of_lane = lane.empty() ? most_at_once_ : (3 * most_at_once_ + 3) / 4;
   const std::lock_guard<std::mutex> lock(inside_->mutex);
   const auto known = inside_->of.find(lane);
   const bool lane_is_full = known != inside_->of.end() && known->second >= most_of_lane;

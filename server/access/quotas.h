@@ -59,8 +59,8 @@ class Backpressure {
  public:
   explicit Backpressure(int most_at_once) : most_at_once_(most_at_once) {}
 
-  // A place for one call until the hold is released; a lane with a name (Gatekeeper::LaneOf) has at most half of the
-  // places. kResourceExhausted.
+  // A place for one call until the hold is released; a lane with a name (Gatekeeper::LaneOf) has at most three
+  // quarters of the places. kResourceExhausted.
   Outcome<std::shared_ptr<void>> Enter(const std::string& lane = "");
 
  private:

@@ -21,7 +21,7 @@ size_t Executor::MostActive(const std::string& lane) const {
   if (lane.empty()) return thread_count_;
   const bool shared = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
   const size_t most =
-      shared ? std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2) : thread_count_ / 2;
+      shared ? std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2) : thread_count_ * 3 / 4;
   return std::max<size_t>(1, most);
 }
 

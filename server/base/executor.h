@@ -16,8 +16,9 @@
 namespace rollgait::server {
 
 // A few threads that run tasks. For work that may block, which a gRPC reaction may not. Tasks of one lane start in the
-// order they came; lanes that wait take turns. A lane with a name has at most half of the threads, a quarter while
-// tasks of several lanes come, and half of the places to wait, so that whoever fills it leaves the rest to others.
+// order they came; lanes that wait take turns. A lane with a name has at most three quarters of the threads (while
+// tasks of several lanes come a quarter, and no more than half as many as there are cores, at least one) and half of
+// the places to wait, so that whoever fills it leaves the rest to others.
 class Executor {
  public:
   // `capacity` bounds the tasks that TryPost lets wait.

@@ -60,7 +60,7 @@ TEST(ExecutorTest, ALaneLeavesThreadsToOthers) {
   EXPECT_EQ(ran.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
   gate.set_value();
   EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
-  EXPECT_LE(most, 4);
+  EXPECT_LE(most, 6);
 }
 
 TEST(ExecutorTest, LanesThatWaitTakeTurns) {
