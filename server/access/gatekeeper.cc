@@ -13,6 +13,8 @@ namespace {
 constexpr char kBearer[] = "Bearer ";
 constexpr double kAuditedRefusalsPerSecond = 2;
 constexpr size_t kMostKnownLimits = 10'000;
+constexpr size_t kMostKnownTokens = 10'000;
+constexpr char kLaneOfStrangers[] = "?";  // no tenant's name
 
 Error Unauthenticated(const std::string& message) { return {ErrorCode::kUnauthenticated, message}; }
 
@@ -78,7 +80,7 @@ Gatekeeper::~Gatekeeper() {
   if (watcher_.joinable()) watcher_.join();
 }
 
-Outcome<std::shared_ptr<void>> Gatekeeper::Check(const MethodRule& rule) {
+Outcome<std::shared_ptr<void>> Gatekeeper::Check(const MethodRule& rule, const std::string& lane) {
   if (draining_) {
     return Error{ErrorCode::kUnavailable,
                  "the server is stopping; call again, another one or this one will answer",
@@ -86,7 +88,7 @@ Outcome<std::shared_ptr<void>> Gatekeeper::Check(const MethodRule& rule) {
                  std::chrono::milliseconds(1000)};
   }
   if (!rule.creates) return std::shared_ptr<void>();
-  return backpressure_.Enter();
+  return backpressure_.Enter(lane);
 }
 
 Outcome<std::shared_ptr<Admission>> Gatekeeper::Admit(const MethodRule& rule, const Presented& presented,
@@ -152,6 +154,20 @@ Outcome<Caller> Gatekeeper::Identify(const Presented& presented) {
   return caller;
 }
 
+std::string Gatekeeper::LaneOf(const Presented& presented) {
+  if (!options_.require_identity) return "";
+  if (presented.authorization.empty()) {
+    return presented.certificate_name.empty() ? kLaneOfStrangers : presented.certificate_name;
+  }
+  if (!StartsWithBearer(presented.authorization)) return kLaneOfStrangers;
+  const std::optional<Token> token =
+      Token::Parse(std::string_view(presented.authorization).substr(sizeof(kBearer) - 1));
+  if (!token) return kLaneOfStrangers;
+  const std::lock_guard<std::mutex> lock(lanes_mutex_);
+  const auto known = tenants_of_tokens_.find(token->Hash());
+  return known == tenants_of_tokens_.end() ? kLaneOfStrangers : known->second;
+}
+
 Outcome<Caller> Gatekeeper::ByToken(const Presented& presented) {
   if (!StartsWithBearer(presented.authorization)) return NoSuchToken();
   const std::optional<Token> token =
@@ -168,6 +184,11 @@ Outcome<Caller> Gatekeeper::ByToken(const Presented& presented) {
   caller.identity = known.id;
   caller.peer = presented.peer;
   caller.traceparent = presented.traceparent;
+  {
+    const std::lock_guard<std::mutex> lock(lanes_mutex_);
+    if (tenants_of_tokens_.size() >= kMostKnownTokens) tenants_of_tokens_.clear();
+    tenants_of_tokens_[token->Hash()] = known.tenant;
+  }
   caller.scopes = (known.scopes & kScopeAdmin) != 0 ? static_cast<unsigned>(kAllScopes) : known.scopes;
   return caller;
 }

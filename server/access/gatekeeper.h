@@ -80,7 +80,11 @@ class Gatekeeper {
 
   // What can be refused without knowing the caller: kUnavailable while draining, kResourceExhausted. The hold goes to
   // Admit.
-  Outcome<std::shared_ptr<void>> Check(const MethodRule& rule);
+  Outcome<std::shared_ptr<void>> Check(const MethodRule& rule, const std::string& lane = "");
+  // Whose turns a call takes before its caller is known: those of the tenant whose token it shows, or whose
+  // certificate. A token that has not been admitted before shares a lane with all such. Empty: nobody is asked who
+  // calls. Does not block.
+  std::string LaneOf(const Presented& presented);
   // kUnauthenticated, kPermissionDenied, kResourceExhausted (a quota), kUnavailable (the store).
   Outcome<std::shared_ptr<Admission>> Admit(const MethodRule& rule, const Presented& presented,
                                             std::shared_ptr<void> place);
@@ -120,6 +124,9 @@ class Gatekeeper {
 
   std::mutex limits_mutex_;
   std::map<std::string, KnownLimits> known_limits_;
+
+  std::mutex lanes_mutex_;
+  std::map<std::string, std::string> tenants_of_tokens_;  // by the hash of the token
 
   std::mutex audit_mutex_;
   Quotas refusals_;

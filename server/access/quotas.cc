@@ -85,17 +85,29 @@ int Quotas::watches(const std::string& tenant) const {
   return place == watches_->of.end() ? 0 : place->second;
 }
 
-Outcome<std::shared_ptr<void>> Backpressure::Enter() {
-  if (inside_->fetch_add(1) >= most_at_once_) {
-    inside_->fetch_sub(1);
+Outcome<std::shared_ptr<void>> Backpressure::Enter(const std::string& lane) {
+  const int most_of_lane = lane.empty() ? most_at_once_ : (3 * most_at_once_ + 3) / 4;
+  const std::lock_guard<std::mutex> lock(inside_->mutex);
+  const auto known = inside_->of.find(lane);
+  const bool lane_is_full = known != inside_->of.end() && known->second >= most_of_lane;
+  if (inside_->all >= most_at_once_ || lane_is_full) {
+    const bool of_caller = lane_is_full && most_of_lane < most_at_once_;
     return Error{ErrorCode::kResourceExhausted,
-                 "the server is answering " + std::to_string(most_at_once_) +
-                     " calls that make work, the most it does at once; "
+                 "the server is answering " + std::to_string(of_caller ? most_of_lane : most_at_once_) +
+                     " calls that make work" + (of_caller ? " of the same tenant" : "") +
+                     ", the most it does at once; "
                      "try again later",
                  {},
                  std::chrono::milliseconds(500)};
   }
-  return std::shared_ptr<void>(nullptr, [inside = inside_](void*) { inside->fetch_sub(1); });
+  ++inside_->all;
+  ++inside_->of[lane];
+  return std::shared_ptr<void>(nullptr, [inside = inside_, lane](void*) {
+    const std::lock_guard<std::mutex> leaving(inside->mutex);
+    --inside->all;
+    const auto mine = inside->of.find(lane);
+    if (--mine->second == 0) inside->of.erase(mine);
+  });
 }
 
 }  // namespace rollgait::server

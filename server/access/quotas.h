@@ -1,7 +1,6 @@
 #ifndef ROLLGAIT_SERVER_ACCESS_QUOTAS_H_
 #define ROLLGAIT_SERVER_ACCESS_QUOTAS_H_
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -60,12 +59,19 @@ class Backpressure {
  public:
   explicit Backpressure(int most_at_once) : most_at_once_(most_at_once) {}
 
-  // A place for one call until the hold is released. kResourceExhausted.
-  Outcome<std::shared_ptr<void>> Enter();
+  // A place for one call until the hold is released; a lane with a name (Gatekeeper::LaneOf) has at most three
+  // quarters of the places. kResourceExhausted.
+  Outcome<std::shared_ptr<void>> Enter(const std::string& lane = "");
 
  private:
+  // Calls that are being answered.
+  struct Inside {
+    std::mutex mutex;
+    int all = 0;
+    std::map<std::string, int> of;
+  };
   const int most_at_once_;
-  const std::shared_ptr<std::atomic<int>> inside_ = std::make_shared<std::atomic<int>>(0);
+  const std::shared_ptr<Inside> inside_ = std::make_shared<Inside>();
 };
 
 }  // namespace rollgait::server

@@ -1,33 +1,65 @@
 #include "server/base/executor.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rollgait::server {
+namespace {
 
-Executor::Executor(int threads, size_t capacity) : capacity_(capacity) {
+// For so long after tasks of two lanes came one after the other, lanes are taken to share the threads.
+constexpr std::chrono::seconds kShared{1};
+
+}  // namespace
+
+Executor::Executor(int threads, size_t capacity) : capacity_(capacity), thread_count_(static_cast<size_t>(threads)) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { Work(); });
 }
 
 Executor::~Executor() { Stop(); }
 
-bool Executor::TryPost(std::function<void()> task) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (stopping_ || tasks_.size() >= capacity_) return false;
-  tasks_.push_back(std::move(task));
+size_t Executor::MostActive(const std::string& lane) const {
+  if (lane.empty()) return thread_count_;
+  const bool shared = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
+  const size_t most =
+      shared ? std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2) : thread_count_ * 3 / 4;
+  return std::max<size_t>(1, most);
+}
+
+void Executor::Offer(Lanes::iterator lane) {
+  Lane& of = lane->second;
+  if (of.has_turn || of.tasks.empty() || of.active >= MostActive(lane->first)) return;
+  of.has_turn = true;
+  turns_.push_back(lane);
   wake_.notify_one();
+}
+
+void Executor::Add(const std::string& lane, std::function<void()> task) {
+  if (lane != newest_lane_ && !newest_lane_.empty()) lanes_differed_ = std::chrono::steady_clock::now();
+  newest_lane_ = lane;
+  const Lanes::iterator place = lanes_.try_emplace(lane).first;
+  place->second.tasks.push_back(std::move(task));
+  ++waiting_;
+  Offer(place);
+}
+
+bool Executor::TryPost(const std::string& lane, std::function<void()> task) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stopping_ || waiting_ >= capacity_) return false;
+  const auto known = lanes_.find(lane);
+  if (!lane.empty() && known != lanes_.end() && known->second.tasks.size() >= (capacity_ + 1) / 2) return false;
+  Add(lane, std::move(task));
   return true;
 }
 
-void Executor::Post(std::function<void()> task) {
+void Executor::Post(const std::string& lane, std::function<void()> task) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_) return;
-  tasks_.push_back(std::move(task));
-  wake_.notify_one();
+  Add(lane, std::move(task));
 }
 
 bool Executor::WaitIdle(std::chrono::milliseconds at_most) {
   std::unique_lock<std::mutex> lock(mutex_);
-  return idle_.wait_for(lock, at_most, [this] { return tasks_.empty() && active_ == 0; });
+  return idle_.wait_for(lock, at_most, [this] { return waiting_ == 0 && active_ == 0; });
 }
 
 void Executor::Stop() {
@@ -46,18 +78,27 @@ void Executor::Stop() {
 void Executor::Work() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    wake_.wait(lock, [this] { return !tasks_.empty() || (stopping_ && active_ == 0); });
-    if (tasks_.empty()) return;
-    std::function<void()> task = std::move(tasks_.front());
-    tasks_.pop_front();
+    wake_.wait(lock, [this] { return !turns_.empty() || (stopping_ && active_ == 0); });
+    if (turns_.empty()) return;
+    const Lanes::iterator lane = turns_.front();
+    turns_.pop_front();
+    lane->second.has_turn = false;
+    std::function<void()> task = std::move(lane->second.tasks.front());
+    lane->second.tasks.pop_front();
+    --waiting_;
     ++active_;
+    ++lane->second.active;
+    Offer(lane);  // behind the others
     lock.unlock();
     task();
     task = nullptr;  // what it holds is released here, not under the lock
     lock.lock();
     --active_;
+    --lane->second.active;
+    Offer(lane);
+    if (lane->second.active == 0 && lane->second.tasks.empty()) lanes_.erase(lane);
     if (stopping_) wake_.notify_all();
-    if (active_ == 0 && tasks_.empty()) idle_.notify_all();
+    if (active_ == 0 && waiting_ == 0) idle_.notify_all();
   }
 }
 

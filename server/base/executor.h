@@ -6,13 +6,19 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace rollgait::server {
 
-// A few threads that run tasks in the order they came. For work that may block, which a gRPC reaction may not.
+// A few threads that run tasks. For work that may block, which a gRPC reaction may not. Tasks of one lane start in the
+// order they came; lanes that wait take turns. A lane with a name has at most three quarters of the threads (while
+// tasks of several lanes come a quarter, and no more than half as many as there are cores, at least one) and half of
+// the places to wait, so that whoever fills it leaves the rest to others.
 class Executor {
  public:
   // `capacity` bounds the tasks that TryPost lets wait.
@@ -23,21 +29,39 @@ class Executor {
   ~Executor();
 
   // False: too many wait; the task was not taken.
-  [[nodiscard]] bool TryPost(std::function<void()> task);
+  [[nodiscard]] bool TryPost(const std::string& lane, std::function<void()> task);
+  [[nodiscard]] bool TryPost(std::function<void()> task) { return TryPost("", std::move(task)); }
   // Always takes the task: for work that has been accepted before. After Stop it is dropped.
-  void Post(std::function<void()> task);
+  void Post(const std::string& lane, std::function<void()> task);
+  void Post(std::function<void()> task) { Post("", std::move(task)); }
   // Waits until nothing waits or runs, at most so long. False: there is still something.
   bool WaitIdle(std::chrono::milliseconds at_most);
   // Runs what waits, then joins. Tasks posted by tasks still run.
   void Stop();
 
  private:
-  void Work();
+  struct Lane {
+    std::deque<std::function<void()>> tasks;
+    size_t active = 0;
+    bool has_turn = false;  // it is in turns_
+  };
+  using Lanes = std::map<std::string, Lane>;
 
-  const size_t capacity_;
+  void Work();
+  // These need the lock.
+  void Add(const std::string& lane, std::function<void()> task);
+  size_t MostActive(const std::string& lane) const;
+  // Gives the lane a turn if it has none, has tasks and may have one more thread.
+  void Offer(Lanes::iterator lane);
+
+  const size_t capacity_, thread_count_;
   std::mutex mutex_;
   std::condition_variable wake_, idle_;
-  std::deque<std::function<void()>> tasks_;
+  Lanes lanes_;  // that have tasks, waiting or running
+  std::deque<Lanes::iterator> turns_;
+  size_t waiting_ = 0;
+  std::string newest_lane_;
+  std::chrono::steady_clock::time_point lanes_differed_{};  // when a task came of another lane than the one before
   bool stopping_ = false, stopped_ = false;
   size_t active_ = 0;
   std::vector<std::thread> threads_;

@@ -47,52 +47,55 @@ Error TooManyCalls() {
 
 }  // namespace
 
-Outcome<GaitServiceRpc::Admit> GaitServiceRpc::Enter(const MethodRule& rule,
+Outcome<GaitServiceRpc::Entry> GaitServiceRpc::Enter(const MethodRule& rule,
                                                      const grpc::CallbackServerContext& context) {
-  Outcome<std::shared_ptr<void>> place = gatekeeper_.Check(rule);
-  if (!place.ok()) return place.error();
   Outcome<Presented> identity = ReadIdentity(context, identity_source_);
   if (!identity.ok()) return identity.error();
   Presented presented = std::move(identity).value();
+  std::string lane = gatekeeper_.LaneOf(presented);
+  Outcome<std::shared_ptr<void>> place = gatekeeper_.Check(rule, lane);
+  if (!place.ok()) return place.error();
   std::shared_ptr<CallRecord> record = RecordOf(context);
   if (record != nullptr) presented.traceparent = record->origin().traceparent;
-  return Admit([this, &rule, presented = std::move(presented), held = std::move(place).value(),
-                record = std::move(record)]() mutable {
+  Admit admit([this, &rule, presented = std::move(presented), held = std::move(place).value(),
+               record = std::move(record)]() mutable {
     Outcome<std::shared_ptr<Admission>> admitted = gatekeeper_.Admit(rule, presented, std::exchange(held, nullptr));
     if (admitted.ok() && record != nullptr) {
       record->SetCaller(admitted.value()->caller().tenant, admitted.value()->caller().identity);
     }
     return admitted;
   });
+  return Entry{std::move(admit), std::move(lane)};
 }
 
 template <typename Serve>
 grpc::ServerUnaryReactor* GaitServiceRpc::AnswerBy(const MethodRule& rule, grpc::CallbackServerContext* context,
                                                    Serve serve) {
   auto* const reactor = new UnaryCall;  // deletes itself
-  Outcome<Admit> admit = Enter(rule, *context);
-  if (!admit.ok()) {
-    reactor->Finish(Report(PeerOf(*context), admit.error()));
+  Outcome<Entry> entry = Enter(rule, *context);
+  if (!entry.ok()) {
+    reactor->Finish(Report(PeerOf(*context), entry.error()));
     return reactor;
   }
-  const bool taken = executor_.TryPost([decide = std::move(admit).value(), context, reactor, serve = std::move(serve)] {
-    const Outcome<std::shared_ptr<Admission>> admitted = decide();
-    const LogFields fields = FieldsOf(*context);
-    const LogScope scope(fields);
-    if (!admitted.ok()) {
-      reactor->Finish(Report(PeerOf(*context), admitted.error()));
-      return;
-    }
-    Admission& admission = *admitted.value();
-    reactor->Keep(admitted.value());
-    const Outcome<Done> served = serve(admission);
-    admission.WorkIsMade();
-    if (served.ok()) {
-      reactor->Finish(grpc::Status::OK);
-    } else {
-      reactor->Finish(Report(PeerOf(*context), served.error()));
-    }
-  });
+  const bool taken = executor_.TryPost(
+      entry.value().lane, [decide = std::move(entry.value().admit), context, reactor, serve = std::move(serve)] {
+        const Outcome<std::shared_ptr<Admission>> admitted = decide();
+        const LogFields fields = FieldsOf(*context);
+        const LogScope scope(fields);
+        if (!admitted.ok()) {
+          reactor->Finish(Report(PeerOf(*context), admitted.error()));
+          return;
+        }
+        Admission& admission = *admitted.value();
+        reactor->Keep(admitted.value());
+        const Outcome<Done> served = serve(admission);
+        admission.WorkIsMade();
+        if (served.ok()) {
+          reactor->Finish(grpc::Status::OK);
+        } else {
+          reactor->Finish(Report(PeerOf(*context), served.error()));
+        }
+      });
   if (!taken) reactor->Finish(ToStatus(TooManyCalls()));
   return reactor;
 }
@@ -120,12 +123,13 @@ grpc::ServerWriteReactor<v1::SolveEvent>* GaitServiceRpc::Stream(const MethodRul
                                                                  grpc::CallbackServerContext* context,
                                                                  WatchStream::Find find, bool cancel_on_disconnect) {
   WatchStream::Plan plan;
-  Outcome<Admit> admit = Enter(rule, *context);
-  if (!admit.ok()) {
-    plan.refusal = admit.error();
+  Outcome<Entry> entry = Enter(rule, *context);
+  if (!entry.ok()) {
+    plan.refusal = entry.error();
     return WatchStream::Start(executor_, hub_, slow_write_, context, std::move(plan));
   }
-  plan.admit = std::move(admit).value();
+  plan.admit = std::move(entry.value().admit);
+  plan.lane = std::move(entry.value().lane);
   plan.find = std::move(find);
   if (cancel_on_disconnect) {
     plan.on_disconnect = [this](const Caller& caller, const std::string& id) {
@@ -273,9 +277,10 @@ grpc::ServerUnaryReactor* GaitServiceRpc::GetServerInfo(grpc::CallbackServerCont
 grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulation(const MethodRule& rule,
                                                                             grpc::CallbackServerContext* context,
                                                                             wire::SimulatorRequest request) {
-  Outcome<Admit> admit = Enter(rule, *context);
-  if (!admit.ok()) return SimulationStream::Refuse(simulations_, context, admit.error());
-  return SimulationStream::Start(simulations_, executor_, context, std::move(request), std::move(admit).value());
+  Outcome<Entry> entry = Enter(rule, *context);
+  if (!entry.ok()) return SimulationStream::Refuse(simulations_, context, entry.error());
+  return SimulationStream::Start(simulations_, executor_, context, std::move(request), std::move(entry.value().admit),
+                                 entry.value().lane);
 }
 
 grpc::ServerWriteReactor<v1::SimulationMessage>* GaitServiceRpc::Simulate(grpc::CallbackServerContext* context,

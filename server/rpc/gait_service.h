@@ -75,7 +75,11 @@ class GaitServiceRpc final : public v1::GaitService::WithRawCallbackMethod_GetSo
   using Admit = std::function<Outcome<std::shared_ptr<Admission>>()>;
 
   // The first half of the decision; an error of the gatekeeper becomes the answer of the second.
-  Outcome<Admit> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
+  struct Entry {
+    Admit admit;
+    std::string lane;  // of the executor
+  };
+  Outcome<Entry> Enter(const MethodRule& rule, const grpc::CallbackServerContext& context);
   // Answers a unary call: `serve` is called on the executor with the admission, whose budget it asks, fills
   // the response and returns Outcome<Done>. The admission lasts until gRPC has written the answer.
   template <typename Serve>

@@ -51,10 +51,10 @@ Violations CheckRequest(const wire::SimulatorRequest& request) {
 
 SimulationStream* SimulationStream::Start(SimulationHost& host, Executor& executor,
                                           grpc::CallbackServerContext* context, wire::SimulatorRequest request,
-                                          Admit admit) {
+                                          Admit admit, const std::string& lane) {
   std::shared_ptr<SimulationStream> stream(new SimulationStream(host, context, std::move(request)));
   stream->self_ = stream;
-  if (!executor.TryPost([stream, admit = std::move(admit)] { stream->Launch(admit); })) {
+  if (!executor.TryPost(lane, [stream, admit = std::move(admit)] { stream->Launch(admit); })) {
     const std::lock_guard<std::mutex> lock(stream->mutex_);
     stream->End(ToStatus({ErrorCode::kResourceExhausted,
                           "the server has too many calls to answer; try again later",

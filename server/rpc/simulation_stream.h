@@ -27,9 +27,9 @@ class SimulationStream : public grpc::ServerWriteReactor<v1::SimulationMessage>,
   using Admit = std::function<Outcome<std::shared_ptr<Admission>>()>;
 
   // Starts the stream; it deletes itself when gRPC is done with it. Host and executor outlive it.
-  // `admit` runs on the executor and decides whether the call is served.
+  // `admit` runs on the executor, in this lane, and decides whether the call is served.
   static SimulationStream* Start(SimulationHost& host, Executor& executor, grpc::CallbackServerContext* context,
-                                 wire::SimulatorRequest request, Admit admit);
+                                 wire::SimulatorRequest request, Admit admit, const std::string& lane);
   // A stream that only ends.
   static SimulationStream* Refuse(SimulationHost& host, grpc::CallbackServerContext* context, const Error& error);
 

@@ -21,7 +21,7 @@ WatchStream* WatchStream::Start(Executor& executor, WatchHub& hub, std::chrono::
   if (stream->plan_.refusal) {
     const std::lock_guard<std::mutex> lock(stream->mutex_);
     stream->End(ToStatus(*stream->plan_.refusal));
-  } else if (!executor.TryPost([stream] { stream->Prepare(); })) {
+  } else if (!executor.TryPost(stream->plan_.lane, [stream] { stream->Prepare(); })) {
     const std::lock_guard<std::mutex> lock(stream->mutex_);
     stream->End(ToStatus({ErrorCode::kResourceExhausted,
                           "the server has too many calls to answer; try again later",
@@ -104,7 +104,7 @@ void WatchStream::Wake() {
     return;
   }
   pumping_ = true;
-  executor_.Post([self = shared_from_this()] { self->Pump(); });
+  executor_.Post(plan_.lane, [self = shared_from_this()] { self->Pump(); });
 }
 
 void WatchStream::Pump() {
@@ -178,7 +178,7 @@ void WatchStream::OnWriteDone(bool ok) {
     End(grpc::Status::OK);
   } else {
     pumping_ = true;
-    executor_.Post([self = shared_from_this()] { self->Pump(); });
+    executor_.Post(plan_.lane, [self = shared_from_this()] { self->Pump(); });
   }
 }
 
@@ -197,7 +197,8 @@ void WatchStream::EndAsDisconnected() {
   }
   const bool server_stops = hub_.stopped();  // then it is not the client that has gone
   if (plan_.on_disconnect != nullptr && !id_.empty() && !server_stops) {
-    executor_.Post([self = shared_from_this()] { self->plan_.on_disconnect(self->admission_->caller(), self->id_); });
+    executor_.Post(plan_.lane,
+                   [self = shared_from_this()] { self->plan_.on_disconnect(self->admission_->caller(), self->id_); });
   }
   End(server_stops ? ToStatus(Stopping()) : grpc::Status(grpc::StatusCode::CANCELLED, "the client has gone"));
 }

@@ -37,6 +37,7 @@ class WatchStream : public grpc::ServerWriteReactor<v1::SolveEvent>, public std:
     // Called on the executor, with the first of the target, if the client has gone before the terminal event was
     // written. May be empty.
     std::function<void(const Caller&, const std::string& id)> on_disconnect;
+    std::string lane;  // of the executor
   };
 
   // Starts the stream; it deletes itself when gRPC is done with it. Executor and hub outlive it.

@@ -151,6 +151,26 @@ class Solving(unittest.TestCase):
         level, uphill = asyncio.run(both())
         self.assertEqual((level.termination, uphill.termination), ("optimal", "optimal"))
 
+    def test_sets_a_priority_with_an_event_loop(self):
+        async def make_and_raise():
+            async with rollgait.AsyncClient(server.connection()) as loop_client:
+                def long(slope):
+                    return rollgait.make_spec("human29", preset="torque", accuracy="fine", intervals=61, slope_deg=slope)
+                # One more than there are slots: the last one waits.
+                running = [await loop_client.create(long(1.5 + 0.1 * i)) for i in range(client.server_info().solver_slots)]
+                waiting = await loop_client.create(long(2.5), priority=-3)
+                try:
+                    raised = await loop_client.set_priority(waiting.name, 7)
+                    with self.assertRaisesRegex(rollgait.InvalidRequest, "priority is 11, must be from -10 to 10"):
+                        await loop_client.set_priority(waiting.name, 11)
+                finally:
+                    for solve in [waiting] + running:
+                        await loop_client.cancel(solve.name)
+                return waiting, raised
+        waiting, raised = asyncio.run(make_and_raise())
+        self.assertEqual((waiting.priority, raised.priority), (-3, 7))
+        self.assertEqual({solve.name: solve.priority for solve in client.list()}[waiting.name], 7)
+
     def test_a_task_that_is_cancelled_cancels_its_solve(self):
         before = {solve.name for solve in client.list()}
         events = []

@@ -47,6 +47,19 @@ TEST_F(GatekeeperTest, ATenantHasItsShareOfSimulations) {
   EXPECT_TRUE(Admit(RuleOf("FindPeriodicGait"), acme).ok());
 }
 
+TEST_F(GatekeeperTest, TokensOfATenantShareItsLaneOnceTheyWereAdmitted) {
+  const Presented one = With(bench_.Create("acme").Text()), other = With(bench_.Create("acme").Text());
+  const std::string strangers = gate_.LaneOf(With("nonsense"));
+  EXPECT_EQ(gate_.LaneOf(one), strangers);
+  ASSERT_TRUE(Admit(kRead, one).ok());
+  ASSERT_TRUE(Admit(kRead, other).ok());
+  EXPECT_EQ(gate_.LaneOf(one), "acme");
+  EXPECT_EQ(gate_.LaneOf(other), "acme");
+  EXPECT_EQ(gate_.LaneOf({"", "lab", "peer", ""}), "lab") << "a certificate's name";
+  EXPECT_EQ(gate_.LaneOf({"", "", "peer", ""}), strangers);
+  EXPECT_EQ(Gatekeeper({}).LaneOf(one), "") << "nobody is asked who calls";
+}
+
 TEST_F(GatekeeperTest, AnOpenServerTakesEveryone) {
   Gatekeeper open({});
   const auto admission = open.Admit(kCreate, {"Bearer nonsense", "", "peer", "trace"}, nullptr);

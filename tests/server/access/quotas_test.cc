@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace rollgait::server {
 namespace {
 
@@ -79,6 +83,18 @@ TEST(BackpressureTest, TooManyAtOnceAreRefused) {
   EXPECT_EQ(pressure.Enter().error().code, ErrorCode::kResourceExhausted);
   inside.value().reset();
   EXPECT_TRUE(pressure.Enter().ok());
+}
+
+TEST(BackpressureTest, ATenantLeavesPlacesToOthers) {
+  Backpressure pressure(4);
+  std::vector<std::shared_ptr<void>> held;
+  for (int i = 0; i < 3; ++i) held.push_back(pressure.Enter("a").value());
+  const Error refused = pressure.Enter("a").error();
+  EXPECT_EQ(refused.code, ErrorCode::kResourceExhausted);
+  EXPECT_NE(refused.message.find("3 calls that make work of the same tenant"), std::string::npos) << refused.message;
+  EXPECT_TRUE(pressure.Enter("b").ok());
+  held.pop_back();
+  EXPECT_TRUE(pressure.Enter("a").ok());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <string>
 
 namespace rollgait::server {
 namespace {
@@ -37,6 +38,57 @@ TEST(ExecutorTest, BoundsWhatWaits) {
   gate.set_value();
   EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
   EXPECT_TRUE(ran);
+}
+
+// Eight threads, of which tasks of one lane hold as many as it may have.
+TEST(ExecutorTest, ALaneLeavesThreadsToOthers) {
+  Executor executor(8, 1000);
+  std::promise<void> gate;
+  const std::shared_future<void> opened = gate.get_future().share();
+  std::atomic<int> inside{0}, most{0};
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(executor.TryPost("hostile", [&] {
+      const int now = ++inside;
+      for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+      }
+      opened.wait();
+      --inside;
+    }));
+  }
+  std::promise<void> ran;
+  ASSERT_TRUE(executor.TryPost("good", [&] { ran.set_value(); }));
+  EXPECT_EQ(ran.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
+  gate.set_value();
+  EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
+  EXPECT_LE(most, 6);
+}
+
+TEST(ExecutorTest, LanesThatWaitTakeTurns) {
+  Executor executor(1, 1000);
+  std::promise<void> gate;
+  executor.Post([&] { gate.get_future().wait(); });
+  std::string order;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(executor.TryPost("a", [&] { order += 'a'; }));
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(executor.TryPost("b", [&] { order += 'b'; }));
+  gate.set_value();
+  ASSERT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
+  EXPECT_EQ(order, "ababa");
+}
+
+TEST(ExecutorTest, ALaneHasHalfOfThePlacesToWait) {
+  Executor executor(1, 4);
+  std::promise<void> started, gate;
+  executor.Post([&] {
+    started.set_value();
+    gate.get_future().wait();
+  });
+  started.get_future().wait();
+  EXPECT_TRUE(executor.TryPost("a", [] {}));
+  EXPECT_TRUE(executor.TryPost("a", [] {}));
+  EXPECT_FALSE(executor.TryPost("a", [] {}));
+  EXPECT_TRUE(executor.TryPost("b", [] {}));
+  gate.set_value();
+  EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
 }
 
 }  // namespace
