@@ -39,8 +39,8 @@ TEST(TradeoffPointsTest, WhatIsOutsideIsRefusedWithFlagAndLimit) {
     return std::string("accepted");
   };
   EXPECT_EQ(why("radau2", "250", "1e-12"), "accepted");
-  EXPECT_THAT(why("euler", "8", "1e-6"),
-              HasSubstr("--scheme euler: \"euler\" must be one of hermite-simpson, radau2, radau3"));
+  EXPECT_THAT(why("euler", "8", "1e-6"), HasSubstr("--scheme euler: \"euler\" must be one of hermite-simpson, "
+                                                   "lobatto4, lobatto5, radau2, radau3, radau4, radau5"));
   EXPECT_THAT(why("radau2,radau2", "8", "1e-6"), HasSubstr("--scheme"));
   EXPECT_THAT(why("radau2,", "8", "1e-6"), HasSubstr("--scheme"));
   EXPECT_THAT(why("radau2", "251", "1e-6"), HasSubstr("--intervals 251: 251 must be a whole number in [1, 250]"));
