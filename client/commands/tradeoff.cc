@@ -19,7 +19,7 @@ namespace rollgait::client {
 namespace {
 
 constexpr char kLabel[] = "tradeoff";
-// Of the meshes on the way to the reference, and of its last one, which keeps 100 times that where it is only
+// Of the intermediate meshes before the reference, and of its last one, which keeps 100 times that where it is only
 // acceptable.
 constexpr double kStepTolerance = 1e-6, kReferenceTolerance = 1e-8;
 constexpr int kReferenceHalvings = 2;

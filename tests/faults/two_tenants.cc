@@ -1,6 +1,6 @@
 // Two tenants of one rollgaitd, one of them hostile: what the other's calls take alone and under attack.
 //
-//   rollgait_two_tenants [--rounds N] [--seconds S] [--floor-ms F]
+//   rollgait_two_tenants [--rounds N] [--seconds S] [--good-ms G]
 //
 // A round measures the good tenant alone, then under attack, so that what else the machine does falls on both. Prints a
 // table. Exit code 1: a p99 is more than twice what it is alone, a call of the good tenant was refused, a solve of its
@@ -214,7 +214,7 @@ void DrainQueue(const std::string& address, const std::string& token) {
 struct Options {
   int rounds = 3;
   double seconds = 10;
-  double floor_ms = 0;
+  double good_ms = 0;
   int most_running = 3;
   std::string only;
 };
@@ -236,7 +236,7 @@ bool Judge(const std::vector<Phase>& alone, const std::vector<Phase>& attacked, 
       std::snprintf(text, sizeof text, "%s%.1f", round == 0 ? "" : ", ", other.PercentileMs(99) / one.PercentileMs(99));
       by_round += text;
     }
-    const double bound = std::max(options.floor_ms, kMostRatio * before.PercentileMs(99));
+    const double bound = std::max(options.good_ms, kMostRatio * before.PercentileMs(99));
     const bool met = before.count() > 0 && after.count() > 0 && after.PercentileMs(99) <= bound;
     good = good && met;
     std::printf("| %s | %.1f, %.1f | %.1f, %.1f | %.2f (%s) | %ld, %ld | %s |\n", kNames[i], before.PercentileMs(50),
@@ -302,7 +302,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   app.add_option("--seconds", options.seconds, "Of each")->check(CLI::Range(1.0, 600.0))->capture_default_str();
-  app.add_option("--floor-ms", options.floor_ms, "A p99 up to this is good whatever it is alone")
+  app.add_option("--good-ms", options.good_ms, "A p99 up to this is good whatever it is alone")
       ->check(CLI::Range(0.0, 1e4))
       ->capture_default_str();
   app.add_option("--max-running", options.most_running, "Solves of a tenant that run at once, of 4")
