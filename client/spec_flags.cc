@@ -14,13 +14,6 @@
 namespace rollgait::client {
 namespace {
 
-template <typename Value>
-std::string Listed(const WordTable<Value>& words) {
-  std::string list;
-  for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 double ParseWeight(const std::string& cost, const std::string& text) {
   try {
     size_t used = 0;

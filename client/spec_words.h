@@ -27,6 +27,13 @@ const WordTable<v1::Accuracy::Level>& AccuracyWords();
 const WordTable<v1::CostTerm>& CostWords();
 // "torque, time or work", in the order of the proto.
 std::string CostWordList();
+// "a, b, c": all words of a table.
+template <typename Value>
+std::string Listed(const WordTable<Value>& words) {
+  std::string list;
+  for (const auto& [word, value] : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
 const WordTable<v1::SolveState>& StateWords();
 // Also "none": no verdict yet, no termination yet.
 const WordTable<v1::Verdict>& VerdictWords();

@@ -28,18 +28,12 @@ constexpr double kLeastTolerance = 1e-12, kMostTolerance = 1e-2;  // of the serv
   throw Failure(ExitCode::kUsage, flag + " " + text + ": " + why);
 }
 
-std::string WordList() {
-  std::string list;
-  for (const auto& [word, scheme] : SchemeWords()) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 std::vector<std::string> ParseSchemes(const std::string& text) {
   std::vector<std::string> schemes;
   std::istringstream stream(text + ",");
   for (std::string word; std::getline(stream, word, ',');) {
     if (SchemeWords().count(word) == 0) {
-      Refuse("--scheme", text, "\"" + word + "\" must be one of " + WordList());
+      Refuse("--scheme", text, "\"" + word + "\" must be one of " + Listed(SchemeWords()));
     }
     if (std::find(schemes.begin(), schemes.end(), word) != schemes.end()) {
       Refuse("--scheme", text, "has " + word + " twice");
