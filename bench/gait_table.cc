@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <numbers>
 #include <optional>
@@ -34,7 +35,11 @@ std::vector<std::string> Split(const std::string& text) {
 
 Scheme SchemeOf(const std::string& word) {
   const SchemeTraits* traits = FindScheme(word);
-  return traits == nullptr ? Scheme::kRadau2 : traits->scheme;
+  if (traits == nullptr) {
+    std::fprintf(stderr, "--schemes %s is not known; rollgait solve --help lists them\n", word.c_str());
+    std::exit(1);
+  }
+  return traits->scheme;
 }
 
 FootShape FeetOf(const std::string& name) {

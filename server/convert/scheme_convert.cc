@@ -3,6 +3,8 @@
 #include <cctype>
 #include <string>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 namespace {
 
@@ -19,7 +21,7 @@ std::string NameOf(const SchemeTraits& traits) {
 
 v1::Discretization::Scheme EncodeScheme(Scheme scheme) {
   v1::Discretization::Scheme encoded = v1::Discretization::SCHEME_UNSPECIFIED;
-  v1::Discretization::Scheme_Parse(NameOf(TraitsOf(scheme)), &encoded);
+  ROLLGAIT_CHECK(v1::Discretization::Scheme_Parse(NameOf(TraitsOf(scheme)), &encoded));
   return encoded;
 }
 
