@@ -152,7 +152,8 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   const auto problem = BuildProblem(both);
   GaitSolution solution = SolveFromImage(both, *problem, MostIterations::kFromImage, budget);
   if (!Answers(solution)) {
-    // Where rounding has left nothing of a distance from a bound, the estimated multipliers are none of the solution's.
+    // A symmetric gait may be a saddle point of the full cycle: unequal steps are cheaper, and the solver leaves the
+    // image, which lies too close to its bounds to go anywhere from.
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     if (!budget->Left()) return std::nullopt;
     solution = SolveFromNeighbour(both, *problem, MostIterations::kFromWarmStart, budget);
