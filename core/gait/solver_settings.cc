@@ -55,8 +55,8 @@ double ToleranceOfStart(const GaitSpec& spec) { return std::max(kStartTolerance,
 
 const int MostIterations::kFromGuess = 200;     // those that succeed take 30 to 130
 const int MostIterations::kWithoutRates = 120;  // most that succeed take 20 to 100
-// Of 57 full cycles of seed 7 of bench/verdict_audit 54 take 1 to 13. The other three, 24, 68 and 74, end in no 30; from
-// a neighbour they come to steps that are unequal, and 3.5 to 13 % cheaper.
+// Of 57 full cycles of seed 7 of bench/verdict_audit 54 take 1 to 13. The other three, 24, 68 and 74, end in no 30;
+// from a neighbour they come to steps that are unequal, and 3.5 to 13 % cheaper.
 const int MostIterations::kFromImage = 30;
 // bench/one_sided, human29: 29 with a locked ankle, 42 with a short thigh, 28 with a load, 22 with a weak knee, 38 with
 // a prosthetic foot, and no later program of theirs takes more than 80. 2.5 times that.
