@@ -67,7 +67,7 @@ page.append(
       "CPU s",
       "Iterations",
       "Objective",
-      "Error",
+      "Objective error",
       "Angle °",
       "Torque N m",
       "Estimated angle °",
