@@ -17,12 +17,16 @@ Eigen::Matrix<double, 3, 2> TangentBasis(const Vector3& nu) {
   return basis;
 }
 
-// Rotates the basis so that the symmetric matrix becomes diagonal (Jacobi).
+// Rotates the basis so that the symmetric matrix becomes diagonal (Jacobi; the smaller of the two angles, by Golub and
+// Van Loan, Matrix Computations, 8.5.2).
 void Diagonalise(const Eigen::Matrix2d& matrix, Eigen::Matrix<double, 3, 2>* basis) {
-  const double angle = 0.5 * std::atan2(2 * matrix(0, 1), matrix(0, 0) - matrix(1, 1));
+  if (matrix(0, 1) == 0) return;
+  const double ratio = (matrix(1, 1) - matrix(0, 0)) / (2 * matrix(0, 1));
+  const double tangent = std::copysign(1 / (std::abs(ratio) + std::sqrt(1 + ratio * ratio)), ratio);
+  const double cosine = 1 / std::sqrt(1 + tangent * tangent), sine = tangent * cosine;
   const Vector3 first = basis->col(0), second = basis->col(1);
-  basis->col(0) = std::cos(angle) * first + std::sin(angle) * second;
-  basis->col(1) = std::cos(angle) * second - std::sin(angle) * first;
+  basis->col(0) = cosine * first - sine * second;
+  basis->col(1) = cosine * second + sine * first;
 }
 
 }  // namespace

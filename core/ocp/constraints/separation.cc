@@ -38,6 +38,7 @@ SeparationConstraint::SeparationConstraint(const Model& model, const BodySurface
   while (common < std::min(one.size(), two.size()) && one[common] == two[common]) ++common;
   for (size_t k = common; k < one.size(); ++k) movers_.push_back({one[k], false});
   for (size_t k = common; k < two.size(); ++k) movers_.push_back({two[k], true});
+  expanded_at_.resize(layout.n);
   changes_.resize(movers_.size());
 }
 
@@ -70,33 +71,34 @@ Separation SeparationConstraint::Measure(const TreeDynamics& tree) {
   return FindSeparation(body_1, body_2, &start);
 }
 
-SurfaceExpansion<double> SeparationConstraint::Expand(const TreeDynamics& tree, const Separation& separation,
-                                                      int order) {
-  const SurfaceExpansion<double> expansion(first_.placed, frame_1_, second_.placed, frame_2_, separation, order);
+void SeparationConstraint::Expand(const PointContext& at) {
+  const Eigen::Map<const VectorX> q(at.z + layout_.q(), layout_.n);
+  if (expansion_ && q == expanded_at_) return;
+  expanded_at_ = q;
+  separation_ = Measure(*at.tree);
+  expansion_.emplace(first_.placed, frame_1_, second_.placed, frame_2_, separation_, 2);
   for (size_t k = 0; k < movers_.size(); ++k) {
-    const Vector6& axis = tree.axis(movers_[k].joint);
+    const Vector6& axis = at.tree->axis(movers_[k].joint);
     Vector12 twist = Vector12::Zero();
     const int body = movers_[k].moves_second ? 6 : 0;
     twist.segment<3>(body) = OriginVelocity(axis, movers_[k].moves_second ? frame_2_ : frame_1_);
     twist.segment<3>(body + 3) = axis.head<3>();
-    expansion.First(twist, &changes_[k]);
+    expansion_->First(twist, &changes_[k]);
   }
-  return expansion;
 }
 
 void SeparationConstraint::Value(const PointContext& at, double* g) { *g = Measure(*at.tree).distance; }
 
 void SeparationConstraint::Jacobian(const PointContext& at, Eigen::Ref<MatrixX> jacobian) {
-  Expand(*at.tree, Measure(*at.tree), 1);
+  Expand(at);
   for (size_t k = 0; k < movers_.size(); ++k) jacobian(0, layout_.q() + movers_[k].joint) = changes_[k].gap;
 }
 
 void SeparationConstraint::AddHessian(const PointContext& at, const double* lambda, Eigen::Ref<MatrixX> hessian) {
-  const Separation separation = Measure(*at.tree);
-  const SurfaceExpansion<double> expansion = Expand(*at.tree, separation, 2);
+  Expand(at);
   for (size_t k = 0; k < movers_.size(); ++k) {
     for (size_t m = 0; m <= k; ++m) {
-      double second = expansion.Second(changes_[m], changes_[k]).gap;
+      double second = expansion_->Second(changes_[m], changes_[k]).gap;
       if (movers_[m].moves_second == movers_[k].moves_second) {
         // Joint m carries joint k: the twist of k turns with m. The distance changes by the velocity of the contact
         // point along ν, away from it for the first body.
@@ -104,9 +106,9 @@ void SeparationConstraint::AddHessian(const PointContext& at, const double* lamb
         const Vector3 omega = at.tree->axis(movers_[m].joint).head<3>();
         const Variation<double>& carried = of_second ? changes_[k].two : changes_[k].one;
         const Vector3 turned = 0.5 * omega.cross(carried.omega);
-        const Vector3 lever = of_second ? frame_2_.R_WB * second_.placed.p_BE + separation.r_2
-                                        : frame_1_.R_WB * first_.placed.p_BE + separation.r_1;
-        second += (of_second ? 1 : -1) * separation.nu.dot(omega.cross(carried.v) + turned.cross(lever));
+        const Vector3 lever = of_second ? frame_2_.R_WB * second_.placed.p_BE + separation_.r_2
+                                        : frame_1_.R_WB * first_.placed.p_BE + separation_.r_1;
+        second += (of_second ? 1 : -1) * separation_.nu.dot(omega.cross(carried.v) + turned.cross(lever));
       }
       const int row = layout_.q() + movers_[m].joint, column = layout_.q() + movers_[k].joint;
       hessian(row, column) += *lambda * second;

@@ -1,6 +1,8 @@
 #ifndef ROLLGAIT_CORE_OCP_CONSTRAINTS_SEPARATION_H_
 #define ROLLGAIT_CORE_OCP_CONSTRAINTS_SEPARATION_H_
 
+#include <optional>
+
 #include "core/contact/body_surface.h"
 #include "core/contact/pair_expansion.h"
 #include "core/ocp/point_function.h"
@@ -13,7 +15,8 @@ namespace rollgait {
 // Newton's method reaches from the line of their centres, so d depends on q alone, never on what was evaluated before.
 // Derivatives are exact: the second-order expansion of the pair (SurfaceExpansion) along the joints' twists, plus
 //   d'(ζ_mk),  ζ_mk = (ω_m × ∂p/∂q_k, ½ ω_m × ω_k)  for joint m at or above joint k on one path.
-// Source: contact-math 6, 8. Reads the tree of the context only. No allocation after construction.
+// Source: contact-math 6, 8. Reads the tree and the positions of the context only. Gradient and Hessian at the same
+// positions share one search for the normal and one expansion. No allocation after construction.
 // Contract: bodies on different links, with smooth surfaces (SupportJet::order 3 everywhere, as ellipsoids).
 class SeparationConstraint : public PointConstraint {
  public:
@@ -39,15 +42,18 @@ class SeparationConstraint : public PointConstraint {
   };
   // Poses of the links and the distance at them.
   Separation Measure(const TreeDynamics& tree);
-  // The change of the pair along every mover, and the expansion at its separation.
-  SurfaceExpansion<double> Expand(const TreeDynamics& tree, const Separation& separation, int order);
+  // Fills separation_, expansion_ and changes_, unless they are those of these positions.
+  void Expand(const PointContext& at);
 
   BodySurface first_, second_;
   PointLayout layout_;
   double clearance_;
   std::vector<Mover> movers_;  // of the first body, root first, then of the second
   FrameMotion frame_1_, frame_2_;
-  std::vector<Change<double>> changes_;  // one a mover
+  VectorX expanded_at_;  // the positions of what follows
+  Separation separation_;
+  std::optional<SurfaceExpansion<double>> expansion_;  // to second order
+  std::vector<Change<double>> changes_;                // of the pair along every mover
 };
 
 }  // namespace rollgait
