@@ -47,13 +47,13 @@ BarrierProblem::BarrierProblem(NlpProblem& problem, double relaxation)
 }
 
 double BarrierProblem::Inside(double value, int i, double push) const {
-  const double width = upper_(i) - lower_(i);
+  const double width = upper_(i) - lower_(i), size = i < n_ ? problem_.variable_size(i) : 1;
   if (has_lower(i)) {
-    const double margin = std::min(push * std::max(1.0, std::abs(lower_(i))), push * width);
+    const double margin = std::min(push * std::max(size, std::abs(lower_(i))), push * width);
     value = std::max(value, lower_(i) + margin);
   }
   if (has_upper(i)) {
-    const double margin = std::min(push * std::max(1.0, std::abs(upper_(i))), push * width);
+    const double margin = std::min(push * std::max(size, std::abs(upper_(i))), push * width);
     value = std::min(value, upper_(i) - margin);
   }
   return value;

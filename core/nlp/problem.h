@@ -49,6 +49,10 @@ class NlpProblem {
             std::vector<int>(static_cast<size_t>(constraints()), 0)};
   }
 
+  // Natural size of a variable, > 0. A start keeps a distance from its bounds that is relative to this, or to the bound
+  // where that is larger; a variable that matters at a hundredth of 1 has a smaller one than 1.
+  virtual double variable_size(int) const { return 1; }
+
   virtual bool Objective(const double* x, double* value) = 0;
   virtual bool Gradient(const double* x, double* gradient) = 0;
   virtual bool Constraints(const double* x, double* g) = 0;

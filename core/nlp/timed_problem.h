@@ -24,6 +24,7 @@ class TimedProblem : public NlpProblem {
   const SparsityPattern& jacobian_pattern() const override { return inner_.jacobian_pattern(); }
   const SparsityPattern& hessian_pattern() const override { return inner_.hessian_pattern(); }
   EliminationGroups elimination_groups() const override { return inner_.elimination_groups(); }
+  double variable_size(int variable) const override { return inner_.variable_size(variable); }
 
   bool Objective(const double* x, double* value) override {
     return Timed([&] { return inner_.Objective(x, value); });

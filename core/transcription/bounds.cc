@@ -39,6 +39,12 @@ void CollocationNlp::SetStateBounds() {
   upper_(layout_.displacement()) = problem_.displacement.max;
 }
 
+// A phase may last 20 ms, and a hundredth of a second is half of that.
+double CollocationNlp::variable_size(int variable) const {
+  const bool is_duration = variable >= layout_.duration(0) && variable < layout_.displacement();
+  return is_duration ? lower_(variable) : 1;
+}
+
 // Impulses push; velocities before the jump have the bounds of all. The positions there are those of the node after it.
 void CollocationNlp::SetJumpBounds(int p) {
   if (!layout_.jumps(p)) return;

@@ -51,6 +51,7 @@ class CollocationNlp : public NlpProblem {
   // Point by point the efforts and the rows that hold them, then the rest of the interval with the node before it; last
   // the first node, the durations and the displacement, which everything may meet.
   EliminationGroups elimination_groups() const override;
+  double variable_size(int variable) const override;
   bool Objective(const double* x, double* value) override;
   bool Gradient(const double* x, double* gradient) override;
   bool Constraints(const double* x, double* g) override;

@@ -221,5 +221,15 @@ TEST_F(BoundsTest, ManoeuvresBeginAndEndWhereTheyShould) {
   EXPECT_EQ(bounds(last + size - 1), std::pair(-fastest, fastest));
 }
 
+// A hundredth of 1 s would be half of the shortest phase.
+TEST_F(BoundsTest, DurationsAreMeasuredByTheShortest) {
+  Build(Walk("planar"));
+  for (int i = 0; i < nlp_->variables(); ++i) {
+    const int phase = i - layout().duration(0);
+    const bool is_duration = phase >= 0 && phase < layout().phases();
+    EXPECT_EQ(nlp_->variable_size(i), is_duration ? problem_->phases[phase].duration.min : 1) << i;
+  }
+}
+
 }  // namespace
 }  // namespace rollgait
