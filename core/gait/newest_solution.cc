@@ -38,15 +38,20 @@ std::string IntervalsOf(const Trajectory& trajectory) {
   return text;
 }
 
+// By how much powers are smoother than in the request, W.
+double ExcessSmoothing(const GaitSpec& own, const GaitSolution& solution) {
+  const double smoothing = solution.meshes.empty() ? 0 : solution.meshes.back().smoothing;
+  const double watt = own.units.mass / std::pow(own.units.time, 3);
+  return watt * std::max(0.0, smoothing - LeastSmoothing(own).value_or(smoothing));
+}
+
 // What the newest solution is, and by what it differs from the request's.
 std::string Describe(const GaitSpec& own, const GaitSolution& solution) {
   std::ostringstream text;
   text << " The trajectory is the newest solution of a program that converged, on " << IntervalsOf(*solution.trajectory)
        << " intervals";
-  const double smoothing = solution.meshes.empty() ? 0 : solution.meshes.back().smoothing;
-  if (smoothing > LeastSmoothing(own).value_or(smoothing)) {
-    text << ", with powers smoothed by " << smoothing * own.units.mass / std::pow(own.units.time, 3) << " W";
-  }
+  const double excess = ExcessSmoothing(own, solution);
+  if (excess > 0) text << ", with powers smoothed by " << excess << " W more than in the request";
   text << ".";
   if (solution.verdict.kind == Verdict::Kind::kExceeded) {
     text << " Bounds that are not met: " << rollgait::Describe(solution.verdict.excesses) << ".";
@@ -89,6 +94,9 @@ GaitSolution InSiWhenCut(const GaitSpec& request, const GaitSpec& own, const Uni
   const bool has_errors_to_offer = newest && newest->finer && !solution.finer;
   if (!Converged(solution.termination) || has_errors_to_offer) {
     GaitSolution taken = *newest;
+    const double excess = ExcessSmoothing(own, taken);
+    if (excess > 0)
+      taken.unmet_constraints.insert(taken.unmet_constraints.begin(), {"power smoothing", 0, 0, excess, "W"});
     taken.message = Explain(cut) + Describe(own, taken);
     taken.meshes = std::move(solution.meshes);
     taken.wall_time = solution.wall_time;

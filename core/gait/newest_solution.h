@@ -47,7 +47,8 @@ class NewestSolution {
 
 // What is left to say of a search that was stopped or whose time was up (`cut`): a solution that is not all that was
 // asked for has this termination, and one that did not converge, or whose errors are not known where those of the
-// newest one are, gives way to that one. The verdict stays that of the trajectory. In SI units.
+// newest one are, gives way to that one. The verdict stays that of the trajectory; powers that are smoother than the
+// request's are the first of the constraints that are not met. In SI units.
 GaitSolution InSiWhenCut(const GaitSpec& request, const GaitSpec& own, const Units& units, GaitSolution solution,
                          Termination cut, const std::optional<GaitSolution>& newest);
 

@@ -73,6 +73,9 @@ TEST(NewestSolution, AStopLeavesIt) {
   EXPECT_EQ(solution.objective, taken.all[0].objective);
   EXPECT_EQ(solution.verdict.kind, taken.all[0].verdict.kind);
   EXPECT_GT(solution.meshes.size(), taken.all[0].meshes.size()) << "all programs are listed";
+  ASSERT_FALSE(solution.unmet_constraints.empty()) << "its powers are those of a start";
+  EXPECT_EQ(solution.unmet_constraints[0].name, "power smoothing");
+  EXPECT_NEAR(solution.unmet_constraints[0].violation, 40 - 5, 1) << "W";
   EXPECT_NE(solution.message.find("newest solution of a program that converged"), std::string::npos);
 }
 
