@@ -139,5 +139,28 @@ TEST(NewestSolution, HasTheErrorsOfItsLevel) {
   EXPECT_NE(solution.message.find("not reached"), std::string::npos) << solution.message;
 }
 
+TEST(NewestSolution, IsNeverOneThatSaysLess) {
+  GaitRequest request = Planar(0, Preset::kTransport, 8);
+  request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
+  request.accuracy.max_error = MaxError{.angle = 0.01};
+  Taken taken;
+  const GaitSolution solution = Search(request, &taken);
+  ASSERT_TRUE(solution.errors) << solution.message;
+  const auto is_within = [](const GaitSolution& one) { return one.verdict.kind == Verdict::Kind::kWithin; };
+  int with_errors = 0, without = 0;
+  for (size_t i = 1; i < taken.all.size(); ++i) {
+    const GaitSolution &before = taken.all[i - 1], &after = taken.all[i];
+    const double smoother = after.meshes.back().smoothing - before.meshes.back().smoothing;
+    EXPECT_LE(smoother, 1e-9) << i;
+    if (smoother < 0) continue;
+    EXPECT_TRUE(is_within(after) || !is_within(before)) << i;
+    const bool is_as_good = is_within(before) == is_within(after);
+    EXPECT_TRUE(after.errors || !before.errors || !is_as_good) << i;
+    ++(after.errors ? with_errors : without);
+  }
+  EXPECT_GE(with_errors, 2);
+  EXPECT_GE(without, 1);
+}
+
 }  // namespace
 }  // namespace rollgait
