@@ -69,7 +69,8 @@ void NewestSolution::Offer(const GaitSpec& spec, const GaitSolution& solution, d
   if (!Converged(solution.termination) || !solution.trajectory || !IsOfRequest(spec)) return;
   if (IsArtefact(spec, solution)) return;
   GaitSolution offered = solution;
-  Judge(own_, &offered);  // the program may have left bounds to those after it
+  // The program may have left bounds to those after it.
+  offered.verdict = JudgeFindings(offered.accuracy->findings, own_.bounds);
   const bool is_sharp = LeastSmoothing(spec) == LeastSmoothing(own_);
   const bool is_within = offered.verdict.kind != Verdict::Kind::kExceeded;
   const int rank = 4 * is_sharp + 2 * is_within + offered.finer.has_value();
