@@ -65,6 +65,10 @@ void AddSolveCommands(CLI::App& app, Arguments& arguments) {
                                                 "Let the server check the request; solve nothing");
   solve->add_flag("--detach", arguments.solve.detach, "Print the name of the new solve and leave it running")
       ->excludes(validate);
+  solve
+      ->add_flag("--predict", arguments.solve.predict,
+                 "Say what CPU time the solve will take, from measured ones; ask no server and solve nothing")
+      ->excludes(validate);
   solve->footer(
       "Ctrl-C cancels the solve; a second Ctrl-C leaves at once.\n"
       "Example: rollgait solve --model planar --slope 10 --speed 1.3 --output uphill.json");

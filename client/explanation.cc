@@ -47,7 +47,8 @@ std::string Ending(const v1::Solve& solve) {
     case v1::TERMINATION_ITERATION_LIMIT:
       return "The limit on iterations ended the solver before it had converged.";
     case v1::TERMINATION_TIME_LIMIT:
-      return "The limit on wall time ended the solver before it had converged.";
+      return HasSolution(solve) ? "The limit on wall time ended the search; the gait is the newest that had converged."
+                                : "The limit on wall time ended the solver before it had converged.";
     case v1::TERMINATION_NUMERICAL_DIFFICULTY:
       return "The solver could not go on for numerical reasons before it had converged.";
     case v1::TERMINATION_CANCELLED:

@@ -149,6 +149,19 @@ bool MissesMaxError(const v1::Solve& solve) {
   return !solve.result().errors().within_max_error();
 }
 
+namespace {
+
+// Only a program that converged is judged. One that leaves constraints unmet within the bounds is of another request
+// than this, with smoother powers.
+ExitCode CodeWhenTimeWasUp(const v1::Solve& solve) {
+  const v1::Verdict verdict = solve.result().accuracy().verdict();
+  if (verdict == v1::VERDICT_EXCEEDED) return ExitCode::kMissesBound;
+  if (verdict != v1::VERDICT_WITHIN || solve.result().unmet_constraints_size() > 0) return ExitCode::kNoSolution;
+  return MissesMaxError(solve) ? ExitCode::kMissesBound : ExitCode::kSuccess;
+}
+
+}  // namespace
+
 ExitCode ExitCodeOf(const v1::Solve& solve) {
   switch (solve.state()) {
     case v1::SOLVE_STATE_SUCCEEDED:
@@ -166,6 +179,8 @@ ExitCode ExitCodeOf(const v1::Solve& solve) {
       return solve.result().accuracy().verdict() == v1::VERDICT_EXCEEDED || MissesMaxError(solve)
                  ? ExitCode::kMissesBound
                  : ExitCode::kSuccess;
+    case v1::TERMINATION_TIME_LIMIT:
+      return CodeWhenTimeWasUp(solve);
     case v1::TERMINATION_CANCELLED:
       return ExitCode::kCancelled;
     default:

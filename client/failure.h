@@ -40,12 +40,13 @@ class Failure : public std::runtime_error {
 // The exit code of a call that ended with this status.
 ExitCode ExitCodeOf(const grpc::Status& status);
 
-// The exit code of a finished solve. kInternal for one that is not finished. A solve that was not judged is a success.
+// The exit code of a finished solve. kInternal for one that is not finished. A solve that was not judged is a success,
+// unless its time was up: then only what is judged is a solution.
 ExitCode ExitCodeOf(const v1::Solve& solve);
 // Whether the request has a max_error that the finished solve's estimates are not within, or that it has no estimate
 // for.
 bool MissesMaxError(const v1::Solve& solve);
-// True if the solve ended optimal or acceptable, whatever its accuracy.
+// True if the solve ended optimal or acceptable, or with a judged solution when its time was up, whatever its accuracy.
 bool HasSolution(const v1::Solve& solve);
 
 // Whose ranges and time limits a refusal speaks of.

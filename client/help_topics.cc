@@ -11,11 +11,12 @@ constexpr char kExitCodes[] =
   1  internal error, here or in the server, or a file that could not be written
   2  wrong command line, or a request that the server refuses (INVALID_ARGUMENT, a token that is missing or not enough)
   3  no server, no answer in time, or a server too busy to answer
-  4  the solve ended without a solution: infeasible or not converged; a simulation ended early; no periodic gait found
+  4  the solve ended without a solution: infeasible, not converged, or out of time before anything was judged; a simulation ended early; no periodic gait found
   5  the run failed: crash, CPU limit or memory limit
   6  cancelled
-  7  no such solve or model
-  8  the solve is optimal or acceptable, but the trajectory misses an accuracy bound or a --max-error
+  7  no such solve or model; no measured solve is near enough for --predict
+  8  there is a solution, but the trajectory misses an accuracy bound or a --max-error
+     When the time was up (--max-time) the code is that of the verdict on the newest solution.
 )";
 
 constexpr char kSettings[] =

@@ -20,6 +20,17 @@ std::string StateLine(const v1::SolveEvent::StateChange& change) {
   return text;
 }
 
+std::string SolutionLine(const v1::Intermediate& solution) {
+  std::string text = "a gait on ";
+  for (int p = 0; p < solution.intervals_size(); ++p) {
+    text += (p == 0 ? "" : " + ") + std::to_string(solution.intervals(p));
+  }
+  text += " intervals: objective " + FormatNumber(solution.objective()) + ", " + VerdictName(solution.verdict());
+  if (solution.has_errors())
+    text += ", error of the objective " + FormatNumber(100 * solution.errors().objective(), 2) + " %";
+  return text + ", after " + FormatDuration(solution.elapsed_s());
+}
+
 }  // namespace
 
 std::string IterationHeader() {
@@ -59,6 +70,7 @@ void Progress::Show(const v1::SolveEvent& event) {
     return;
   }
   if (event.has_state_change()) WriteLine(Paint(StateLine(event.state_change()), Tone::kDim, terminal_.err_color));
+  if (event.has_intermediate()) WriteLine(Paint(SolutionLine(event.intermediate()), Tone::kDim, terminal_.err_color));
   if (event.has_iteration()) ShowIteration(event);
 }
 

@@ -22,6 +22,7 @@ struct SolveOptions {
   std::string output;
   int priority = 0;
   bool validate_only = false;
+  bool predict = false;  // says what the solve will take, and asks no server
   bool detach = false;
   double reconnect_s = 60;
 };

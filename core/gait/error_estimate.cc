@@ -93,6 +93,7 @@ GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBu
       return solution;
     }
     solution.finer = AsFiner(halved);
+    budget->Offer(spec, solution);
     if (!spec.max_error || WorstShareOf(*spec.max_error, EstimateErrors(spec.scene, solution, *solution.finer)) <= 1) {
       solution.meshes = std::move(halved.meshes);
       return solution;

@@ -47,7 +47,6 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
 }  // namespace
 
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
-
 // A coarse mesh may slip at half the speed and still lead to a motion that does not.
 bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
 
@@ -196,6 +195,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     const bool leads_nowhere = refinements == 0 && result.termination == Termination::kIterationLimit &&
                                !guess.near_solution && can_refine && solution.trajectory && budget->Left();
     if (!Converged(result.termination) && !leads_nowhere) break;
+    budget->Offer(spec, solution);
     const bool is_artefact = leads_nowhere || IsArtefact(spec, solution);
     // The multipliers of a program that stalled do not say what the sides cost.
     const bool has_new_edges =

@@ -11,6 +11,7 @@
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"
 #include "core/gait/meshes.h"
+#include "core/gait/newest_solution.h"
 #include "core/gait/one_sided_start.h"
 #include "core/gait/own_units.h"
 #include "core/gait/power_smoothing.h"
@@ -248,8 +249,15 @@ GaitSolution SearchWithErrors(const GaitSpec& spec, SolveBudget* budget) {
                                                                  : solution;
 }
 
-GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolveBudget* budget) {
-  return InSi(units, spec, SearchWithErrors(WithoutRounding(InUnits(units, spec)), budget));
+GaitSolution SearchInUnits(const Units& units, const GaitSpec& spec, SolutionSink* sink, SolveBudget* budget) {
+  const GaitSpec own = WithoutRounding(InUnits(units, spec));
+  NewestSolution newest(spec, own, units, sink);
+  budget->OfferTo(&newest);
+  GaitSolution solution = SearchWithErrors(own, budget);
+  budget->OfferTo(nullptr);
+  const std::optional<Termination> cut = budget->Cut();
+  return cut ? InSiWhenCut(spec, own, units, std::move(solution), *cut, newest.solution())
+             : InSi(units, spec, std::move(solution));
 }
 
 // The comparison of each leg with normative data where the two differ, else of the right one.
@@ -278,7 +286,7 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     return solution;
   }
   if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
-  GaitSolution solution = SearchInUnits(units, spec, &budget);
+  GaitSolution solution = SearchInUnits(units, spec, control.solutions, &budget);
   if (solution.finer) {
     solution.errors = EstimateErrors(spec.scene, solution, *solution.finer);
     if (spec.max_error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/gait/iterate_sink.h"
+#include "core/gait/newest_solution.h"
 #include "core/nlp/solve_journal.h"
 #include "core/nlp/solve_nlp.h"
 
@@ -24,6 +25,16 @@ double SolveBudget::elapsed() const {
 bool SolveBudget::Left() const {
   return iterations_left_ > 0 && elapsed() < max_wall_time_ &&
          (control_.stop == nullptr || !control_.stop->requested());
+}
+
+std::optional<Termination> SolveBudget::Cut() const {
+  if (control_.stop != nullptr && control_.stop->requested()) return Termination::kCancelled;
+  if (elapsed() >= max_wall_time_) return Termination::kTimeLimit;
+  return std::nullopt;
+}
+
+void SolveBudget::Offer(const GaitSpec& spec, const GaitSolution& solution) const {
+  if (newest_ != nullptr) newest_->Offer(spec, solution, elapsed());
 }
 
 SolveControl SolveBudget::ControlOf(const CollocationNlp& nlp, double scale) const {

@@ -2,7 +2,9 @@
 #define ROLLGAIT_CORE_GAIT_SOLVE_BUDGET_H_
 
 #include <chrono>
+#include <optional>
 
+#include "core/gait/gait_solver.h"
 #include "core/gait/gait_spec.h"
 #include "core/gait/similarity.h"
 #include "core/nlp/nlp_options.h"
@@ -10,6 +12,8 @@
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
+
+class NewestSolution;
 
 // What all nonlinear programs of one request share: observer and stop flag, the limits on iterations and time, and the
 // numbering of the programs (IterationInfo::mesh). Starts its clock when it is made.
@@ -24,6 +28,13 @@ class SolveBudget {
   double elapsed() const;  // s, that of earlier processes included (SolveControl::journal)
   // False once the iterations or the time are used up, or the stop flag is set: what runs then ends at once.
   bool Left() const;
+  // Why nothing is left whatever the iterations: the stop flag is set, or the time is up.
+  std::optional<Termination> Cut() const;
+
+  // Who is offered the solutions that follow; outlives the budget. Null, as at first: nobody.
+  void OfferTo(NewestSolution* newest) { newest_ = newest; }
+  // A solution of a program of `spec`, which has converged.
+  void Offer(const GaitSpec& spec, const GaitSolution& solution) const;
 
  private:
   // The control of one program, whose objective is this much larger than the request's.
@@ -34,6 +45,7 @@ class SolveBudget {
   std::chrono::steady_clock::time_point begin_;
   const Units units_;
   const bool shows_iterates_;
+  NewestSolution* newest_ = nullptr;
   double max_wall_time_;
   int iterations_left_;
   int programs_ = 0;

@@ -41,14 +41,16 @@ struct IterationInfo {
 };
 
 class IterateSink;
+class SolutionSink;
 class SolveJournal;
 
 // How a running solve is watched, stopped and kept. All may be empty. The observer is called in the solving thread.
 struct SolveControl {
   std::function<void(const IterationInfo&)> observer;
   const StopFlag* stop = nullptr;
-  SolveJournal* journal = nullptr;  // of a search of several programs: where it goes on from (solve_journal.h)
-  IterateSink* iterates = nullptr;  // of a search for a gait: who is shown iterates (core/gait/iterate_sink.h)
+  SolveJournal* journal = nullptr;    // of a search of several programs: where it goes on from (solve_journal.h)
+  IterateSink* iterates = nullptr;    // of a search for a gait: who is shown iterates (core/gait/iterate_sink.h)
+  SolutionSink* solutions = nullptr;  // likewise, and solutions (core/gait/newest_solution.h)
 };
 
 // The outcome of one NLP: the last (or best feasible) iterate, scaled as the NLP was given.

@@ -55,7 +55,11 @@ std::variant<SolveEnd, Crash> JudgeRun(RunFacts facts) {
   const bool cut_short =
       !facts.last || (facts.last->has_result() && facts.last->result().termination() == v1::TERMINATION_CANCELLED);
   if (facts.cancelled && cut_short) {
-    return EndWithError(SolveState::kCancelled, v1::SolveError::KIND_CANCELLED, "cancelled while running");
+    SolveEnd end = EndWithError(SolveState::kCancelled, v1::SolveError::KIND_CANCELLED, "cancelled while running");
+    if (facts.last && facts.has_solution) {
+      end.result = EndWithResult(std::move(*facts.last->mutable_result()), facts.process).result;
+    }
+    return end;
   }
   if (facts.last && facts.last->has_error()) {
     return EndWithError(SolveState::kFailed, facts.last->error().kind(), facts.last->error().message());

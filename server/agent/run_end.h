@@ -16,8 +16,10 @@ struct RunFacts {
   std::optional<wire::SolverMessage> last;  // a result or an error; nullopt: none arrived whole
   ProcessEnd process;
   FrameStatus stream = FrameStatus::kEnd;  // how its stream ended
-  bool cancelled = false;                  // we asked it to stop because a client wanted that
-  bool out_of_time = false;                // we killed it because it did not stop at its wall time
+  // A program of the request's gait had converged: a result that was cut short has its solution.
+  bool has_solution = false;
+  bool cancelled = false;    // we asked it to stop because a client wanted that
+  bool out_of_time = false;  // we killed it because it did not stop at its wall time
   double cpu_limit_s = 0;
   std::string output;  // the last it printed
 };
@@ -28,7 +30,8 @@ struct Crash {
 };
 
 // Judges the end of a run: a result is an answer whatever the exit status; an exit without one is a crash whatever the
-// exit status (MUMPS stops with status 0). A result that was cut short by a cancellation is dropped.
+// exit status (MUMPS stops with status 0). A result that was cut short by a cancellation is no answer; it goes with the
+// cancelled end if it has a solution.
 std::variant<SolveEnd, Crash> JudgeRun(RunFacts facts);
 
 // A failed or cancelled end.

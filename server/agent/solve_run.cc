@@ -29,6 +29,21 @@ milliseconds WallTime(const v1::SolveSpec& spec) {
   return milliseconds(std::llround(1000 * std::min(seconds, kMaxWallTime)));
 }
 
+// What an event tells of a solution: of its last mesh, and of its verdict.
+v1::Intermediate Describe(const v1::SolveResult& solution) {
+  v1::Intermediate intermediate;
+  intermediate.set_verdict(solution.accuracy().verdict());
+  intermediate.set_objective(solution.objective());
+  intermediate.set_elapsed_s(solution.wall_time_s());
+  if (solution.has_errors()) *intermediate.mutable_errors() = solution.errors();
+  if (solution.meshes().empty()) return intermediate;
+  const v1::MeshStatistics& mesh = *solution.meshes().rbegin();
+  *intermediate.mutable_intervals() = mesh.intervals();
+  intermediate.set_smoothing_w(mesh.smoothing_w());
+  intermediate.set_kkt_error(mesh.kkt_error());
+  return intermediate;
+}
+
 void Warn(const char* event, const std::string& reason) { LogEvent(spdlog::level::warn, event, {{"reason", reason}}); }
 
 }  // namespace
@@ -140,6 +155,7 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     AddIteration(std::move(*message.mutable_iteration()), now);
     return;
   }
+  if (message.has_intermediate()) return AddSolution(std::move(*message.mutable_intermediate()), now);
   if (message.has_iterate()) return ShowIterate(std::move(*message.mutable_iterate()), now);
   last_ = std::move(message);
   KillBy(now + context_.kill_after);  // nothing is to follow but its end
@@ -164,6 +180,19 @@ void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
   event_bytes_ += pending_.back().payload.size();
   if (!flush_at_) flush_at_ = sent_any_ ? now + context_.batch : now;
   sent_any_ = true;
+}
+
+void SolveRun::AddSolution(v1::SolveResult solution, SteadyTime now) {
+  if (event_bytes_ > context_.max_event_bytes) return;
+  has_solution_ = true;
+  v1::SolveEvent event;
+  *event.mutable_time() = google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(context_.clock.WallMicros());
+  *event.mutable_intermediate() = Describe(solution);
+  event.DiscardUnknownFields();
+  solution_ = solution.SerializeAsString();
+  pending_.push_back({next_sequence_++, EventKind::kIntermediate, event.SerializeAsString()});
+  event_bytes_ += pending_.back().payload.size();
+  if (!flush_at_) flush_at_ = now + context_.batch;
 }
 
 // A solver that sends them sooner than it may fills no disk.
@@ -194,6 +223,7 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
     return;
   }
   pending_.clear();
+  solution_.clear();
   next_sequence_ = appended.value().last_sequence + 1;
   journal_.Save();
   context_.poke(id());
@@ -244,6 +274,7 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   facts.process = *end;
   facts.stream = *stream_end_;
   facts.cancelled = cancelled_;
+  facts.has_solution = has_solution_;
   facts.out_of_time = out_of_time_;
   facts.cpu_limit_s = context_.cpu_limit_s;
   facts.output = process_->LastOutput();
@@ -251,6 +282,7 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   outcome_ = JudgeRun(std::move(facts));
   if (SolveEnd* solve_end = std::get_if<SolveEnd>(&outcome_)) {
     if (other_solver_) solve_end->reusable = false;
+    if (solve_end->result.empty()) solve_end->result = std::move(solution_);
     PutIntoSpool();
   }
   flush_at_.reset();

@@ -55,7 +55,9 @@ class SolveRun {
   void Service(SteadyTime now);
   // Whether events have waited long enough, and those that wait; empty when there are none.
   bool events_due(SteadyTime now) const { return flush_at_ && now >= *flush_at_; }
-  EventBatch Events() const { return {lease_, state_ == State::kSolving ? pending_ : std::vector<StoredEvent>()}; }
+  EventBatch Events() const {
+    return state_ == State::kSolving ? EventBatch{lease_, pending_, solution_} : EventBatch{lease_, {}, {}};
+  }
   // No events wait: keeps the journal, if it is time.
   void NoEvents(SteadyTime now);
   // What became of them.
@@ -77,6 +79,7 @@ class SolveRun {
   void ReadSolver(SteadyTime now);
   void Take(const std::string& payload, SteadyTime now);
   void AddIteration(v1::Iteration iteration, SteadyTime now);
+  void AddSolution(v1::SolveResult solution, SteadyTime now);
   void ShowIterate(v1::Iterate iterate, SteadyTime now);
   void RenewLease(SteadyTime now);
   void EnforceDeadlines(SteadyTime now);
@@ -100,6 +103,8 @@ class SolveRun {
   std::optional<wire::SolverMessage> last_;  // result or error
   std::optional<FrameStatus> stream_end_;
   std::vector<StoredEvent> pending_;
+  std::string solution_;       // v1::SolveResult: the newest one that is not stored yet; empty: none
+  bool has_solution_ = false;  // there was one
   int64_t next_sequence_;
   bool spooled_ = false;
   int skipped_ = 0;         // iterations dropped: the store does not take any, or there were too many

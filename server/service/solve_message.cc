@@ -39,8 +39,9 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record) {
   SetTime(record.create_time_us, solve.mutable_create_time());
   if (record.start_time_us != 0) SetTime(record.start_time_us, solve.mutable_start_time());
   if (record.end_time_us != 0) SetTime(record.end_time_us, solve.mutable_end_time());
-  if (!record.result.empty() && !solve.mutable_result()->ParseFromString(record.result)) {
-    return Unreadable("result", record.id);
+  if (!record.result.empty()) {
+    v1::SolveResult* result = IsTerminal(record.state) ? solve.mutable_result() : solve.mutable_intermediate();
+    if (!result->ParseFromString(record.result)) return Unreadable("result", record.id);
   }
   if (!record.error.empty() && !solve.mutable_error()->ParseFromString(record.error)) {
     return Unreadable("error", record.id);
@@ -66,10 +67,11 @@ Outcome<SolveBytes> ToSolveBytes(SolveRecord record) {
   bytes.head = rest.value().SerializeAsString();
   if (bytes.result.empty()) return bytes;
   constexpr uint32_t kLengthDelimited = 2;
+  const uint32_t field = IsTerminal(record.state) ? v1::Solve::kResultFieldNumber : v1::Solve::kIntermediateFieldNumber;
   {  // the streams end, and with them the head, before it is moved
     google::protobuf::io::StringOutputStream stream(&bytes.head);
     google::protobuf::io::CodedOutputStream coded(&stream);
-    coded.WriteTag(v1::Solve::kResultFieldNumber << 3 | kLengthDelimited);
+    coded.WriteTag(field << 3 | kLengthDelimited);
     coded.WriteVarint32(static_cast<uint32_t>(bytes.result.size()));
   }
   return bytes;

@@ -23,7 +23,8 @@ Outcome<v1::Solve> ToSolve(const SolveRecord& record);
 // The bytes of ToSolve's message in two parts. The result is the record's own, neither read nor copied: it is what is
 // long.
 struct SolveBytes {
-  std::string head;  // everything else, and at its end the tag and the length of the result, if there is one
+  // Everything else, and at its end the tag and the length of the result or of `intermediate`, if there is one.
+  std::string head;
   std::string result;
 };
 // kInternal: the spec or the error of the record cannot be read.

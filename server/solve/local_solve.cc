@@ -68,8 +68,11 @@ LocalExit SolveLocally(const std::string& json, GaitSolver& solver, const StopFl
     progress << "the result cannot be written: " << printed.ToString() << "\n";
     return kLocalFailed;
   }
+  const bool is_judged = solution.verdict.kind != Verdict::Kind::kNotJudged;
+  const bool was_cut = solution.termination == Termination::kTimeLimit && is_judged &&
+                       (solution.verdict.kind == Verdict::Kind::kExceeded || solution.unmet_constraints.empty());
   const bool solved = solution.termination == Termination::kOptimal || solution.termination == Termination::kAcceptable;
-  if (!solved) return kLocalNoSolution;
+  if (!solved && !was_cut) return kLocalNoSolution;
   return solution.verdict.kind == Verdict::Kind::kExceeded ? kLocalMissesBound : kLocalSolved;
 }
 

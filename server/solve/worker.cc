@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/gait/newest_solution.h"
 #include "core/nlp/solve_journal.h"
 #include "server/base/framing.h"
 #include "server/base/iterate_files.h"
@@ -93,6 +94,12 @@ class Sender {
     message.mutable_continuation()->set_ignored(continuation.ignored);
     Send(message);
   }
+  // One that is too long for a frame is not shown; the result will say so.
+  void SendIntermediate(v1::SolveResult solution) {
+    wire::SolverMessage message;
+    *message.mutable_intermediate() = std::move(solution);
+    if (message.ByteSizeLong() <= kMaxFrameBytes) Send(message);
+  }
   void SendRecord(int program, bool finished, std::string record) {
     if (record.size() > kMaxRecordBytes) return;
     wire::SolverMessage message;
@@ -110,6 +117,28 @@ class Sender {
   StopFlag& stop_;
 };
 
+// Sends the solutions of a search. Those that an earlier process had sent, it leaves.
+class SolutionSender : public SolutionSink {
+ public:
+  SolutionSender(const GaitSpec& spec, Sender& sender) : spec_(spec), sender_(sender) {}
+
+  void Pause() { paused_ = true; }
+  void GoOn() { paused_ = false; }
+  void Take(const GaitSolution& solution) override {
+    if (paused_) return;
+    v1::SolveResult encoded = EncodeResult(solution, spec_);
+    encoded.clear_termination();
+    encoded.set_message("The search goes on.");
+    encoded.set_solver_build(SolverBuild());
+    sender_.SendIntermediate(std::move(encoded));
+  }
+
+ private:
+  const GaitSpec& spec_;
+  Sender& sender_;
+  bool paused_ = false;
+};
+
 WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource& source, JournalRecords records,
                         GaitSolver& solver, StopFlag& stop) {
   Sender sender(fd, stop);
@@ -117,7 +146,14 @@ WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource&
   sink.finished = [&](int program, std::string record) { sender.SendRecord(program, true, std::move(record)); };
   sink.started = [&](int program, std::string record) { sender.SendRecord(program, false, std::move(record)); };
   const bool goes_on = !records.finished.empty() || !records.started.empty();
-  if (goes_on) sink.continued = [&](const Continuation& continuation) { sender.Send(continuation); };
+  SolutionSender solutions(spec, sender);
+  if (goes_on) {
+    solutions.Pause();
+    sink.continued = [&](const Continuation& continuation) {
+      sender.Send(continuation);
+      solutions.GoOn();
+    };
+  }
   SolveJournal journal(std::move(records), std::move(sink));
   SolveControl control;
   control.stop = &stop;
@@ -125,6 +161,7 @@ WorkerExit SolveAndSend(int fd, const GaitSpec& spec, const v1::WarmStartSource&
   control.observer = [&](const IterationInfo& iteration) { sender.Send(iteration); };
   IterateSender iterates(spec.scene, kIteratePause, [&](v1::Iterate iterate) { sender.Send(std::move(iterate)); });
   control.iterates = &iterates;
+  control.solutions = &solutions;
   wire::SolverMessage message;
   const GaitSolution solution = solver.Solve(spec, control);
   *message.mutable_result() = EncodeResult(solution, spec);

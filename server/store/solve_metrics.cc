@@ -20,11 +20,11 @@ std::string Label(const std::string& name, const std::string& prefix) {
   return label;
 }
 
-// How a run ended; a stored end holds either a result or an error.
+// How a run ended.
 std::string TerminationOf(const SolveEnd& end) {
   v1::SolveResult result;
   v1::SolveError error;
-  if (!end.result.empty() && result.ParseFromString(end.result)) {
+  if (end.state == SolveState::kSucceeded && result.ParseFromString(end.result)) {
     return Label(v1::Termination_Name(result.termination()), "TERMINATION_");
   }
   if (error.ParseFromString(end.error)) return Label(v1::SolveError::Kind_Name(error.kind()), "KIND_");

@@ -36,7 +36,9 @@ struct SolveRecord {
   bool from_cache = false;
   int64_t last_sequence = 0;     // number of its newest event
   int64_t trimmed_sequence = 0;  // events up to here are no longer held
-  std::string result;            // v1::SolveResult; empty unless kSucceeded
+  // v1::SolveResult. Empty unless kSucceeded, or a program of the request had converged: then it is the newest
+  // solution.
+  std::string result;
   // What the result says, also where it is left out: v1::Termination, v1::Verdict. 0: no result, or written before they
   // were kept.
   int termination = 0, verdict = 0;
@@ -70,7 +72,7 @@ struct CreatedSolve {
   bool created = true;  // false: the request_id was known and this is the solve made for it
 };
 
-enum class EventKind { kStateChange = 1, kIteration = 2, kFinished = 3 };
+enum class EventKind { kStateChange = 1, kIteration = 2, kFinished = 3, kIntermediate = 4 };
 
 // One event. `payload` is a serialized v1::SolveEvent with its time, without sequence. For kFinished the field
 // `finished` is not in the payload either: whoever reads builds it from the record.
@@ -97,6 +99,8 @@ struct Lease {
 struct EventBatch {
   Lease lease;
   std::vector<StoredEvent> events;
+  // v1::SolveResult: takes the place of the solution that the solve has so far; empty: that stays.
+  std::string solution = {};
 };
 
 struct ClaimedSolve {
@@ -113,7 +117,7 @@ struct LeaseState {
 // How a run ended.
 struct SolveEnd {
   SolveState state = SolveState::kSucceeded;  // terminal
-  std::string result;                         // v1::SolveResult if kSucceeded
+  std::string result;                         // v1::SolveResult; if not kSucceeded the newest solution, or empty
   std::string error;                          // v1::SolveError else
   bool reusable = false;                      // may answer equal requests (termination is OPTIMAL)
 };

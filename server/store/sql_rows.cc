@@ -123,13 +123,21 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, const 
   row.record.end_time_us = now_us;
   row.record.error = error;
   row.bytes += static_cast<int64_t>(error.size());
-  row.result_id = result.id;
+  const int64_t solution = row.result_id;  // that it had so far; 0: none
+  if (result.id != 0) row.result_id = result.id;
   row.record.termination = result.termination;
   row.record.verdict = result.verdict;
   row.owner.clear();
   Query::Do(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number);
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
   SaveSolve(connection, row);
+  if (solution != row.result_id) {
+    Query::Do(connection, "DELETE FROM results WHERE id = ?", solution);
+  } else if (solution != 0) {
+    Query::Do(connection,
+              "UPDATE solves SET bytes = bytes + (SELECT LENGTH(payload) FROM results WHERE id = ?) WHERE number = ?",
+              solution, row.number);
+  }
   const std::string detail = row.record.from_cache ? "from cache" : "attempts " + std::to_string(row.record.attempts);
   AddAudit(connection, {Actor{row.record.tenant, "", ""}, "end", row.record.id, NameOf(state), detail}, now_us);
 }

@@ -60,7 +60,8 @@ struct ResultRow {
   int termination = 0, verdict = 0;
 };
 
-// Ends the solve: state, end time, result, terminal event, no lease; saves the row. `error` empty: none.
+// Ends the solve: state, end time, result, terminal event, no lease; saves the row. `error` empty: none. A result
+// takes the place of the solution that the solve has so far, which stays without one.
 void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, const ResultRow& result,
               const std::string& error, int64_t now_us);
 

@@ -33,18 +33,41 @@ void AppendNew(SqlConnection& connection, const std::vector<StoredEvent>& events
   }
 }
 
+void InsertResult(SqlConnection& connection, const ResultRow& row, const std::string& key, bool reusable,
+                  const std::string& payload) {
+  Query::Do(connection,
+            "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, "
+            "?, ?, ?, ?, ?)",
+            row.id, key, reusable, Blob{payload}, row.termination, row.verdict);
+}
+
+// The solution that a solve has so far: its result until the solve ends, which answers nobody else and does not count
+// as stored by the tenant. The row is to be saved afterwards.
+void KeepSolution(SqlConnection& connection, SolveRow& row, const std::string& solution) {
+  if (row.result_id == 0) {
+    Query next(connection, "SELECT {next_result}");
+    ROLLGAIT_CHECK(next.Step());
+    row.result_id = next.Int(0);
+    InsertResult(connection, {row.result_id}, "", false, solution);
+  } else {
+    Query::Do(connection, "UPDATE results SET payload = ? WHERE id = ?", Blob{solution}, row.result_id);
+  }
+}
+
 // Appends to leased solves: asks for all that are leased, then writes. An outcome for each batch.
 class Appender {
  public:
   // Only what events change is read: a spec may be large.
   void Ask(SqlConnection& connection, const Lease& lease) {
-    leased_.emplace_back(connection,
-                         "SELECT number, last_sequence, bytes, cancel_requested FROM solves " ROLLGAIT_IS_LEASED
-                         "{for_update}",
-                         lease.solve_id, lease.owner, lease.epoch);
+    leased_.emplace_back(
+        connection,
+        "SELECT number, last_sequence, bytes, cancel_requested, result_id FROM solves " ROLLGAIT_IS_LEASED
+        "{for_update}",
+        lease.solve_id, lease.owner, lease.epoch);
   }
   // Of the first that was asked for and not written. Writes nothing if the lease is lost.
-  Outcome<LeaseState> Write(SqlConnection& connection, const Lease& lease, const std::vector<StoredEvent>& events) {
+  Outcome<LeaseState> Write(SqlConnection& connection, const Lease& lease, const std::vector<StoredEvent>& events,
+                            const std::string& solution = "") {
     Query& query = leased_.front();
     const bool leased = query.Step();
     SolveRow row;
@@ -53,12 +76,14 @@ class Appender {
       row.record.last_sequence = query.Int(1);
       row.bytes = query.Int(2);
       row.record.cancel_requested = query.Int(3) != 0;
+      row.result_id = query.Int(4);
     }
     leased_.pop_front();
     if (!leased) return LeaseLost(lease);
     AppendNew(connection, events, row);
-    Query::Do(connection, "UPDATE solves SET last_sequence = ?, bytes = ? WHERE number = ?", row.record.last_sequence,
-              row.bytes, row.number);
+    if (!solution.empty()) KeepSolution(connection, row, solution);
+    Query::Do(connection, "UPDATE solves SET last_sequence = ?, bytes = ?, result_id = NULLIF(?, 0) WHERE number = ?",
+              row.record.last_sequence, row.bytes, row.result_id, row.number);
     return LeaseState{row.record.cancel_requested, row.record.last_sequence};
   }
 
@@ -206,7 +231,8 @@ Outcome<std::vector<Outcome<LeaseState>>> SqlStore::AppendAll(const std::vector<
     Appender appender;
     for (const EventBatch& batch : batches) appender.Ask(connection, batch.lease);
     std::vector<Outcome<LeaseState>> outcomes;
-    for (const EventBatch& batch : batches) outcomes.push_back(appender.Write(connection, batch.lease, batch.events));
+    for (const EventBatch& batch : batches)
+      outcomes.push_back(appender.Write(connection, batch.lease, batch.events, batch.solution));
     return outcomes;
   });
 }
@@ -237,14 +263,12 @@ Outcome<Done> SqlStore::Finish(const Lease& lease, const std::vector<StoredEvent
     if (next_result.has_value()) {
       ROLLGAIT_CHECK(next_result->Step());
       result = {next_result->Int(0), static_cast<int>(said.termination()), static_cast<int>(said.accuracy().verdict())};
-      Query::Do(connection,
-                "INSERT INTO results (id, solve_key, reusable, payload, termination, verdict) {given_key} VALUES (?, "
-                "?, ?, ?, ?, ?)",
-                result.id, key, end.reusable && !key.empty(), Blob{end.result}, result.termination, result.verdict);
+      InsertResult(connection, result, key, end.reusable && !key.empty(), end.result);
       row.bytes += static_cast<int64_t>(end.result.size());
     }
     const bool optimal = succeeded && result.termination == v1::TERMINATION_OPTIMAL;
     if (optimal) MarkOptimal(connection, row.number);
+    if (!succeeded && !end.result.empty()) KeepSolution(connection, row, end.result);
     EndSolve(connection, row, end.state, result, end.error, now_us);
     if (!equal.has_value()) return Done{};
     // Those that wait for the result of an equal one.

@@ -34,6 +34,15 @@ TEST(ExitCodeTest, OfFinishedSolves) {
   EXPECT_EQ(code(v1::TERMINATION_INFEASIBLE), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_ITERATION_LIMIT), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_TIME_LIMIT), ExitCode::kNoSolution);
+  EXPECT_EQ(judged(v1::TERMINATION_TIME_LIMIT, v1::VERDICT_WITHIN), ExitCode::kSuccess);
+  EXPECT_EQ(judged(v1::TERMINATION_TIME_LIMIT, v1::VERDICT_EXCEEDED), ExitCode::kMissesBound);
+  EXPECT_EQ(judged(v1::TERMINATION_TIME_LIMIT, v1::VERDICT_NOT_JUDGED), ExitCode::kNoSolution);
+  solve.mutable_result()->add_unmet_constraints()->set_name("power smoothing");
+  EXPECT_EQ(judged(v1::TERMINATION_TIME_LIMIT, v1::VERDICT_WITHIN), ExitCode::kNoSolution) << "of another problem";
+  solve.mutable_result()->clear_unmet_constraints();
+  solve.mutable_spec()->mutable_accuracy()->mutable_max_error()->set_objective(1e-3);
+  EXPECT_EQ(judged(v1::TERMINATION_TIME_LIMIT, v1::VERDICT_WITHIN), ExitCode::kMissesBound) << "no estimate";
+  solve.clear_spec();
   EXPECT_EQ(code(v1::TERMINATION_NUMERICAL_DIFFICULTY), ExitCode::kNoSolution);
   EXPECT_EQ(code(v1::TERMINATION_CANCELLED), ExitCode::kCancelled);
   solve.set_state(v1::SOLVE_STATE_FAILED);

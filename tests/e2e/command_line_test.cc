@@ -4,9 +4,11 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "tests/e2e/daemon.h"
 #include "tests/server/store/temporary_directory.h"
@@ -99,6 +101,32 @@ TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {
   const Ended explained = Run("explain " + flags.name());
   EXPECT_THAT(explained.out, HasSubstr("The solver found a local optimum"));
   EXPECT_THAT(explained.out, HasSubstr("iterations on "));
+}
+
+// Gaits are told as they converge, the newest can be had from a solve that runs, and from one that was cancelled.
+TEST_F(CommandLineTest, WhatASolveHasCanBeTaken) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string request = "--model human29 --preset transport --accuracy standard --max-error angle=0.001";
+  const std::string name = Run("solve --detach " + request).out;
+  const auto get = [&] {
+    v1::Solve got;
+    const Ended ended = Run("get --json " + name.substr(0, name.find('\n')));
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(ended.out, &got).ok()) << ended.out << ended.err;
+    return got;
+  };
+  v1::Solve solve = get();
+  for (int i = 0; i < 600 && !solve.has_intermediate(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    solve = get();
+  }
+  ASSERT_TRUE(solve.has_intermediate());
+  EXPECT_GT(solve.intermediate().trajectory().phases_size(), 0);
+  EXPECT_FALSE(solve.has_result());
+  ASSERT_EQ(Run("cancel " + solve.name()).code, 0);
+  const Ended watched = Run("watch " + solve.name());
+  EXPECT_EQ(watched.code, 6);
+  EXPECT_THAT(watched.err, HasSubstr("a gait on "));
+  EXPECT_GT(get().result().trajectory().phases_size(), 0);
 }
 
 // What `models NAME --json` writes is a model of one's own, and the gait it gives is that of the name.

@@ -118,7 +118,7 @@ Outcome<std::vector<Outcome<LeaseState>>> RecordedStore::AppendAll(const std::ve
   for (const EventBatch& batch : batches) {
     record.leases.push_back(Seen(batch.lease));
     record.events.push_back(Seen(batch.events));
-    used.push_back({AsUsed(batch.lease), batch.events});
+    used.push_back({AsUsed(batch.lease), batch.events, batch.solution});
   }
   auto outcomes = Record(record, [&] { return store_.AppendAll(used); });
   if (!outcomes.ok()) return outcomes;

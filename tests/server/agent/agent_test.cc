@@ -34,6 +34,48 @@ TEST_F(AgentTest, RelaysIterationsInOrderAndThenTheResult) {
   EXPECT_TRUE(std::filesystem::is_empty(directory_ + "/spool"));
 }
 
+TEST_F(AgentTest, TellsEachSolutionAndKeepsTheNewest) {
+  const std::string id = Queue("iterations 1 solutions 3 obey");
+  const auto agent = MakeAgent();
+  const auto told = [&] {
+    std::vector<v1::Intermediate> all;
+    for (const v1::SolveEvent& event : Events(id)) {
+      if (event.has_intermediate()) all.push_back(event.intermediate());
+    }
+    return all;
+  };
+  ASSERT_TRUE(StepUntil(*agent, [&] { return told().size() == 3; }));
+  EXPECT_EQ(told()[1].objective(), 2);
+  EXPECT_EQ(told()[1].intervals(0), 20);
+  EXPECT_EQ(told()[1].verdict(), v1::VERDICT_EXCEEDED);
+  EXPECT_EQ(ResultOf(Get(id)).objective(), 3) << "the newest one";
+}
+
+// A solve that is cancelled has what its solver ends with if that is a solution; killed, the newest that was stored.
+TEST_F(AgentTest, ACancelledSolveKeepsItsSolution) {
+  const std::string obeys = Queue("solutions 2 obey"), deaf = Queue("solutions 2 hang"), without = Queue("obey");
+  Agent::Options options = Options();
+  options.slots = 3;
+  const auto agent = MakeAgent(options);
+  ASSERT_TRUE(StepUntil(*agent, [&] {
+    return CountIterations(obeys) == 1 && !Get(deaf).result.empty() && CountIterations(without) == 1;
+  }));
+  for (const std::string& id : {obeys, deaf, without}) ASSERT_TRUE(store_->RequestCancel(id, {}).ok());
+  for (const std::string& id : {obeys, deaf, without}) EXPECT_EQ(RunToEnd(*agent, id).state, SolveState::kCancelled);
+  EXPECT_EQ(ResultOf(Get(obeys)).termination(), v1::TERMINATION_CANCELLED);
+  EXPECT_EQ(ResultOf(Get(deaf)).objective(), 2);
+  EXPECT_EQ(Get(without).result, "");
+  EXPECT_EQ(Error(Get(obeys)).kind(), v1::SolveError::KIND_CANCELLED);
+}
+
+TEST_F(AgentTest, AFailedSolveKeepsItsSolution) {
+  const std::string id = Queue("solutions 2 memory");
+  const auto agent = MakeAgent();
+  const SolveRecord record = RunToEnd(*agent, id);
+  EXPECT_EQ(record.state, SolveState::kFailed);
+  EXPECT_EQ(ResultOf(record).objective(), 2);
+}
+
 TEST_F(AgentTest, TheFirstIterationDoesNotWaitForTheEnd) {
   const std::string id = Queue("iterations 1 obey");
   const auto agent = MakeAgent();

@@ -7,6 +7,7 @@
 //   close          closes its stream and waits for ever
 //   flood N        sends N iterations of 1 MiB each, most of it unknown fields
 //   iterates N     sends N iterates            long-iterate  sends one of more than kMaxIterateBytes
+//   solutions N    sends N intermediate solutions, of objectives 1 to N
 //   print WORD     prints                      crash      dies by SIGSEGV
 //   xcpu           dies by SIGXCPU             once FILE  dies by SIGSEGV unless FILE exists; makes it
 // After the last word it exits with status 0.
@@ -45,6 +46,15 @@ void SendIterate(int index, const std::string& joint) {
   wire::SolverMessage message;
   message.mutable_iterate()->set_index(index);
   message.mutable_iterate()->add_joint_names(joint);
+  Send(message);
+}
+
+void SendSolution(int objective) {
+  wire::SolverMessage message;
+  v1::SolveResult& solution = *message.mutable_intermediate();
+  solution.set_objective(objective);
+  solution.mutable_accuracy()->set_verdict(v1::VERDICT_EXCEEDED);
+  solution.add_meshes()->add_intervals(10 * objective);
   Send(message);
 }
 
@@ -105,6 +115,8 @@ void Obey(std::istringstream& words) {
       for (int i = 0; i < count; ++i) Send(message);
     } else if (word == "iterates" && words >> count) {
       for (int i = 0; i < count; ++i) SendIterate(i, "hip");
+    } else if (word == "solutions" && words >> count) {
+      for (int i = 1; i <= count; ++i) SendSolution(i);
     } else if (word == "long-iterate") {
       SendIterate(0, std::string(kMaxIterateBytes, 'x'));
     } else if (word == "sleep" && words >> count) {

@@ -84,13 +84,16 @@ TEST(ToSolveBytesTest, AreThoseOfTheMessage) {
   result.set_message(std::string(300, 'm'));         // its length takes two bytes
   for (size_t length = 1; length < 100; ++length) {  // the head's string grows at different places
     record.id = std::string(length, 'a');
+    record.state = length % 2 == 0 ? SolveState::kSucceeded : SolveState::kRunning;
     for (const std::string& stored : {std::string(), result.SerializeAsString()}) {
       record.result = stored;
       const SolveBytes bytes = ToSolveBytes(record).value();
       EXPECT_EQ(bytes.result, stored);
       v1::Solve solve;
       ASSERT_TRUE(solve.ParseFromString(bytes.head + bytes.result));
-      EXPECT_EQ(solve.has_result(), !stored.empty());
+      const bool ended = record.state == SolveState::kSucceeded;
+      EXPECT_EQ(solve.has_result(), ended && !stored.empty());
+      EXPECT_EQ(solve.has_intermediate(), !ended && !stored.empty()) << "while it runs that is no result";
       EXPECT_EQ(solve.SerializeAsString(), ToSolve(record).value().SerializeAsString());
     }
   }

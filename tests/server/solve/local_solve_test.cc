@@ -55,6 +55,9 @@ TEST_F(LocalSolveTest, AMissedBoundHasItsOwnExitCode) {
   EXPECT_EQ(Solve(json, Termination::kOptimal, Verdict::Kind::kNotJudged), kLocalSolved);
   EXPECT_EQ(Solve(json, Termination::kOptimal, Verdict::Kind::kExceeded), kLocalMissesBound);
   EXPECT_EQ(Solve(json, Termination::kAcceptable, Verdict::Kind::kExceeded), kLocalMissesBound);
+  EXPECT_EQ(Solve(json, Termination::kTimeLimit, Verdict::Kind::kExceeded), kLocalMissesBound);
+  EXPECT_EQ(Solve(json, Termination::kTimeLimit, Verdict::Kind::kWithin), kLocalSolved);
+  EXPECT_EQ(Solve(json, Termination::kTimeLimit, Verdict::Kind::kNotJudged), kLocalNoSolution);
 }
 
 TEST_F(LocalSolveTest, EveryViolationIsPrinted) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/gait/iterate_sink.h"
+#include "core/gait/newest_solution.h"
 #include "server/base/framing.h"
 #include "server/base/sanitized.h"
 #include "server/base/wire.pb.h"
@@ -82,6 +83,22 @@ TEST_F(WorkerTest, SendsAnIterateAtOnceAndNoneInThePauseAfterIt) {
   EXPECT_EQ(first.iterate().duration_s(), 0.5);
   EXPECT_EQ(first.iterate().phases(0).positions_size(), 2 * first.iterate().joint_names_size());
   EXPECT_TRUE(Receive().has_result());
+}
+
+TEST_F(WorkerTest, SendsSolutionsThatDoNotSayHowTheSearchEnds) {
+  SendRequest();
+  EXPECT_EQ(Serve([](const GaitSpec&, const SolveControl& control) {
+              GaitSolution solution = EndedWith(Termination::kOptimal);
+              solution.objective = 7;
+              control.solutions->Take(solution);
+              return EndedWith(Termination::kTimeLimit);
+            }),
+            kWorkerDone);
+  const wire::SolverMessage first = Receive();
+  ASSERT_TRUE(first.has_intermediate());
+  EXPECT_EQ(first.intermediate().objective(), 7);
+  EXPECT_EQ(first.intermediate().termination(), v1::TERMINATION_UNSPECIFIED);
+  EXPECT_EQ(Receive().result().termination(), v1::TERMINATION_TIME_LIMIT);
 }
 
 TEST_F(WorkerTest, SendsNoIterateThatIsNotFinite) {

@@ -53,6 +53,37 @@ TEST_P(SolveStoreConformance, FinishWritesResultStateAndTerminalEventTogether) {
   EXPECT_EQ(bench.store().Finish(lease, {}, kAnswer).error().code, ErrorCode::kLeaseLost);
 }
 
+TEST_P(SolveStoreConformance, ASolutionIsReplacedByTheNextAndByTheAnswer) {
+  StoreBench bench(GetParam());
+  for (const char* id : {"done", "cancelled", "back"}) bench.Add(id, std::string("key of ") + id);
+  const Lease done = bench.Claim(), cancelled = bench.Claim(), back = bench.Claim();
+  const auto keep = [&](const Lease& lease, const std::string& solution) {
+    return bench.store().AppendAll({{lease, {}, solution}}).value()[0].ok();
+  };
+  const int64_t before = bench.Get("cancelled").last_sequence;
+  for (const Lease& lease : {done, cancelled, back}) {
+    ASSERT_TRUE(keep(lease, "first"));
+    ASSERT_TRUE(keep(lease, "the second"));
+    ASSERT_TRUE(keep(lease, "")) << "which leaves it";
+    EXPECT_EQ(bench.Get(lease.solve_id).result, "the second");
+  }
+  EXPECT_EQ(bench.Get("cancelled").last_sequence, before) << "it is no event";
+  EXPECT_TRUE(bench.store().Finish(done, {}, kAnswer).ok());
+  EXPECT_EQ(bench.Get("done").result, kAnswer.result);
+  EXPECT_TRUE(bench.store().Finish(cancelled, {}, {SolveState::kCancelled, "", "an error", false}).ok());
+  EXPECT_EQ(bench.Get("cancelled").result, "the second");
+  EXPECT_TRUE(bench.store().GiveBack(back, GiveBackReason::kStopping, "").ok());
+  EXPECT_EQ(bench.Get("back").result, "the second");
+  const Lease again = bench.Claim();
+  EXPECT_EQ(again.solve_id, "back");
+  EXPECT_FALSE(keep(back, "late"));
+  EXPECT_TRUE(bench.store().Finish(again, {}, {SolveState::kCancelled, "the last", "an error", false}).ok());
+  EXPECT_EQ(bench.Get("back").result, "the last");
+  // None of them answers another solve with its solution.
+  EXPECT_FALSE(bench.store().Create({"equal", "", "spec", "key of back"}).value().record.from_cache);
+  for (const char* id : {"done", "cancelled", "back"}) EXPECT_TRUE(bench.store().Delete(id, {}).ok());
+}
+
 TEST_P(SolveStoreConformance, WritesUnderALostLeaseChangeNothing) {
   StoreBench bench(GetParam());
   bench.Add("a");

@@ -65,6 +65,32 @@ TEST(SqliteStoreTest, ANewerSchemaVersionIsRefusedByName) {
   EXPECT_NE(newer.error().message.find(path), std::string::npos) << newer.error().message;
 }
 
+// One row while it runs, none of them when there is a result, and what is kept is counted once.
+TEST(SqliteStoreTest, SolutionsDoNotPileUp) {
+  const TemporaryDirectory directory;
+  const FakeClock clock;
+  const std::string path = directory.path() + "/rollgait.db";
+  const auto store = std::move(OpenStore({path}, clock)).value();
+  SqliteConnection connection(path, clock);
+  const auto number = [&](const char* sql) {
+    Query query(connection, sql);
+    return query.Step() ? query.Int(0) : -1;
+  };
+  for (const SolveState end : {SolveState::kSucceeded, SolveState::kFailed}) {
+    const std::string id = end == SolveState::kSucceeded ? "a" : "b";
+    ASSERT_TRUE(store->Create({id, "", "spec", "key"}).ok());
+    const Lease lease = store->ClaimNext("agent", kLeaseDuration).value()->lease;
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(store->AppendAll({{lease, {}, "a solution"}}).ok());
+    EXPECT_EQ(number("SELECT COUNT(*) FROM results"), 1);
+    const int64_t bytes = number("SELECT bytes FROM solves");
+    ASSERT_TRUE(store->Finish(lease, {}, {end, end == SolveState::kSucceeded ? "result" : "", "", false}).ok());
+    EXPECT_EQ(number("SELECT COUNT(*) FROM results"), 1);
+    EXPECT_GE(number("SELECT bytes FROM solves"), bytes + (end == SolveState::kSucceeded ? 6 : 10));
+    ASSERT_TRUE(store->Delete(id, {}).ok());
+    EXPECT_EQ(number("SELECT COUNT(*) FROM results"), 0);
+  }
+}
+
 // A file as version 1 wrote it, with a solve that ended, one that runs and one that waits.
 void WriteVersion1(const std::string& path, const Clock& clock) {
   SqliteConnection connection(path, clock);
