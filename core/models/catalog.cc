@@ -15,8 +15,8 @@ namespace {
 
 // What a row says of a human.
 struct HumanDefaults {
-  bool planar = false;                            // sagittal, without arms and with a rigid trunk, whatever is asked
-  JointRanges ranges = JointRanges::kAnatomical;  // of a request that leaves them unset
+  bool sagittal = false, drop_arms = false, rigid_trunk = false;  // whatever the request says
+  JointRanges ranges = JointRanges::kAnatomical;                  // of a request that leaves them unset
 };
 
 constexpr double kStatureMin = 1.0, kStatureMax = 2.3;  // m
@@ -105,9 +105,9 @@ Result<Scene> BuildHuman(const BodyRequest& request, const HumanDefaults& defaul
       .feet = request.feet.value_or(request.toes ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid),
       .toes = request.toes,
       .ranges = request.ranges.value_or(defaults.ranges),
-      .sagittal = request.sagittal || defaults.planar,
-      .drop_arms = request.drop_arms || defaults.planar,
-      .rigid_trunk = request.rigid_trunk || defaults.planar,
+      .sagittal = request.sagittal || defaults.sagittal,
+      .drop_arms = request.drop_arms || defaults.drop_arms,
+      .rigid_trunk = request.rigid_trunk || defaults.rigid_trunk,
       .locked_joints = request.locked_joints,
       .rolling_body = {},
   };
@@ -125,7 +125,12 @@ constexpr Entry kEntries[] = {
     {"planar",
      "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.",
      BuildHuman,
-     {.planar = true}},
+     {.sagittal = true, .drop_arms = true, .rigid_trunk = true}},
+    {"planar_arms",
+     "Human in the sagittal plane with arms: rigid trunk, shoulders, elbows, hips, knees, ankles; ellipsoidal feet "
+     "that roll.",
+     BuildHuman,
+     {.sagittal = true, .rigid_trunk = true, .ranges = JointRanges::kWalking}},
     {"human29",
      "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.",
      BuildHuman,
