@@ -1,5 +1,7 @@
 #include "core/models/catalog.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -11,21 +13,11 @@
 namespace rollgait {
 namespace {
 
-struct Entry {
-  const char* name;
-  const char* description;
-  bool planar;         // sagittal, without arms and with a rigid trunk
-  JointRanges ranges;  // by default
+// What a row says of a human.
+struct HumanDefaults {
+  bool sagittal = false, drop_arms = false, rigid_trunk = false;  // whatever the request says
+  JointRanges ranges = JointRanges::kAnatomical;                  // of a request that leaves them unset
 };
-// Every model that walks. All are the one human, reduced.
-constexpr Entry kEntries[] = {
-    {"planar", "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.", true,
-     JointRanges::kAnatomical},
-    {"human29", "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.", false,
-     JointRanges::kWalking},
-};
-
-constexpr const char* kBall = "ball";
 
 constexpr double kStatureMin = 1.0, kStatureMax = 2.3;  // m
 constexpr double kMassMin = 20, kMassMax = 250;         // kg
@@ -37,21 +29,6 @@ void CheckRange(const char* field, const char* unit, double value, double min, d
   violations->push_back({field, message.str()});
 }
 
-std::vector<std::string> ModelNames() {
-  std::vector<std::string> names;
-  for (const Entry& entry : kEntries) names.emplace_back(entry.name);
-  names.emplace_back(kBall);
-  return names;
-}
-
-std::string UnknownModel(const std::string& name) {
-  std::string message = name.empty() ? "is empty" : "\"" + name + "\" is not a model of this server";
-  message += "; choose one of:";
-  for (const std::string& known : ModelNames()) message += " \"" + known + "\"";
-  return message;
-}
-
-// What only a human has, of what was asked of a ball.
 // What describes a human and was given for something else.
 Violations RefuseHumanFields(const BodyRequest& request, const std::string& what) {
   Violations violations;
@@ -76,8 +53,8 @@ Violations RefuseHumanFields(const BodyRequest& request, const std::string& what
   return violations;
 }
 
-Result<Scene> BuildBall(const BodyRequest& request) {
-  Violations violations = RefuseHumanFields(request, std::string("model \"") + kBall + "\"");
+Result<Scene> BuildBall(const BodyRequest& request, const HumanDefaults&) {
+  Violations violations = RefuseHumanFields(request, "model \"" + request.model + "\"");
   Result<Scene> scene = RollingEllipsoidScene(request.rolling_body.value_or(RollingEllipsoidRequest()), {});
   if (violations.empty()) return scene;
   if (!scene.ok()) violations.insert(violations.end(), scene.violations().begin(), scene.violations().end());
@@ -103,17 +80,83 @@ Result<Scene> BuildOwn(const BodyRequest& request) {
   return scene;
 }
 
+double StatureOf(const BodyRequest& request) { return request.stature.value_or(DefaultStature(request.sex)); }
+
+double MassOf(const BodyRequest& request) { return request.mass.value_or(DefaultMass(request.sex)); }
+
+Violations CheckHuman(const BodyRequest& request) {
+  Violations violations;
+  if (request.rolling_body) violations.push_back({"rolling_body", "is for model \"ball\" only; leave it out"});
+  CheckRange("stature_m", "m", StatureOf(request), kStatureMin, kStatureMax, &violations);
+  CheckRange("body_mass_kg", "kg", MassOf(request), kMassMin, kMassMax, &violations);
+  return violations;
+}
+
+Result<Scene> BuildHuman(const BodyRequest& request, const HumanDefaults& defaults) {
+  const Violations violations = CheckHuman(request);
+  if (!violations.empty()) return violations;
+  const BodySelection selection{
+      .model = request.model,
+      .sex = request.sex,
+      .stature = StatureOf(request),
+      .mass = MassOf(request),
+      .segment_lengths = request.segment_lengths,
+      .changes = request.changes,
+      .feet = request.feet.value_or(request.toes ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid),
+      .toes = request.toes,
+      .ranges = request.ranges.value_or(defaults.ranges),
+      .sagittal = request.sagittal || defaults.sagittal,
+      .drop_arms = request.drop_arms || defaults.drop_arms,
+      .rigid_trunk = request.rigid_trunk || defaults.rigid_trunk,
+      .locked_joints = request.locked_joints,
+      .rolling_body = {},
+  };
+  return HumanScene(selection);
+}
+
+struct Entry {
+  const char* name;
+  const char* description;  // "": the scene has its own
+  Result<Scene> (*build)(const BodyRequest& request, const HumanDefaults& human);
+  HumanDefaults human = {};
+};
+// Every model of the server, one row each.
+constexpr Entry kEntries[] = {
+    {"planar",
+     "Human in the sagittal plane: rigid trunk, hips, knees, ankles; ellipsoidal feet that roll.",
+     BuildHuman,
+     {.sagittal = true, .drop_arms = true, .rigid_trunk = true}},
+    {"planar_arms",
+     "Human in the sagittal plane with arms: rigid trunk, shoulders, elbows, hips, knees, ankles; ellipsoidal feet "
+     "that roll.",
+     BuildHuman,
+     {.sagittal = true, .rigid_trunk = true, .ranges = JointRanges::kWalking}},
+    {"human29",
+     "Human in space: pelvis, trunk, arms, legs and ellipsoidal feet that roll.",
+     BuildHuman,
+     {.ranges = JointRanges::kWalking}},
+    {"ball", "", BuildBall},
+};
+
+std::string UnknownModel(const std::string& name) {
+  std::string message = name.empty() ? "is empty" : "\"" + name + "\" is not a model of this server";
+  message += "; choose one of:";
+  for (const Entry& entry : kEntries) message += std::string(" \"") + entry.name + "\"";
+  return message;
+}
+
 }  // namespace
 
 std::vector<CatalogEntry> ListCatalog() {
   std::vector<CatalogEntry> entries;
-  for (const std::string& name : ModelNames()) {
+  for (const Entry& row : kEntries) {
     BodyRequest request;
-    request.model = name;
+    request.model = row.name;
     const Result<Scene> scene = BuildScene(request);
     ROLLGAIT_CHECK(scene.ok());
     const Model& model = scene.value().model;
-    CatalogEntry entry{name, scene.value().description, model.size(), static_cast<int>(model.actuated().size()), {}};
+    CatalogEntry entry{
+        row.name, scene.value().description, model.size(), static_cast<int>(model.actuated().size()), {}};
     for (const ContactSurface& contact : scene.value().contacts) entry.contacts.push_back(contact.name);
     entries.push_back(entry);
   }
@@ -122,38 +165,17 @@ std::vector<CatalogEntry> ListCatalog() {
 
 Result<Scene> BuildScene(const BodyRequest& request) {
   if (request.own) return BuildOwn(request);
-  if (request.model == kBall) return BuildBall(request);
-  Violations violations;
-  const Entry* chosen = nullptr;
-  for (const Entry& entry : kEntries) {
-    if (request.model == entry.name) chosen = &entry;
+  const auto* const entry = std::find_if(std::begin(kEntries), std::end(kEntries),
+                                         [&](const Entry& row) { return request.model == row.name; });
+  if (entry == std::end(kEntries)) {
+    Violations violations = CheckHuman(request);
+    violations.insert(violations.begin(), {"name", UnknownModel(request.model)});
+    return violations;
   }
-  if (chosen == nullptr) violations.push_back({"name", UnknownModel(request.model)});
-  const bool planar = chosen != nullptr && chosen->planar;
-  const BodySelection selection{
-      .model = request.model,
-      .sex = request.sex,
-      .stature = request.stature.value_or(DefaultStature(request.sex)),
-      .mass = request.mass.value_or(DefaultMass(request.sex)),
-      .segment_lengths = request.segment_lengths,
-      .changes = request.changes,
-      .feet = request.feet.value_or(request.toes ? FootShape::kTwoEllipsoids : FootShape::kOneEllipsoid),
-      .toes = request.toes,
-      .ranges = request.ranges.value_or(chosen == nullptr ? JointRanges::kAnatomical : chosen->ranges),
-      .sagittal = request.sagittal || planar,
-      .drop_arms = request.drop_arms || planar,
-      .rigid_trunk = request.rigid_trunk || planar,
-      .locked_joints = request.locked_joints,
-      .rolling_body = {},
-  };
-  if (request.rolling_body) violations.push_back({"rolling_body", "is for model \"ball\" only; leave it out"});
-  CheckRange("stature_m", "m", selection.stature, kStatureMin, kStatureMax, &violations);
-  CheckRange("body_mass_kg", "kg", selection.mass, kMassMin, kMassMax, &violations);
-  if (!violations.empty()) return violations;
-  Result<Scene> scene = HumanScene(selection);
-  if (!scene.ok()) return scene;
+  Result<Scene> scene = entry->build(request, entry->human);
+  if (!scene.ok() || *entry->description == '\0') return scene;
   Scene described = std::move(scene).value();
-  described.description = chosen->description;
+  described.description = entry->description;
   return described;
 }
 

@@ -1,8 +1,8 @@
 #include "server/convert/surface_convert.h"
 
 #include <sstream>
+#include <variant>
 
-#include "core/base/check.h"
 #include "core/geometry/flattened_superellipsoid.h"
 
 namespace rollgait::server {
@@ -53,36 +53,83 @@ std::optional<Surface> DecodeSuperellipsoid(const std::string& field, const v1::
   return take(Superellipsoid::Create(axes, e_1, e_2, field));
 }
 
+// How a kind of surface is written; the visit in EncodeSurface does not compile without one for each.
+void EncodeKind(const Ellipsoid& shape, v1::Surface* encoded) {
+  EncodeAxes(shape.semi_axes(), encoded->mutable_ellipsoid()->mutable_semi_axes_m());
+}
+
+void EncodeKind(const Sphere& shape, v1::Surface* encoded) { encoded->mutable_sphere()->set_radius_m(shape.radius()); }
+
+template <typename Super>
+v1::Superellipsoid& EncodeSuperellipsoid(const Super& shape, v1::Surface* encoded) {
+  v1::Superellipsoid& super = *encoded->mutable_superellipsoid();
+  EncodeAxes(shape.semi_axes(), super.mutable_semi_axes_m());
+  super.set_exponent_1(shape.exponent_1());
+  super.set_exponent_2(shape.exponent_2());
+  return super;
+}
+
+void EncodeKind(const Superellipsoid& shape, v1::Surface* encoded) { EncodeSuperellipsoid(shape, encoded); }
+
+void EncodeKind(const SmoothSuperellipsoid& shape, v1::Surface* encoded) {
+  EncodeSuperellipsoid(shape, encoded).set_smoothing(shape.smoothing());
+}
+
+// No message says an equation.
+void EncodeKind(const ImplicitSurface&, v1::Surface*) {}
+
+// The row of a shape of v1::Surface.
+struct ShapeRow {
+  v1::Surface::ShapeCase shape;
+  const char* field;  // of the oneof
+  const char* name;   // in a sentence
+  std::optional<Surface> (*decode)(const std::string& field, const v1::Surface& surface, Violations* violations);
+};
+
+constexpr ShapeRow kShapes[] = {
+    {v1::Surface::kEllipsoid, "ellipsoid", "an ellipsoid",
+     [](const std::string& field, const v1::Surface& surface, Violations* violations) {
+       return DecodeEllipsoid(field, surface.ellipsoid(), violations);
+     }},
+    {v1::Surface::kSphere, "sphere", "a sphere",
+     [](const std::string& field, const v1::Surface& surface, Violations* violations) {
+       return DecodeSphere(field, surface.sphere(), violations);
+     }},
+    {v1::Surface::kSuperellipsoid, "superellipsoid", "a superellipsoid",
+     [](const std::string& field, const v1::Surface& surface, Violations* violations) {
+       return DecodeSuperellipsoid(field, surface.superellipsoid(), violations);
+     }},
+};
+
+// "an ellipsoid, a sphere or a superellipsoid"
+std::string NamesOfShapes() {
+  std::string names;
+  for (const ShapeRow& row : kShapes) {
+    if (&row != std::begin(kShapes)) names += &row + 1 == std::end(kShapes) ? " or " : ", ";
+    names += row.name;
+  }
+  return names;
+}
+
+std::optional<Surface> DecodeShape(const std::string& field, const v1::Surface& surface, Violations* violations) {
+  for (const ShapeRow& row : kShapes) {
+    if (row.shape == surface.shape_case()) return row.decode(field + "." + row.field, surface, violations);
+  }
+  violations->push_back({field, "is not set; give " + NamesOfShapes()});
+  return std::nullopt;
+}
+
 }  // namespace
 
 void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
-  ROLLGAIT_CHECK(surface.semi_axes() != nullptr);
-  if (const auto* shape = surface.plain<SmoothSuperellipsoid>()) {
-    v1::Superellipsoid& super = *encoded->mutable_superellipsoid();
-    EncodeAxes(shape->semi_axes(), super.mutable_semi_axes_m());
-    super.set_exponent_1(shape->exponent_1());
-    super.set_exponent_2(shape->exponent_2());
-    super.set_smoothing(shape->smoothing());
-  } else {
-    EncodeAxes(*surface.semi_axes(), encoded->mutable_ellipsoid()->mutable_semi_axes_m());
-  }
+  encoded->Clear();
+  if (!surface.center().isZero(0)) return;
+  std::visit([encoded](const auto& shape) { EncodeKind(shape, encoded); }, surface.kind());
+  encoded->set_rounding_m(surface.rounding());
 }
 
 std::optional<Surface> DecodeSurface(const std::string& field, const v1::Surface& surface, Violations* violations) {
-  std::optional<Surface> decoded;
-  switch (surface.shape_case()) {
-    case v1::Surface::kEllipsoid:
-      decoded = DecodeEllipsoid(field + ".ellipsoid", surface.ellipsoid(), violations);
-      break;
-    case v1::Surface::kSphere:
-      decoded = DecodeSphere(field + ".sphere", surface.sphere(), violations);
-      break;
-    case v1::Surface::kSuperellipsoid:
-      decoded = DecodeSuperellipsoid(field + ".superellipsoid", surface.superellipsoid(), violations);
-      break;
-    case v1::Surface::SHAPE_NOT_SET:
-      violations->push_back({field, "is not set; give an ellipsoid, a sphere or a superellipsoid"});
-  }
+  const std::optional<Surface> decoded = DecodeShape(field, surface, violations);
   if (!(surface.rounding_m() >= 0 && surface.rounding_m() <= kMaxRadius)) {
     violations->push_back(
         {field + ".rounding_m", "is " + std::to_string(surface.rounding_m()) + "; must be within [0, 1e6] m"});

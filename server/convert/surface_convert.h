@@ -10,7 +10,8 @@
 
 namespace rollgait::server {
 
-// Contract: Surface::semi_axes() is not null.
+// What no message can say, an implicit surface or a centre away from the origin, leaves the shape unset; the client
+// refuses to draw such a surface. No model that walks has one.
 void EncodeSurface(const Surface& surface, v1::Surface* encoded);
 
 // Any surface that a message can say; nothing if it was refused. Violations name `field` and its members.

@@ -109,6 +109,25 @@ TEST(CatalogTest, PlanarHumanIsListedWithItsContacts) {
   EXPECT_THAT(entry.contacts, ElementsAre("left_foot", "right_foot"));
 }
 
+// It has the arms that "planar" lacks, and nothing that leaves the plane.
+TEST(CatalogTest, PlanarArmsSwingInThePlane) {
+  BodyRequest request;
+  request.model = "planar_arms";
+  const Result<Scene> scene = BuildScene(request);
+  ASSERT_TRUE(scene.ok());
+  const Model& model = scene.value().model;
+  EXPECT_EQ(model.size(), 13);
+  EXPECT_EQ(model.actuated().size(), 10u);
+  for (const char* name : {"shoulder_l", "shoulder_r", "elbow_l", "elbow_r"}) {
+    EXPECT_GE(model.Find(name), 0) << name;
+  }
+  EXPECT_EQ(model.Find("trunk_flexion"), -1);
+  for (const Joint& joint : model.joints()) {
+    EXPECT_EQ(joint.axis.y() == 0, joint.type == JointType::kPrismatic) << joint.name;
+  }
+  EXPECT_NEAR(model.total_mass(), 75, 1e-9);
+}
+
 TEST(CatalogTest, DefaultsDependOnSex) {
   BodyRequest request = Planar();
   const Result<Scene> male = BuildScene(request);

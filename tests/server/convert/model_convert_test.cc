@@ -6,7 +6,9 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/geometry/flattened_superellipsoid.h"
 #include "core/models/foot.h"
 #include "server/convert/surface_convert.h"
 
@@ -186,6 +188,58 @@ TEST(EncodeModel, TellsTheSuperellipsoidsOfFeet) {
   ASSERT_TRUE(back && violations.empty());
   const Matrix3 none = Matrix3::Identity();
   EXPECT_EQ(SupportDifference(*back, none, scene.contacts[0].surface, none), 0);
+}
+
+// Models that walk have ellipsoids and smooth superellipsoids only; the others must not end a server either.
+TEST(EncodeSurface, EveryKindIsReadBackAsItWas) {
+  const Vector3 axes(0.12, 0.05, 0.04);
+  const std::vector<Surface> surfaces = {Ellipsoid(axes), Surface(Ellipsoid(axes)).Rounded(0.02), Sphere(0.05),
+                                         Superellipsoid(axes, 0.7, 1.2),
+                                         Surface(SmoothSuperellipsoid(axes, 0.7, 1.2, 0.2)).Rounded(0.01)};
+  const Matrix3 none = Matrix3::Identity();
+  for (const Surface& surface : surfaces) {
+    v1::Surface encoded;
+    EncodeSurface(surface, &encoded);
+    Violations violations;
+    const std::optional<Surface> back = DecodeSurface("surface", encoded, &violations);
+    ASSERT_TRUE(back && violations.empty()) << encoded.ShortDebugString();
+    EXPECT_EQ(back->kind().index(), surface.kind().index());
+    EXPECT_EQ(back->rounding(), surface.rounding());
+    EXPECT_EQ(SupportDifference(*back, none, surface, none), 0);
+  }
+}
+
+TEST(EncodeSurface, WhatNoMessageSaysHasNoShape) {
+  v1::Surface encoded;
+  encoded.mutable_sphere()->set_radius_m(1);
+  EncodeSurface(FlattenedSuperellipsoid::Create(Vector3(0.1, 0.1, 0.1), 0.5, 0.5, 0.1).value(), &encoded);
+  EXPECT_EQ(encoded.shape_case(), v1::Surface::SHAPE_NOT_SET);
+  EncodeSurface(Surface(Sphere(1)).MovedTo(Vector3(0, 0, 0.1)), &encoded);
+  EXPECT_EQ(encoded.shape_case(), v1::Surface::SHAPE_NOT_SET);
+}
+
+// A shape that the proto has is known to the decoder under its name there.
+TEST(DecodeSurface, KnowsEveryShape) {
+  const auto* const shapes = v1::Surface::descriptor()->FindOneofByName("shape");
+  ASSERT_GE(shapes->field_count(), 3);
+  for (int i = 0; i < shapes->field_count(); ++i) {
+    const auto& field = *shapes->field(i);
+    v1::Surface surface;
+    auto* const shape = surface.GetReflection()->MutableMessage(&surface, &field);
+    for (int k = 0; k < field.message_type()->field_count(); ++k) {
+      const auto& number = *field.message_type()->field(k);
+      if (number.message_type() == nullptr) shape->GetReflection()->SetDouble(shape, &number, -1);
+    }
+    Violations violations;
+    EXPECT_FALSE(DecodeSurface("body", surface, &violations)) << field.name();
+    ASSERT_FALSE(violations.empty());
+    EXPECT_EQ(violations[0].field.rfind("body." + std::string(field.name()) + ".", 0), 0u) << violations[0].field;
+  }
+  Violations violations;
+  EXPECT_FALSE(DecodeSurface("body", v1::Surface(), &violations));
+  ASSERT_EQ(violations.size(), 1u);
+  EXPECT_EQ(violations[0].field, "body");
+  EXPECT_EQ(violations[0].message, "is not set; give an ellipsoid, a sphere or a superellipsoid");
 }
 
 TEST(DecodeSurface, RefusesSmoothingBesideFlattening) {
