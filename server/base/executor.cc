@@ -11,23 +11,40 @@ constexpr std::chrono::seconds kShared{1};
 
 }  // namespace
 
+thread_local Executor::Current Executor::current_;
+
+Executor::Blocked::Blocked() : executor_(std::exchange(current_.executor, nullptr)) {
+  if (executor_ == nullptr) return;
+  const std::lock_guard<std::mutex> lock(executor_->mutex_);
+  ++current_.lane->second.blocked;
+  executor_->Offer(current_.lane);
+}
+
+Executor::Blocked::~Blocked() {
+  if (executor_ == nullptr) return;
+  const std::lock_guard<std::mutex> lock(executor_->mutex_);
+  --current_.lane->second.blocked;
+  current_.executor = executor_;
+}
+
 Executor::Executor(int threads, size_t capacity) : capacity_(capacity), thread_count_(static_cast<size_t>(threads)) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { Work(); });
 }
 
 Executor::~Executor() { Stop(); }
 
-size_t Executor::MostActive(const std::string& lane) const {
-  if (lane.empty()) return thread_count_;
+bool Executor::MayHaveThread(const std::string& name, const Lane& lane) const {
+  if (name.empty()) return lane.held < thread_count_;
   const bool shared = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
-  const size_t most =
-      shared ? std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2) : thread_count_ * 3 / 4;
-  return std::max<size_t>(1, most);
+  if (!shared) return lane.held < std::max<size_t>(1, thread_count_ * 3 / 4);
+  const size_t most_working = std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2);
+  return lane.held - lane.blocked < std::max<size_t>(1, most_working) &&
+         lane.held < std::max<size_t>(1, thread_count_ / 2);
 }
 
 void Executor::Offer(Lanes::iterator lane) {
   Lane& of = lane->second;
-  if (of.has_turn || of.tasks.empty() || of.active >= MostActive(lane->first)) return;
+  if (of.has_turn || of.tasks.empty() || !MayHaveThread(lane->first, of)) return;
   of.has_turn = true;
   turns_.push_back(lane);
   wake_.notify_one();
@@ -87,16 +104,18 @@ void Executor::Work() {
     lane->second.tasks.pop_front();
     --waiting_;
     ++active_;
-    ++lane->second.active;
+    ++lane->second.held;
     Offer(lane);  // behind the others
     lock.unlock();
+    current_ = {this, lane};
     task();
     task = nullptr;  // what it holds is released here, not under the lock
+    current_ = {};
     lock.lock();
     --active_;
-    --lane->second.active;
+    --lane->second.held;
     Offer(lane);
-    if (lane->second.active == 0 && lane->second.tasks.empty()) lanes_.erase(lane);
+    if (lane->second.held == 0 && lane->second.tasks.empty()) lanes_.erase(lane);
     if (stopping_) wake_.notify_all();
     if (active_ == 0 && waiting_ == 0) idle_.notify_all();
   }

@@ -17,10 +17,23 @@ namespace rollgait::server {
 
 // A few threads that run tasks. For work that may block, which a gRPC reaction may not. Tasks of one lane start in the
 // order they came; lanes that wait take turns. A lane with a name has at most three quarters of the threads (while
-// tasks of several lanes come a quarter, and no more than half as many as there are cores, at least one) and half of
-// the places to wait, so that whoever fills it leaves the rest to others.
+// tasks of several lanes come a quarter, and no more than half as many as there are cores, at least one; with those
+// whose tasks are Blocked a half) and half of the places to wait, so that whoever fills it leaves the rest to others.
 class Executor {
  public:
+  // While it exists, the task that made it does not need the processor: another one of its lane may start. Nothing in
+  // threads that are no executor's, and within another one.
+  class Blocked {
+   public:
+    Blocked();
+    ~Blocked();
+    Blocked(const Blocked&) = delete;
+    Blocked& operator=(const Blocked&) = delete;
+
+   private:
+    Executor* const executor_;  // nullptr: nothing
+  };
+
   // `capacity` bounds the tasks that TryPost lets wait.
   Executor(int threads, size_t capacity);
   Executor(const Executor&) = delete;
@@ -42,17 +55,25 @@ class Executor {
  private:
   struct Lane {
     std::deque<std::function<void()>> tasks;
-    size_t active = 0;
+    size_t held = 0;        // threads
+    size_t blocked = 0;     // of them
     bool has_turn = false;  // it is in turns_
   };
   using Lanes = std::map<std::string, Lane>;
+  // The task of this thread.
+  struct Current {
+    Executor* executor = nullptr;
+    Lanes::iterator lane = {};
+  };
 
   void Work();
   // These need the lock.
   void Add(const std::string& lane, std::function<void()> task);
-  size_t MostActive(const std::string& lane) const;
+  bool MayHaveThread(const std::string& name, const Lane& lane) const;
   // Gives the lane a turn if it has none, has tasks and may have one more thread.
   void Offer(Lanes::iterator lane);
+
+  static thread_local Current current_;
 
   const size_t capacity_, thread_count_;
   std::mutex mutex_;

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/base/executor.h"
 #include "server/store/schema.h"
 
 namespace rollgait::server {
@@ -198,6 +199,9 @@ Outcome<Done> Database::PrepareSchema() {
 }
 
 std::optional<Error> Database::Transact(SqlConnection::Access access, const Body& body) {
+  // A write waits for others and for the disk, far longer than it computes.
+  std::optional<Executor::Blocked> blocked;
+  if (access == SqlConnection::Access::kWrite) blocked.emplace();
   for (int conflicts = 0, losses = 0;;) {
     Waiting write{body};
     if (access == SqlConnection::Access::kWrite && options_.group_writes) {

@@ -1,5 +1,7 @@
 // SqlStore::Create: all that it asks goes out at once, then it decides, and what it writes goes out with the commit.
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "rollgait/v1/solve.pb.h"
@@ -66,23 +68,46 @@ Error TooMany(const std::string& text) {
   return {ErrorCode::kResourceExhausted, text + "; try again later", {}, std::chrono::milliseconds(1000)};
 }
 
+Error QueueFull(int64_t queued, int limit) {
+  return TooMany(std::to_string(queued) + " solves are queued, the limit is " + std::to_string(limit));
+}
+
+Error QueueOfTenantFull(const std::string& tenant, int64_t own, int limit) {
+  const std::string text =
+      std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " + std::to_string(limit);
+  Error error = TooMany(text);
+  error.quota = {"tenant:" + tenant, text};
+  return error;
+}
+
 // Whether it may be queued: false if that is uncertain.
 Outcome<bool> MayQueue(Questions& questions, const NewSolve& solve, int writers) {
   const int64_t queued = IntOf(questions.queued);
   const Room room = RoomFor(queued, solve.max_queued, writers);
-  if (room == Room::kNone) {
-    return TooMany(std::to_string(queued) + " solves are queued, the limit is " + std::to_string(solve.max_queued));
-  }
+  if (room == Room::kNone) return QueueFull(queued, solve.max_queued);
   if (solve.max_queued_tenant <= 0) return room == Room::kEnough;
-  const std::string& tenant = solve.actor.tenant;
   const int64_t own = IntOf(questions.queued_tenant);
   const Room own_room = RoomFor(own, solve.max_queued_tenant, writers);
   if (own_room != Room::kNone) return room == Room::kEnough && own_room == Room::kEnough;
-  const std::string text = std::to_string(own) + " solves of tenant \"" + tenant + "\" are queued, its limit is " +
-                           std::to_string(solve.max_queued_tenant);
-  Error error = TooMany(text);
-  error.quota = {"tenant:" + tenant, text};
-  return error;
+  return QueueOfTenantFull(solve.actor.tenant, own, solve.max_queued_tenant);
+}
+
+bool NeedsPlaceIn(SqlConnection& connection, const NewSolve& solve) {
+  Query earlier(connection, "SELECT 1 FROM solves WHERE tenant = ? AND request_id = NULLIF(?, '')", solve.actor.tenant,
+                solve.request_id);
+  Query reusable(connection, "SELECT 1 FROM results WHERE solve_key = NULLIF(?, '') AND reusable = 1 LIMIT 1",
+                 solve.solve_key);
+  return !earlier.Step() && !reusable.Step();
+}
+
+int64_t CountQueued(SqlConnection& connection) {
+  Query query(connection, "SELECT COUNT(*) FROM solves WHERE state = 1");
+  return query.Step() ? query.Int(0) : 0;
+}
+
+int64_t CountQueued(SqlConnection& connection, const std::string& tenant) {
+  Query query(connection, "SELECT COUNT(*) FROM solves WHERE tenant = ? AND state = 1", tenant);
+  return query.Step() ? query.Int(0) : 0;
 }
 
 // What the first event of a queued solve says: why it waits, if it waits for another (single flight).
@@ -151,6 +176,30 @@ Error OfBatch(Error error, size_t index, size_t count) {
   return error;
 }
 
+// Refuses a batch that does not fit before any of it is written: all others wait while it is, and while it is undone.
+// With the locks held exclusively.
+std::optional<Error> NoRoomForAll(SqlConnection& connection, const std::vector<NewSolve>& solves) {
+  const NewSolve& limits = solves.front();
+  const std::string& tenant = limits.actor.tenant;
+  const int64_t queued = CountQueued(connection);
+  const bool has_own = limits.max_queued_tenant > 0;
+  const int64_t own = has_own ? CountQueued(connection, tenant) : 0;
+  const int64_t room = limits.max_queued - queued, own_room = limits.max_queued_tenant - own;
+  const int64_t least = std::max<int64_t>(0, has_own ? std::min(room, own_room) : room);
+  if (static_cast<int64_t>(solves.size()) <= least) return std::nullopt;
+  std::set<std::string> before;
+  int64_t places = 0;
+  for (size_t i = 0; i < solves.size(); ++i) {
+    const std::string& request_id = solves[i].request_id;
+    const bool is_repeated = !request_id.empty() && !before.insert(request_id).second;
+    if (is_repeated || !NeedsPlaceIn(connection, solves[i]) || ++places <= least) continue;
+    return OfBatch(room <= least ? QueueFull(queued + places - 1, limits.max_queued)
+                                 : QueueOfTenantFull(tenant, own + places - 1, limits.max_queued_tenant),
+                   i, solves.size());
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
@@ -162,13 +211,7 @@ Outcome<CreatedSolve> SqlStore::Create(const NewSolve& solve) {
 }
 
 Outcome<bool> SqlStore::NeedsPlace(const NewSolve& solve) {
-  return database_->Read([&](SqlConnection& connection) -> Outcome<bool> {
-    Query earlier(connection, "SELECT 1 FROM solves WHERE tenant = ? AND request_id = NULLIF(?, '')",
-                  solve.actor.tenant, solve.request_id);
-    Query reusable(connection, "SELECT 1 FROM results WHERE solve_key = NULLIF(?, '') AND reusable = 1 LIMIT 1",
-                   solve.solve_key);
-    return !earlier.Step() && !reusable.Step();
-  });
+  return database_->Read([&](SqlConnection& connection) -> Outcome<bool> { return NeedsPlaceIn(connection, solve); });
 }
 
 Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, LockMode mode) {
@@ -183,6 +226,7 @@ Outcome<std::vector<CreatedSolve>> SqlStore::CreateAll(const std::vector<NewSolv
   if (solves.empty()) return Made();
   Outcome<Made> outcome = database_->Write([&](SqlConnection& connection) -> Outcome<Made> {
     LockQueues(connection, solves.front(), LockMode::kExclusive);
+    if (std::optional<Error> full = NoRoomForAll(connection, solves)) return *std::move(full);
     Made made;
     for (const NewSolve& solve : solves) {
       ROLLGAIT_CHECK(solve.actor.tenant == solves.front().actor.tenant);

@@ -1,9 +1,13 @@
 #include "server/store/sqlite_connection.h"
 
+#include <thread>
+
 #include "server/store/sql_dialect.h"
 
 namespace rollgait::server {
 namespace {
+
+constexpr std::chrono::seconds kLongestWait(5);  // for a lock
 
 SqlFailure::Kind KindOf(int code) {
   switch (code & 0xff) {
@@ -97,7 +101,7 @@ class SqliteStatement : public SqlStatement {
   bool in_use_ = false;
 };
 
-SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) : clock_(clock) {
+SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) : clock_(clock), turn_(path + "-turn") {
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
@@ -106,7 +110,7 @@ SqliteConnection::SqliteConnection(const std::string& path, const Clock& clock) 
     throw SqlFailure(KindOf(code), "cannot open " + path + ": " + reason);
   }
   try {
-    sqlite3_busy_timeout(handle_, 5000);
+    sqlite3_busy_handler(handle_, LookAgain, this);
     Execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;");
     AddClockFunctions();
   } catch (...) {
@@ -138,8 +142,30 @@ void SqliteConnection::Execute(const std::string& sql) {
   if (sqlite3_exec(handle_, Translate(sql, kSqliteDialect).c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) Throw(sql);
 }
 
+int SqliteConnection::LookAgain(void* connection, int looks) {
+  auto* const self = static_cast<SqliteConnection*>(connection);
+  const auto now = std::chrono::steady_clock::now();
+  if (looks == 0) self->give_up_ = now + kLongestWait;
+  if (now >= self->give_up_) return 0;
+  std::this_thread::sleep_for(WriteTurn::kLook);
+  return 1;
+}
+
 void SqliteConnection::Begin(Access access) {
-  Query(*this, access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN").Run();
+  if (access != Access::kWrite) {
+    Query(*this, "BEGIN").Run();
+    return;
+  }
+  if (!turn_.Take(std::chrono::steady_clock::now() + kLongestWait)) {
+    throw SqlFailure(SqlFailure::Kind::kUnavailable, "another process has been waiting to write for too long");
+  }
+  try {
+    Query(*this, "BEGIN IMMEDIATE").Run();
+  } catch (...) {
+    turn_.Leave();
+    throw;
+  }
+  turn_.Leave();
 }
 
 void SqliteConnection::Commit() { Query(*this, "COMMIT").Run(); }

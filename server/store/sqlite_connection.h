@@ -3,12 +3,14 @@
 
 #include <sqlite3.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 
 #include "server/base/clock.h"
 #include "server/store/sql_connection.h"
 #include "server/store/statement_pool.h"
+#include "server/store/write_turn.h"
 
 namespace rollgait::server {
 
@@ -17,8 +19,8 @@ class SqliteStatement;
 // A connection to an SQLite file. Its lease clock is the machine's time since boot.
 class SqliteConnection : public SqlConnection {
  public:
-  // Opens or creates the file in WAL mode with synchronous=FULL; waits up to five seconds for other writers. Throws.
-  // The clock outlives it.
+  // Opens or creates the file in WAL mode with synchronous=FULL; waits up to five seconds for other writers, which
+  // take turns (write_turn.h). Throws. The clock outlives it.
   SqliteConnection(const std::string& path, const Clock& clock);
   SqliteConnection(const SqliteConnection&) = delete;
   SqliteConnection& operator=(const SqliteConnection&) = delete;
@@ -42,8 +44,12 @@ class SqliteConnection : public SqlConnection {
  private:
   // {boot_id} and {now_ns} of sqlite_dialect.cc.
   void AddClockFunctions();
+  // SQLite's busy handler: waits before it looks again at a lock; 0: too long.
+  static int LookAgain(void* connection, int looks);
 
   const Clock& clock_;
+  WriteTurn turn_;
+  std::chrono::steady_clock::time_point give_up_;  // a lock that is waited for
   sqlite3* handle_ = nullptr;
   StatementPool<SqliteStatement> statements_;
 };

@@ -1,8 +1,6 @@
 #include "tests/faults/hostile_tenant.h"
 
 #include <google/protobuf/util/json_util.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -132,14 +130,8 @@ constexpr std::array kUnread = {"unread_results", "unread_watches"};
 
 }  // namespace
 
-std::unique_ptr<grpc::ClientContext> CallAs(const std::string& token, milliseconds at_most) {
-  auto context = std::make_unique<grpc::ClientContext>();
-  context->AddMetadata("authorization", "Bearer " + token);
-  context->set_deadline(std::chrono::system_clock::now() + at_most);
-  return context;
-}
-
-HostileTenant::HostileTenant(Options options) : options_(std::move(options)), counts_(kKinds.size()) {
+HostileTenant::HostileTenant(Options options)
+    : options_(std::move(options)), next_(options_.first_number), counts_(kKinds.size()) {
   v1::GetModelRequest request;
   request.mutable_model()->set_name("planar");
   const grpc::Status status =
@@ -148,7 +140,6 @@ HostileTenant::HostileTenant(Options options) : options_(std::move(options)), co
 }
 
 void HostileTenant::Attack(double seconds) {
-  stopping_ = false;
   std::vector<std::thread> threads;
   const auto chosen = [this](const std::string& name) { return options_.only.empty() || options_.only == name; };
   for (size_t kind = 0; kind < kKinds.size(); ++kind) {
@@ -164,7 +155,6 @@ void HostileTenant::Attack(double seconds) {
 }
 
 void HostileTenant::Repeat(size_t kind) {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
   const std::unique_ptr<Stub> stub = Connect(options_.address);
   while (!stopping_) {
     const grpc::Status status =
@@ -181,10 +171,10 @@ void HostileTenant::Repeat(size_t kind) {
 }
 
 void HostileTenant::LeaveUnread(const std::string& attack, double seconds) {
-  const std::string command = "exec nice -n 19 /usr/bin/python3 " ROLLGAIT_ATTACKS " " + attack + " --to " +
-                              options_.address + " --token " + options_.token_file + " --solve " + options_.solve +
-                              " --seconds " + std::to_string(seconds) + " --connections " +
-                              std::to_string(kUnreadConnections) + " --streams " + std::to_string(kUnreadStreams);
+  const std::string command = "exec /usr/bin/python3 " ROLLGAIT_ATTACKS " " + attack + " --to " + options_.address +
+                              " --token " + options_.token_file + " --solve " + options_.solve + " --seconds " +
+                              std::to_string(seconds) + " --connections " + std::to_string(kUnreadConnections) +
+                              " --streams " + std::to_string(kUnreadStreams);
   FILE* const output = popen(command.c_str(), "r");
   if (output == nullptr) return;
   char line[512] = "";

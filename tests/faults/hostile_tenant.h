@@ -12,18 +12,16 @@
 
 namespace rollgait::faults {
 
-// The context of a tenant's call.
-std::unique_ptr<grpc::ClientContext> CallAs(const std::string& token, std::chrono::milliseconds at_most);
-
 // A tenant that does with its token all that the service lets it do, at once, as fast as it can, and heeds no
-// RetryInfo. Its threads have the lowest priority that the kernel knows, as if they ran on another machine.
+// RetryInfo.
 class HostileTenant {
  public:
   struct Options {
     std::string address, token;
-    std::string token_file;  // with the same token
-    std::string solve;       // "solves/{id}", a finished one of its own
-    std::string only;        // the one attack to make; empty: all
+    std::string token_file;    // with the same token
+    std::string solve;         // "solves/{id}", a finished one of its own
+    std::string only;          // the one attack to make; empty: all
+    int64_t first_number = 0;  // what it asks for differs by a number, which begins here
   };
   // Of one kind of attack.
   struct Tally {
@@ -32,7 +30,7 @@ class HostileTenant {
   };
 
   explicit HostileTenant(Options options);
-  // Attacks for so many seconds; returns when all has ended.
+  // Attacks for so many seconds, once; returns when all has ended.
   void Attack(double seconds);
   // Of the attacks so far. One that was never served has attacked nothing.
   std::vector<Tally> tallies() const;
@@ -47,7 +45,7 @@ class HostileTenant {
   const Options options_;
   v1::Model model_;  // that it stores again and again
   std::atomic<bool> stopping_{false};
-  std::atomic<int64_t> next_{0};
+  std::atomic<int64_t> next_;
   std::vector<Counts> counts_;  // in the order of the table of attacks
   std::atomic<int64_t> unread_{0};
 };

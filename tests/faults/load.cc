@@ -59,6 +59,13 @@ std::unique_ptr<Stub> Connect(const std::string& address) {
   return v1::GaitService::NewStub(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments));
 }
 
+std::unique_ptr<grpc::ClientContext> CallAs(const std::string& token, std::chrono::milliseconds at_most) {
+  auto context = std::make_unique<grpc::ClientContext>();
+  context->AddMetadata("authorization", "Bearer " + token);
+  context->set_deadline(std::chrono::system_clock::now() + at_most);
+  return context;
+}
+
 void Verdict::Add(const Verdict& other) {
   for (int64_t Verdict::*count :
        {&Verdict::acknowledged, &Verdict::succeeded, &Verdict::dead_letters, &Verdict::lost, &Verdict::duplicated,

@@ -22,6 +22,8 @@ using Stub = v1::GaitService::Stub;
 
 // A stub on a connection of its own that tries again soon and notices a silent peer within ten seconds.
 std::unique_ptr<Stub> Connect(const std::string& address);
+// The context of a call with a token.
+std::unique_ptr<grpc::ClientContext> CallAs(const std::string& token, std::chrono::milliseconds at_most);
 
 // What a load that lived through a fault found.
 struct Verdict {

@@ -16,7 +16,7 @@
 
 #include "bench/service_load/latencies.h"
 #include "tests/faults/faults.h"
-#include "tests/faults/hostile_tenant.h"
+#include "tests/faults/hostile_process.h"
 
 namespace rollgait::faults {
 namespace {
@@ -263,7 +263,7 @@ int Run(const Options& options) {
   const std::string hostile_token = token("hostile"), token_file = directory.path() + "/token";
   std::ofstream(token_file) << hostile_token;
   const GoodTenant first(server.address(), hostile_token);  // makes a solve for answers that are not read
-  HostileTenant hostile({server.address(), hostile_token, token_file, first.solve(), options.only});
+  HostileProcess hostile(server.address(), token_file, first.solve(), options.only);
 
   good.Run(1);  // connections, caches
   std::vector<Phase> alone, attacked;
@@ -286,9 +286,9 @@ int Run(const Options& options) {
   const int64_t lost = good.CountLost();
   std::printf("\ngood tenant: %ld solves, %ld lost, %ld calls refused\nhostile tenant, served + refused:",
               static_cast<long>(good.made()), static_cast<long>(lost), static_cast<long>(refused));
-  for (const HostileTenant::Tally& tally : hostile.tallies()) {
-    std::printf(" %s %ld + %ld;", tally.name.c_str(), static_cast<long>(tally.served),
-                static_cast<long>(tally.refused));
+  met = met && !hostile.tallies().empty();
+  for (const auto& [name, tally] : hostile.tallies()) {
+    std::printf(" %s %ld + %ld;", name.c_str(), static_cast<long>(tally.served), static_cast<long>(tally.refused));
     met = met && tally.served > 0;
   }
   std::printf("\n%s\n", met && lost == 0 && refused == 0 ? "met" : "NOT MET");

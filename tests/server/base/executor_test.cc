@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <string>
+#include <thread>
 
 namespace rollgait::server {
 namespace {
@@ -61,6 +62,37 @@ TEST(ExecutorTest, ALaneLeavesThreadsToOthers) {
   gate.set_value();
   EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
   EXPECT_LE(most, 6);
+}
+
+// While lanes share the threads, and a machine of few cores lets each have one.
+TEST(ExecutorTest, ATaskThatIsBlockedLetsOneOfItsLaneStart) {
+  Executor executor(8, 1000);
+  std::promise<void> gate;
+  const std::shared_future<void> opened = gate.get_future().share();
+  std::atomic<int> blocked{0}, computing{0};
+  ASSERT_TRUE(executor.TryPost("other", [] {}));
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(executor.TryPost("a", [&] {
+      {
+        const Executor::Blocked once, and_not_twice;
+        ++blocked;
+        opened.wait();
+      }
+      ++computing;
+    }));
+  }
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (blocked < 4 && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+  // Half of the threads are left.
+  std::promise<void> ran;
+  ASSERT_TRUE(executor.TryPost("other", [&] { ran.set_value(); }));
+  EXPECT_EQ(ran.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
+  EXPECT_GE(blocked, 4);
+  EXPECT_LE(blocked, 6);
+  gate.set_value();
+  EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
+  EXPECT_EQ(computing, 10);
+  const Executor::Blocked no_executor;
 }
 
 TEST(ExecutorTest, LanesThatWaitTakeTurns) {
