@@ -39,7 +39,8 @@ class BarrierProblem {
   const std::vector<int>& free_rows() const { return free_rows_; }
 
   // w with x moved inside its bounds by at least `push` (relative to the larger of NlpProblem::variable_size and the
-  // bound, and to the distance of the two bounds), slacks likewise from g(x). False if the functions have no finite value there.
+  // bound, and to the distance of the two bounds), slacks likewise from g(x). False if the functions have no finite
+  // value there.
   bool MakeInterior(const VectorX& x, double push, Point* point);
   // Fills f, c, θ from w. False if a value is not finite.
   bool Evaluate(Point* point);

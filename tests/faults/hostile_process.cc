@@ -13,8 +13,8 @@ constexpr int64_t kNumbersOfAnAttack = 100'000;
 
 HostileProcess::HostileProcess(const std::string& address, const std::string& token_file, const std::string& solve,
                                const std::string& only)
-    : command_("exec chrt --idle 0 " HOSTILE_TENANT " --to " + address + " --token " + token_file + " --solve " + solve +
-               (only.empty() ? "" : " --only '" + only + "'")) {}
+    : command_("exec chrt --idle 0 " HOSTILE_TENANT " --to " + address + " --token " + token_file + " --solve " +
+               solve + (only.empty() ? "" : " --only '" + only + "'")) {}
 
 void HostileProcess::Attack(double seconds) {
   const std::string command = command_ + " --seconds " + std::to_string(seconds) + " --first-number " +

@@ -7,8 +7,8 @@
 
 namespace rollgait::faults {
 
-// rollgait_hostile_tenant as if it ran on another machine: scheduled as SCHED_IDLE, which any other thread that wakes up
-// displaces at once. One of niceness 19 keeps its core until the next tick of the kernel, 4 ms.
+// rollgait_hostile_tenant as if it ran on another machine: scheduled as SCHED_IDLE, which any other thread that wakes
+// up displaces at once. One of niceness 19 keeps its core until the next tick of the kernel, 4 ms.
 class HostileProcess {
  public:
   // Calls of one kind of attack.
