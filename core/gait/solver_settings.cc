@@ -27,7 +27,7 @@ struct Settings {
 //  * Smoother powers on a coarser mesh: the finer the mesh, the larger the accelerations that a push asks for, and with
 //    1e-2 they violate the start by 30 to 250 times the size of a row. 96 solves of success_rate (both models, `human`
 //    and `transport`): 7900 iterations and 5 programs that led nowhere with μ = 1e-3 and a push of 1e-2; 6800 and none
-//    with this row; the same within 2 % with three other pairs near it.
+//    with this row.
 //  * The first Hessian that needs a shift is refused 1e-4, from a guess and from smoother powers alike: in 48 solves of
 //    success_rate the ladder 1e-4, 1e-2, 1, 100 ended at 1e-2 or 1 from a guess, and from smoother powers at 1 in 65 of
 //    69. To begin there spares the factorisations before it: 2 to 3 of a hundred.
