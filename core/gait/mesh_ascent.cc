@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/gait/artefact.h"
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/meshes.h"
 #include "core/gait/power_smoothing.h"

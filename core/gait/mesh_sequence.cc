@@ -1,7 +1,6 @@
 #include "core/gait/mesh_sequence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "core/gait/added_constraints.h"
 #include "core/gait/adopt_solution.h"
+#include "core/gait/artefact.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
@@ -17,38 +17,6 @@
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
-namespace {
-
-// What converged on every mesh is no motion of the body: say so, and where.
-void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
-  solution->termination = Termination::kNumericalDifficulty;
-  solution->message =
-      "Only motions that exist on the mesh were found: the feet slip between its nodes. Use more intervals, more "
-      "refinements or a less demanding request.";
-  solution->unmet_constraints.insert(
-      solution->unmet_constraints.begin(),
-      {"rolling between nodes", 0, 0, solution->accuracy->max_slip - spec.bounds[Criterion::kSlip], "m/s"});
-}
-
-// Whether surfaces slip between nodes at more than this share of the speed of the motion.
-bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
-  if (!solution.accuracy) return false;
-  double speed = solution.speed;
-  if (spec.manoeuvre) {
-    // Of the body's surface: it may turn without going anywhere.
-    const double rate = solution.trajectory->phases.front().node_velocities.bottomRows(3).colwise().norm().maxCoeff();
-    speed = rate * spec.scene.selection.rolling_body->semi_axes.minCoeff();
-  }
-  // A body at rest slips by rounding.
-  const double rounding = spec.manoeuvre ? 1e-6 : 0;
-  return solution.accuracy->max_slip > share * speed + rounding;
-}
-
-}  // namespace
-
-bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
-// A coarse mesh may slip at half the speed and still lead to a motion that does not.
-bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
 
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution) {
   solution->meshes.insert(solution->meshes.begin(), earlier.begin(), earlier.end());

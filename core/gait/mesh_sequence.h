@@ -8,13 +8,6 @@
 
 namespace rollgait {
 
-// True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion
-// that exists on its mesh only.
-bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
-
-// True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
-bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
-
 // The meshes of a solve that went before this one.
 void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);
 

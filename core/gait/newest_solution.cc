@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "core/gait/artefact.h"
 #include "core/gait/error_estimate.h"
 #include "core/gait/judge_solution.h"
-#include "core/gait/mesh_sequence.h"
 #include "core/gait/meshes.h"
 #include "core/gait/own_units.h"
 #include "core/gait/power_smoothing.h"

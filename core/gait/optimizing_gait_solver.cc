@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/gait/artefact.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/error_estimate.h"
 #include "core/gait/half_cycle.h"

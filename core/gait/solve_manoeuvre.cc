@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/gait/artefact.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
 #include "core/gait/mesh_ascent.h"

@@ -40,7 +40,7 @@ TEST_F(TradeoffCommandTest, SolvesThePointsThenAReferenceFromTheFinestAndWritesF
   for (int i : {8, 9}) {
     EXPECT_EQ(created[i].spec().discretization().scheme(), v1::Discretization::SCHEME_RADAU3);
     EXPECT_EQ(created[i].spec().discretization().single_support_intervals(), i == 8 ? 16 : 32);
-    EXPECT_EQ(created[i].spec().accuracy().kkt_tolerance(), i == 8 ? 1e-6 : 1e-8);
+    EXPECT_EQ(created[i].spec().accuracy().kkt_tolerance(), 1e-6);
     EXPECT_EQ(created[i].spec().warm_start(), "solves/planar0");
   }
   EXPECT_THAT(ended.err, HasSubstr("point 4/4"));

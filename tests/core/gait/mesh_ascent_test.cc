@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/gait/artefact.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/mesh_sequence.h"
 #include "core/gait/optimizing_gait_solver.h"
