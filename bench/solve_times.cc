@@ -1,7 +1,8 @@
 // What solves take, and how well it is predicted.
-//   solve_times > client/predict/measured_times.cc     # measures; times are of this machine, best with nothing else to
-//   do solve_times --check [--requests 40] [--seed 1]    # other requests, predicted beside measured
-// Both take [--models planar,human29]; the table of some presets alone is made with [--presets torque,transport,human].
+//   solve_times > client/predict/measured_times.cc       measures, best with nothing else to do
+//   solve_times --check [--requests 40] [--seed 1]       other requests, predicted beside measured
+// Both take [--models planar,human29] [--presets torque,transport,human].
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

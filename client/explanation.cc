@@ -233,7 +233,7 @@ Sentences WhatToChange(const v1::Solve& solve, const std::vector<LimitUse>& uses
       AddOnce("Raise --max-iterations, or start from a solve nearby with --warm-start nearest.", &changes);
       break;
     case v1::TERMINATION_TIME_LIMIT:
-      AddOnce("Raise --time-limit, or ask for less: --accuracy draft, fewer --intervals.", &changes);
+      AddOnce("Raise --max-time, or ask for less: --accuracy draft, fewer --intervals.", &changes);
       break;
     case v1::TERMINATION_NUMERICAL_DIFFICULTY:
       AddOnce("Start from elsewhere: --starts 4 or --warm-start nearest; or take another number of --intervals.",

@@ -1,6 +1,5 @@
 #include "client/flag_values.h"
 
-#include <charconv>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,17 +24,6 @@ std::pair<std::string, std::string> ParseLabel(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals != std::string::npos && equals > 0) return {text.substr(0, equals), text.substr(equals + 1)};
   throw Failure(ExitCode::kUsage, "--label " + text + ": must be KEY=VALUE, for example --label sweep=hills");
-}
-
-std::optional<double> SecondsOf(const std::string& text) {
-  if (text.size() < 2) return std::nullopt;
-  double count = 0;
-  const char* const end = text.data() + text.size() - 1;
-  const auto parsed = std::from_chars(text.data(), end, count, std::chars_format::fixed);
-  const char unit = text.back();
-  const double seconds = unit == 's' ? 1 : unit == 'm' ? 60 : unit == 'h' ? 3600 : unit == 'd' ? 86400 : 0;
-  if (parsed.ec != std::errc() || parsed.ptr != end || seconds == 0 || !(count >= 0)) return std::nullopt;
-  return count * seconds;
 }
 
 std::vector<double> ParseNumbers(const std::string& flag, const std::string& text, const std::string& form,

@@ -3,7 +3,6 @@
 #define ROLLGAIT_CLIENT_FLAG_VALUES_H_
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,9 +32,6 @@ std::pair<std::string, double> ParseAssignment(const std::string& flag, const st
 
 // Of "KEY=VALUE". What keys and values may be is the server's to check. Throws Failure(kUsage) for another text.
 std::pair<std::string, std::string> ParseLabel(const std::string& text);
-
-// Of "90s", "1.5h": a number with one of the units s, m (minutes), h and d, in s. Nothing for another text.
-std::optional<double> SecondsOf(const std::string& text);
 
 // Of "1,-2.5": numbers separated by commas, as many as one of `counts`. Throws Failure(kUsage), which says that the
 // text must be `form`.

@@ -1,6 +1,6 @@
 #include "client/list_filter.h"
 
-#include <cmath>
+#include <charconv>
 #include <ctime>
 #include <optional>
 
@@ -16,10 +16,17 @@ using WallClock = std::chrono::system_clock;
 
 // Of "12h"; nullopt: not an age. At most a hundred years.
 std::optional<std::chrono::seconds> ParseAge(const std::string& text) {
-  constexpr double kLongest_s = 100.0 * 366 * 86400;
-  const std::optional<double> seconds = SecondsOf(text);
-  if (!seconds || *seconds > kLongest_s) return std::nullopt;
-  return std::chrono::seconds(std::llround(*seconds));
+  if (text.size() < 2) return std::nullopt;
+  int64_t count = 0;
+  const char* const end = text.data() + text.size() - 1;
+  const auto parsed = std::from_chars(text.data(), end, count);
+  const char unit = text.back();
+  const int64_t seconds = unit == 's' ? 1 : unit == 'm' ? 60 : unit == 'h' ? 3600 : unit == 'd' ? 86400 : 0;
+  constexpr int64_t kLongest_s = int64_t{100} * 366 * 86400;
+  if (parsed.ec != std::errc() || parsed.ptr != end || seconds == 0 || count < 0 || count > kLongest_s / seconds) {
+    return std::nullopt;
+  }
+  return std::chrono::seconds(count * seconds);
 }
 
 // Of "2026-11-24" or "2026-11-24T12:30"; nullopt: not a date, 2026-02-31 for example.

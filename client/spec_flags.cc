@@ -14,13 +14,6 @@
 namespace rollgait::client {
 namespace {
 
-double ParseMaxTime(const std::string& text) {
-  const std::optional<double> seconds = SecondsOf(text);
-  if (seconds) return *seconds;  // what it may be is the server's to check
-  throw Failure(ExitCode::kUsage,
-                "--max-time " + text + ": must be a number with a unit, for example 90s, 5m, 2h or 1d");
-}
-
 double ParseWeight(const std::string& cost, const std::string& text) {
   try {
     size_t used = 0;
@@ -146,8 +139,7 @@ void ApplyNumerics(const SpecFlags& flags, v1::SolveSpec& spec) {
   if (flags.tolerance) spec.mutable_accuracy()->set_kkt_tolerance(*flags.tolerance);
   if (flags.max_refinements) spec.mutable_accuracy()->set_max_refinements(*flags.max_refinements);
   if (flags.max_iterations) spec.mutable_solver_limits()->set_max_iterations(*flags.max_iterations);
-  if (flags.max_time) spec.mutable_solver_limits()->set_max_wall_time_s(ParseMaxTime(*flags.max_time));
-  if (flags.time_limit_s) spec.mutable_solver_limits()->set_max_wall_time_s(*flags.time_limit_s);
+  if (flags.max_time_s) spec.mutable_solver_limits()->set_max_wall_time_s(*flags.max_time_s);
 }
 
 }  // namespace
@@ -215,10 +207,17 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--tolerance", flags.tolerance, "Numerics", "Scaled KKT error to stop at, [1e-12, 1e-2]");
   add("--max-refinements", flags.max_refinements, "Numerics", "How often the mesh may be refined, [0, 20]");
   add("--max-iterations", flags.max_iterations, "Numerics", "Iterations over all meshes, [1, 100000]");
-  add("--max-time", flags.max_time, "Numerics",
-      "Wall time of the solve, for example 90s, 5m or 2h, [0.01s, 1d]; then it ends with the newest gait that "
-      "converged")
-      ->excludes(add("--time-limit", flags.time_limit_s, "Numerics", "The same in s, [0.01, 86400]"));
+  add("--max-time,--time-limit", flags.max_time_s, "Numerics",
+      "Wall time of the solve in s, or with a unit: 90s, 5m, 2h, 1d; [0.01, 86400] s; then it ends with the newest "
+      "gait that converged")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1}, {"m", 60}, {"h", 3600}, {"d", 86400}},
+                                        CLI::AsNumberWithUnit::CASE_SENSITIVE))
+      ->transform(CLI::Validator(
+          [](std::string& text) -> std::string {  // a unit alone would be one of it
+            return text.find_first_of("0123456789") == std::string::npos ? text + " is no time; give 90s, 5m or 2h"
+                                                                         : "";
+          },
+          ""));
 }
 
 v1::SolveSpec BuildSpec(const SpecFlags& flags) {

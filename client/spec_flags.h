@@ -27,8 +27,7 @@ struct SpecFlags {
   std::optional<double> duration_s;
   std::optional<std::string> touch_down, touch_down_point,
       lift_off_point;  // a word; "A" or "A,B" from heel -1 to toe 1
-  std::optional<double> friction, clearance_m, tolerance, time_limit_s;
-  std::optional<std::string> max_time;  // "90s"; the same as time_limit_s with a unit
+  std::optional<double> friction, clearance_m, tolerance, max_time_s;
   std::optional<int> intervals, double_intervals, max_refinements, max_iterations;
   std::optional<std::string> feet, ranges;
   bool free_speed = false, allow_overlap = false, toes = false, sagittal = false, drop_arms = false,

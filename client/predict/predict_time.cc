@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "client/text.h"
+#include <numbers>
 
 namespace rollgait::client {
 namespace {
 
-constexpr double kDefaultSpeed_m_s = 1.3;  // of Motion.speed_m_s at 9.81 m/s²
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDefaultSpeed_m_s = 1.3;  // core/gait/default_speed.h, which clients do not have
+constexpr double kDegree = std::numbers::pi / 180;
+// Between two measured slopes and two measured speeds, which count alike.
+constexpr double kSlopeStep_deg = 4, kSpeedStep_m_s = 0.4;
+// Keeps the weight of a measured solve finite; a tenth of a step away it is halved.
+constexpr double kLeastDistance = 0.1;
 
 // The first field, by its path, that is set beyond what a measured solve may have; empty: none.
 std::string FirstOther(v1::SolveSpec spec) {
@@ -46,8 +49,9 @@ double LogTime(double slope_deg, double speed_m_s, const std::vector<const Measu
   double sum = 0, weights = 0;
   for (const MeasuredTime* solve : solves) {
     if (solve == without) continue;
-    const double distance = std::hypot((solve->slope_deg - slope_deg) / 4, (solve->speed_m_s - speed_m_s) / 0.4);
-    const double weight = 1 / (distance * distance + 0.01);
+    const double distance =
+        std::hypot((solve->slope_deg - slope_deg) / kSlopeStep_deg, (solve->speed_m_s - speed_m_s) / kSpeedStep_m_s);
+    const double weight = 1 / (distance * distance + kLeastDistance * kLeastDistance);
     sum += weight * std::log(solve->cpu_s);
     weights += weight;
   }

@@ -143,7 +143,7 @@ TEST(ExplanationTest, LimitsOfTheSolverSayWhichFlagRaisesThem) {
   solve.mutable_result()->set_termination(v1::TERMINATION_ITERATION_LIMIT);
   EXPECT_THAT(Explain(solve, {}), HasSubstr("Raise --max-iterations"));
   solve.mutable_result()->set_termination(v1::TERMINATION_TIME_LIMIT);
-  EXPECT_THAT(Explain(solve, {}), HasSubstr("Raise --time-limit"));
+  EXPECT_THAT(Explain(solve, {}), HasSubstr("Raise --max-time"));
 }
 
 TEST(ExplanationTest, TheLogTellsOfDifficulties) {

@@ -5,13 +5,16 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
+
+#include "core/gait/default_speed.h"
 
 namespace rollgait::client {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 v1::SolveSpec Spec(double slope_deg, double speed_m_s) {
   v1::SolveSpec spec;
@@ -44,6 +47,15 @@ TEST(PredictTimeTest, IsTheMeanOfWhatIsAsNear) {
   same.mutable_accuracy()->set_level(v1::Accuracy::LEVEL_STANDARD);
   same.set_cycle(v1::CYCLE_HALF);
   EXPECT_NEAR(PredictTime(same, Corners(1, 4, 1, 4)).cpu_s.value(), 2, 1e-9) << "which says the defaults";
+}
+
+TEST(PredictTimeTest, KnowsTheSpeedOfARequestWithoutOne) {
+  const std::vector<MeasuredTime> corners = Corners(1, 1, 10, 10);
+  v1::SolveSpec spec = Spec(0, DefaultSpeed(kDefaultGravity));
+  const double with = PredictTime(spec, corners).cpu_s.value();
+  spec.clear_motion();
+  EXPECT_EQ(PredictTime(spec, corners).cpu_s, with);
+  EXPECT_NE(PredictTime(Spec(0, 1.29), corners).cpu_s, with);
 }
 
 TEST(PredictTimeTest, FollowsWhatIsNear) {
