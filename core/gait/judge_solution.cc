@@ -3,6 +3,10 @@
 namespace rollgait {
 namespace {
 
+// Of an interval of what has not converged and is not judged. human29 that was stopped after 31 iterations, 0.6 s: its
+// report took 6.3 s with 2000, since nothing moves like that, and 0.6 s with 200.
+constexpr int kStepsOfNoSolution = 200;
+
 ValidationOptions JudgeOptions(const GaitSpec& spec) {
   ValidationOptions options;
   options.gravity = spec.gravity;
@@ -24,9 +28,11 @@ bool IsWithinBounds(const GaitSpec& spec, const Trajectory& trajectory) {
 }
 
 void Judge(const GaitSpec& spec, GaitSolution* solution) {
-  solution->accuracy = Validate(spec.scene, *solution->trajectory, JudgeOptions(spec));
-  solution->verdict =
-      Converged(solution->termination) ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
+  ValidationOptions options = JudgeOptions(spec);
+  const bool is_solution = Converged(solution->termination);
+  if (!is_solution) options.integrator_steps = kStepsOfNoSolution;
+  solution->accuracy = Validate(spec.scene, *solution->trajectory, options);
+  solution->verdict = is_solution ? JudgeFindings(solution->accuracy->findings, spec.bounds) : Verdict{};
 }
 
 }  // namespace rollgait

@@ -46,9 +46,10 @@ struct AccuracyReport {
 };
 
 struct ValidationOptions {
-  Vector3 gravity{0, 0, -9.81};             // m/s², world axes (fixed to the slope)
-  double integrator_tolerance = 1e-10;      // relative and absolute
-  std::optional<Manoeuvre> manoeuvre;       // what a motion of Cycle::kOnce was asked to do
+  Vector3 gravity{0, 0, -9.81};         // m/s², world axes (fixed to the slope)
+  double integrator_tolerance = 1e-10;  // relative and absolute
+  int integrator_steps = 2000;          // of an interval, which takes one to ten; one that takes more is not integrated
+  std::optional<Manoeuvre> manoeuvre;   // what a motion of Cycle::kOnce was asked to do
   double friction_coefficient = kInfinity;  // of the ground
   double min_normal_force = 0;              // N, of a contact that is on the ground
 };

@@ -22,8 +22,6 @@ constexpr double kContactPointResolved = 1e-5;  // m, of the contact points, whi
 // The quintic through the ends of a step is good enough if it is off by at most this share of the velocities (and of 1
 // rad/s or m/s).
 constexpr double kQuinticError = 1e-5;
-// An interval takes one to ten steps; one that takes so many is not integrated.
-constexpr int kMostSteps = 2000;
 
 std::vector<ContactSurface> ActiveSurfaces(const Scene& scene, const TrajectoryPhase& phase) {
   std::vector<ContactSurface> surfaces;
@@ -86,8 +84,8 @@ class PhaseMotion {
         step_end_(Rows()) {}
 
   // Carries x over the interval and judges its forces.
-  IntegrationStatus Run(const IntervalPolynomials& interval, int number, double tolerance, Dop853* integrator,
-                        Pieces* pieces, VectorX* x, FindingLog* log) {
+  IntegrationStatus Run(const IntervalPolynomials& interval, int number, double tolerance, int most_steps,
+                        Dop853* integrator, Pieces* pieces, VectorX* x, FindingLog* log) {
     const double end = interval.length();
     const int n = model_.size();
     const Dop853::RightSide right_side = [&](double t, const VectorX& state, VectorX* derivative) {
@@ -105,7 +103,7 @@ class PhaseMotion {
     from_state_ = *x, from_derivative_ = integrator->derivative();
     int attempts = 0;
     while (t < end) {
-      const IntegrationStatus status = integrator->Advance(right_side, end, tolerance, kMostSteps, &t, x, &attempts);
+      const IntegrationStatus status = integrator->Advance(right_side, end, tolerance, most_steps, &t, x, &attempts);
       if (status != IntegrationStatus::kReachedEnd) return status;
       if (judge_.contacts() == 0) continue;
       ReadForces(step_end_.data());
@@ -231,8 +229,8 @@ class DefectLog {
 }  // namespace
 
 Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
-                        const Vector3& gravity, double tolerance, const ForceBounds& bounds, ForceExtremes* forces,
-                        FindingLog* log) {
+                        const Vector3& gravity, double tolerance, int most_steps, const ForceBounds& bounds,
+                        ForceExtremes* forces, FindingLog* log) {
   static const ChebyshevBasis basis(kForceDegree, kForceGrid);
   const int n = scene.model.size();
   Resimulation result;
@@ -249,7 +247,8 @@ Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const 
       const IntervalPolynomials interval(trajectory, p, k);
       x << phase.node_positions.col(k), phase.node_velocities.col(k);
       const Instant end{p, phase.node_times[k + 1], number}, border{p, phase.node_times[k + 1]};
-      if (motion.Run(interval, number, tolerance, &integrator, &pieces, &x, log) != IntegrationStatus::kReachedEnd) {
+      if (motion.Run(interval, number, tolerance, most_steps, &integrator, &pieces, &x, log) !=
+          IntegrationStatus::kReachedEnd) {
         defects.AddBroken(end);
         integrator = Dop853();  // its steps were those of a motion that does not exist
         result.interval_positions.push_back(kInfinity);

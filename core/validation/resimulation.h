@@ -28,15 +28,16 @@ struct Resimulation {
 // Integrates every mesh interval from its own start node with the trajectory's efforts, the phase's contacts held
 // rolling at acceleration level, and compares the end with the next node; at the end of a phase also with the first
 // node of the next phase, and at the end of a periodic trajectory also with PeriodicEnd; with positions alone where
-// velocities jump (jumps.h). `tolerance` > 0 is relative and absolute. The log gets the differences of all joints.
+// velocities jump (jumps.h). `tolerance` > 0 is relative and absolute. An interval that
+// takes more than `most_steps` is not integrated. The log gets the differences of all joints.
 //
 // The contact forces of the re-integrated motion are judged at every instant: in each accepted step forward dynamics is
 // evaluated on the integrator's continuous extension, forces are interpolated there (Pieces, halved until they are
 // known to a thousandth of the contact's least normal force, or of a thousandth of the weight) and their extremes are
 // sought on at least 48 instants and between them. They go to `forces` and to the log.
 Resimulation Resimulate(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory,
-                        const Vector3& gravity, double tolerance, const ForceBounds& bounds, ForceExtremes* forces,
-                        FindingLog* log);
+                        const Vector3& gravity, double tolerance, int most_steps, const ForceBounds& bounds,
+                        ForceExtremes* forces, FindingLog* log);
 
 }  // namespace rollgait
 

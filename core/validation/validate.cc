@@ -44,8 +44,8 @@ AccuracyReport Validate(const Scene& scene, const Trajectory& trajectory, const 
   const double weight = dynamics.total_mass() * options.gravity.norm();
   const ForceBounds bounds{options.friction_coefficient, options.min_normal_force};
   ForceExtremes forces(weight);
-  const Resimulation motion =
-      Resimulate(scene, dynamics, trajectory, options.gravity, options.integrator_tolerance, bounds, &forces, &log);
+  const Resimulation motion = Resimulate(scene, dynamics, trajectory, options.gravity, options.integrator_tolerance,
+                                         options.integrator_steps, bounds, &forces, &log);
   const ContactResiduals contacts = MeasureContacts(scene, dynamics, trajectory, bounds, &forces, &log);
   const BalanceErrors balance = MeasureBalances(dynamics, scene.model, trajectory, options.gravity, &log);
   MeasureJointLimits(scene.model, trajectory, &log);

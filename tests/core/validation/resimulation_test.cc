@@ -40,10 +40,10 @@ class ReferenceNodes : public ::testing::Test {
     trajectory_.phases.push_back(phase);
   }
 
-  Resimulation Run(double tolerance) {
+  Resimulation Run(double tolerance, int most_steps = 2000) {
     ForceExtremes forces(0.365 * 9.81);
-    const Resimulation result =
-        Resimulate(scene_, BodyDynamics(scene_.model), trajectory_, kGravity, tolerance, {}, &forces, &log_);
+    const Resimulation result = Resimulate(scene_, BodyDynamics(scene_.model), trajectory_, kGravity, tolerance,
+                                           most_steps, {}, &forces, &log_);
     min_normal_ = forces.min_normal();
     max_friction_ = forces.max_friction_ratio();
     return result;
@@ -138,10 +138,15 @@ TEST_F(ReferenceNodes, AnIntervalThatCannotBeIntegratedIsInfinitelyWrong) {
   for (int k = 4; k < 20; ++k) EXPECT_LT(result.interval_positions[k], 1e-9) << k;
 }
 
+TEST_F(ReferenceNodes, AnIntervalThatTakesTooManyStepsIsNotIntegrated) {
+  for (const double defect : Run(1e-10, 1).interval_positions) EXPECT_EQ(defect, kInfinity);
+  for (const double defect : Run(1e-10, 200).interval_positions) EXPECT_LT(defect, 1e-9);
+}
+
 TEST_F(ReferenceNodes, AnotherGravityIsAnotherMotion) {
   ForceExtremes forces(1);
-  const Resimulation result =
-      Resimulate(scene_, BodyDynamics(scene_.model), trajectory_, Vector3(0, 0, -9.81), 1e-10, {}, &forces, &log_);
+  const Resimulation result = Resimulate(scene_, BodyDynamics(scene_.model), trajectory_, Vector3(0, 0, -9.81), 1e-10,
+                                         2000, {}, &forces, &log_);
   for (double defect : result.interval_velocities) EXPECT_GT(defect, 1e-3);
 }
 
