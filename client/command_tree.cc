@@ -8,12 +8,14 @@
 namespace rollgait::client {
 namespace {
 
-FlagDescription DescribeFlag(const CLI::Option& option) {
+// `name`: one of the option's long names, without its dashes. The short name goes with the first.
+FlagDescription DescribeFlag(const CLI::Option& option, const std::string& name) {
   static const std::set<std::string> kFileFlags = {"--output",   "--spec",    "--scene",     "--tls-ca",
                                                    "--tls-cert", "--tls-key", "--token-file"};
   FlagDescription flag;
-  flag.name = "--" + option.get_lnames().front();
-  if (!option.get_snames().empty()) flag.short_name = "-" + option.get_snames().front();
+  flag.name = "--" + name;
+  if (!option.get_snames().empty() && name == option.get_lnames().front())
+    flag.short_name = "-" + option.get_snames().front();
   flag.group = option.get_group();
   flag.help = option.get_description();
   flag.words = FlagWords(flag.name);
@@ -51,11 +53,8 @@ CommandDescription DescribeCommand(const CLI::App& app) {
   command.footer = app.get_footer();
   for (const CLI::Option* option : app.get_options()) {
     if (option == app.get_help_ptr()) continue;
-    if (option->get_lnames().empty()) {
-      command.arguments.push_back(DescribeArgument(*option));
-    } else {
-      command.flags.push_back(DescribeFlag(*option));
-    }
+    if (option->get_lnames().empty()) command.arguments.push_back(DescribeArgument(*option));
+    for (const std::string& name : option->get_lnames()) command.flags.push_back(DescribeFlag(*option, name));
   }
   return command;
 }

@@ -11,6 +11,7 @@ class App;
 
 namespace rollgait::client {
 
+// A flag of two long names is described once for each.
 struct FlagDescription {
   // What its value is: nothing (a switch), one of `words`, a file, a model, a number or text.
   enum class Value { kNone, kWords, kFile, kModel, kOther };

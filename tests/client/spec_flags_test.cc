@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <set>
 
 #include "client/bound_flags.h"
@@ -171,18 +170,6 @@ TEST(SpecFlagsTest, OutOfRangeNumbersArePassedOn) {
   EXPECT_NEAR(Parse("--slope 80").slope_rad(), 80 * M_PI / 180, 1e-15);
   EXPECT_EQ(Parse("--intervals 0").discretization().single_support_intervals(), 0);
   EXPECT_EQ(Parse("--cost torque:-1").costs(0).weight(), -1);
-}
-
-TEST(SpecFlagsTest, TheMaximumTimeMayHaveAUnit) {
-  const std::map<std::string, double> good = {{"90", 90},  {"90s", 90},    {"0.5s", 0.5},
-                                              {"5m", 300}, {"1.5h", 5400}, {"1d", 86400}};
-  for (const auto& [text, s] : good) {
-    EXPECT_EQ(Parse("--max-time " + text).solver_limits().max_wall_time_s(), s) << text;
-    EXPECT_EQ(Parse("--time-limit " + text).solver_limits().max_wall_time_s(), s) << text;
-  }
-  for (const std::string text : {"s", "5min", "nans", "5M", "1 2s"}) {
-    EXPECT_THROW(Parse("--max-time " + text), CLI::ParseError) << text;
-  }
 }
 
 TEST(SpecFlagsTest, UnknownWordsAreRefusedWithTheKnownOnes) {
