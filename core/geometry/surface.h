@@ -1,9 +1,12 @@
 #ifndef ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 #define ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/geometry/ellipsoid.h"
@@ -12,6 +15,7 @@
 #include "core/geometry/sphere.h"
 #include "core/geometry/superellipsoid.h"
 #include "core/geometry/support_jet.h"
+#include "core/geometry/walking_shape.h"
 
 namespace rollgait {
 
@@ -42,10 +46,11 @@ class Surface {
     return plain_ ? std::get_if<Body>(&kind_) : nullptr;
   }
   const Ellipsoid* ellipsoid() const { return plain<Ellipsoid>(); }
-  // Of a body that can walk: an ellipsoid or a smooth superellipsoid, about the origin and not rounded; otherwise null.
-  // Of their kind are the surfaces that have four derivatives at every normal and a second implementation in
-  // core/validation.
+  // Of a body that can walk: of a kind that has a WalkingShape, about the origin and not rounded; otherwise nothing.
   const Vector3* semi_axes() const;
+  std::optional<WalkingShape> walking() const;
+  // Names of those kinds: "an ellipsoid", "a superellipsoid with smoothing".
+  static std::vector<std::string> WalkingKinds();
 
   double Support(const Vector3& nu) const;          // h, m
   Vector3 SupportPoint(const Vector3& nu) const;    // x, m
