@@ -48,8 +48,8 @@ Vector3 SmoothBody::Furthest(const Vector3& nu) const {
 }
 
 SmoothBody BodyOf(const Surface& surface) {
-  ROLLGAIT_CHECK(surface.semi_axes() != nullptr);
   const auto* const super = surface.plain<SmoothSuperellipsoid>();
+  ROLLGAIT_CHECK(super != nullptr || surface.ellipsoid() != nullptr);
   if (super == nullptr) return {*surface.semi_axes()};
   return {super->semi_axes(), super->exponent_1(), super->exponent_2(), super->smoothing()};
 }

@@ -18,7 +18,7 @@ struct SmoothBody {
   Vector3 Furthest(const Vector3& nu) const;  // m, by complex steps of the support function
 };
 
-// Contract: Surface::semi_axes() is not null.
+// Contract: the surface is one of these two, about the origin and not rounded.
 SmoothBody BodyOf(const Surface& surface);
 
 }  // namespace rollgait::audit

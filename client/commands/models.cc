@@ -6,7 +6,9 @@
 #include "client/import/tree_file.h"
 #include "client/json.h"
 #include "client/output.h"
+#include "client/report/kinematics.h"
 #include "client/report/sides.h"
+#include "client/report/surface_shape.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -22,22 +24,12 @@ std::map<std::string, double> InOrder(const google::protobuf::Map<std::string, d
   return {named.begin(), named.end()};
 }
 
-std::string Vector(const v1::Vector3& v) {
+std::string Vector(const Eigen::Vector3d& v) {
   return "(" + FormatVisible(v.x(), kLeast) + ", " + FormatVisible(v.y(), kLeast) + ", " +
          FormatVisible(v.z(), kLeast) + ")";
 }
 
-std::string SemiAxes(const v1::Surface& surface) {
-  return Vector(surface.has_superellipsoid() ? surface.superellipsoid().semi_axes_m()
-                                             : surface.ellipsoid().semi_axes_m());
-}
-
-// "0.8, 0.8"; "-" of an ellipsoid.
-std::string Exponents(const v1::Surface& surface) {
-  if (!surface.has_superellipsoid()) return "-";
-  return FormatNumber(surface.superellipsoid().exponent_1()) + ", " +
-         FormatNumber(surface.superellipsoid().exponent_2());
-}
+std::string Vector(const v1::Vector3& v) { return Vector(ToVector(v)); }
 
 // "-30 … 120 °", or "free".
 std::string PositionRange(const v1::Joint& joint) {
@@ -126,12 +118,13 @@ std::string ModelText(const v1::Model& model) {
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
   }
   text += "\n" + FormatTable(joints, "");
-  Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "EXPONENTS", "CENTRE m", "MIRROR IMAGE"}};
+  Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "SHAPE", "CENTRE m", "MIRROR IMAGE"}};
   for (const v1::ContactSurface& contact : model.contacts()) {
     const bool known = contact.joint() >= 0 && contact.joint() < model.joints_size();
+    const SurfaceShape shape = ShapeOf(contact.surface());
     contacts.push_back({contact.name(), known ? model.joints(contact.joint()).link_name() : "?",
-                        SemiAxes(contact.surface()), Exponents(contact.surface()), Vector(contact.center_m()),
-                        contact.mirror_contact()});
+                        Vector(shape.semi_axes), shape.numbers.empty() ? "-" : shape.numbers,
+                        Vector(contact.center_m()), contact.mirror_contact()});
   }
   text += "\n" + FormatTable(contacts, "") + "\nSources\n";
   for (const std::string& source : model.sources()) text += "  " + source + "\n";

@@ -8,6 +8,7 @@
 
 #include "client/failure.h"
 #include "client/json.h"
+#include "client/report/surface_shape.h"
 #include "client/text.h"
 #include "core/base/nearest_word.h"
 
@@ -157,14 +158,12 @@ class SideCheck {
         Refuse(At(list, i, "link"), "of \"" + part.name() + "\" is \"" + part.link().substr(0, 64) + "\", no link of " +
                                         tree_.path + DidYouMean(part.link(), known));
       }
-      // Exponents and smoothing are the server's to check.
-      const bool super = part.surface().has_superellipsoid();
+      // Other numbers are the server's to check.
       const Eigen::Vector3d axes =
-          ToVector(super ? part.surface().superellipsoid().semi_axes_m() : part.surface().ellipsoid().semi_axes_m());
-      if (!(super || part.surface().has_ellipsoid()) || !axes.allFinite() || axes.minCoeff() < 0.001 ||
-          axes.maxCoeff() > 1) {
+          MayWalk(part.surface()) ? ShapeOf(part.surface()).semi_axes : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      if (!axes.allFinite() || axes.minCoeff() < 0.001 || axes.maxCoeff() > 1) {
         Refuse(At(list, i, "surface"),
-               "of \"" + part.name() + "\" must be an ellipsoid or a superellipsoid with semi-axes in [0.001, 1] m");
+               "of \"" + part.name() + "\" must be " + NamesOfWalkingShapes() + " with semi-axes in [0.001, 1] m");
       }
       RequirePlace(At(list, i, "centerM"), part.center_m());
       if (part.has_orientation()) RequireUnit(At(list, i, "orientation"), part.orientation());

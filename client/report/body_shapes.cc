@@ -64,7 +64,7 @@ class Drawing {
     const SurfaceShape shape = ShapeOf(placed.surface());
     shapes_.push_back({Words(placed.name()), placed.joint(),
                        Pose{ToRotation(placed.orientation()), ToVector(placed.center_m())}, shape.semi_axes, side, kind,
-                       shape.super});
+                       shape.form});
   }
 
   // An ellipsoid with axes along those of the link.

@@ -27,7 +27,7 @@ struct BodyShape {
   Eigen::Vector3d semi_axes;
   Side side;
   ShapeKind kind;
-  std::optional<SmoothShape> super;  // without it the shape is an ellipsoid
+  std::optional<SupportNorm> form;  // of the shape divided by its semi-axes; without it an ellipsoid
 };
 
 // Contacts come first, in the order of Model.contacts. The link that carries the upper end of the body gets a head

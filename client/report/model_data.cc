@@ -27,11 +27,10 @@ nlohmann::json ModelData(const v1::Model& model) {
   }
   nlohmann::json contacts = nlohmann::json::array();
   for (const v1::ContactSurface& contact : model.contacts()) {
-    const Eigen::Vector3d axes = ShapeOf(contact.surface()).semi_axes;
+    const SurfaceShape shape = ShapeOf(contact.surface());
+    const Eigen::Vector3d& axes = shape.semi_axes;
     contacts.push_back({{"name", contact.name()}, {"semi_axes", {axes.x(), axes.y(), axes.z()}}});
-    if (!contact.surface().has_superellipsoid()) continue;
-    const v1::Superellipsoid& super = contact.surface().superellipsoid();
-    contacts.back()["exponents"] = {super.exponent_1(), super.exponent_2()};
+    if (!shape.numbers.empty()) contacts.back()["numbers"] = shape.numbers;
   }
   return {{"name", model.summary().name()},
           {"description", model.summary().description()},

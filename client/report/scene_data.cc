@@ -57,10 +57,7 @@ class Scene {
                       {"axes", Numbers(shape.semi_axes)},
                       {"side", static_cast<int>(shape.side)},
                       {"kind", static_cast<int>(shape.kind)}});
-      if (shape.super) {
-        list.back()["super"] = {
-            {"along", shape.super->q_1}, {"around", shape.super->q_2}, {"smoothing", shape.super->smoothing}};
-      }
+      if (shape.form) list.back()["form"] = shape.form->ToJson();
     }
     return list;
   }
@@ -133,7 +130,7 @@ class Scene {
       for (const BodyShape& shape : shapes_) {
         const Pose placed = Compose(links[shape.joint], shape.pose);
         const Vector3d up = placed.rotation.transpose().col(2);
-        const SurfaceShape surface{shape.semi_axes, shape.super};
+        const SurfaceShape surface{shape.semi_axes, shape.form, ""};
         height = std::max(height, placed.position.z() + up.dot(surface.FurthestPoint(up)));
       }
     }

@@ -2,6 +2,7 @@
 #define ROLLGAIT_CORE_GEOMETRY_ELLIPSOID_H_
 
 #include "core/geometry/support_jet.h"
+#include "core/geometry/walking_shape.h"
 
 namespace rollgait {
 
@@ -10,6 +11,8 @@ namespace rollgait {
 // Immutable; any thread may share it. Contract: semi-axes finite and > 0.
 class Ellipsoid {
  public:
+  static constexpr char kWalks[] = "an ellipsoid";
+
   explicit Ellipsoid(const Vector3& semi_axes);
 
   const Vector3& semi_axes() const { return semi_axes_; }
@@ -31,6 +34,7 @@ class Ellipsoid {
   Eigen::Matrix2d TangentHessian(const Vector3& nu, const Eigen::Matrix<double, 3, 2>& tangents) const;
   // All of them by components; see Surface::Evaluate.
   void Evaluate(const Vector3& nu, int order, SupportJet* jet) const;
+  WalkingShape Walking() const { return {"ellipsoid", semi_axes_, {}, {}}; }
 
  private:
   // The same quantities of the ellipsoid divided by its largest semi-axis; s = h(nu), x = x(nu) of that ellipsoid.

@@ -60,6 +60,27 @@ void AddComposed(const std::array<double, 5>& f, const SupportJet& g, int order,
   }
 }
 
+// The support function written anew from the definition, for Walking().
+class SmoothNorm {
+ public:
+  SmoothNorm(const Vector3& semi_axes, double exponent_1, double exponent_2, double smoothing)
+      : q_1_(2 / (2 - exponent_1)), q_2_(2 / (2 - exponent_2)), square_(smoothing * smoothing) {
+    for (int i = 0; i < 3; ++i) scales_[i] = semi_axes[i] / Unscaled(Vector3::Unit(i));
+  }
+  double operator()(const Vector3& nu) const { return Unscaled(scales_.cwiseProduct(nu)); }
+
+ private:
+  double Unscaled(const Vector3& t) const {
+    const double round = square_ * t.squaredNorm();
+    const auto smoothed = [&](double of) { return std::sqrt(of * of + round); };
+    const double around = std::pow(std::pow(smoothed(t.x()), q_2_) + std::pow(smoothed(t.y()), q_2_), 1 / q_2_);
+    return std::pow(std::pow(around, q_1_) + std::pow(smoothed(t.z()), q_1_), 1 / q_1_);
+  }
+
+  double q_1_, q_2_, square_;
+  Vector3 scales_ = Vector3::Ones();  // m
+};
+
 }  // namespace
 
 Result<SmoothSuperellipsoid> SmoothSuperellipsoid::Create(const Vector3& semi_axes, double exponent_1,
@@ -137,6 +158,15 @@ void SmoothSuperellipsoid::Evaluate(const Vector3& nu, int order, SupportJet* je
   if (order >= 2) jet->S = scale_ * result.S;
   for (int k = 0; order >= 3 && k < 3; ++k) jet->T[k] = scale_ * result.T[k];
   for (int k = 0; order >= 4 && k < 6; ++k) jet->Q[k] = scale_ * result.Q[k];
+}
+
+WalkingShape SmoothSuperellipsoid::Walking() const {
+  return {"superellipsoid",
+          semi_axes_,
+          {{"exponent_1", exponent_1_, kLeastWalkingExponent, kMostWalkingExponent},
+           {"exponent_2", exponent_2_, kLeastWalkingExponent, kMostWalkingExponent},
+           {"smoothing", smoothing_, kLeastWalkingSmoothing, kMaxSmoothing}},
+          SmoothNorm(semi_axes_, exponent_1_, exponent_2_, smoothing_)};
 }
 
 }  // namespace rollgait

@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/geometry/support_jet.h"
+#include "core/geometry/walking_shape.h"
 
 namespace rollgait {
 
@@ -21,6 +22,9 @@ namespace rollgait {
 class SmoothSuperellipsoid {
  public:
   static constexpr double kMinSmoothing = 0.01, kMaxSmoothing = 1;
+  static constexpr char kWalks[] = "a superellipsoid with smoothing";
+  // Of a body that walks (docs/explanation/walking.md).
+  static constexpr double kLeastWalkingExponent = 0.4, kMostWalkingExponent = 1.8, kLeastWalkingSmoothing = 0.1;
 
   // Refuses, besides what Superellipsoid refuses, σ outside kMinSmoothing … kMaxSmoothing. Violations name field +
   // ".smoothing" or as Superellipsoid does.
@@ -40,6 +44,7 @@ class SmoothSuperellipsoid {
   Vector3 RollingVelocity(const Vector3& nu, const Vector3& omega) const;
   // See Surface::Evaluate.
   void Evaluate(const Vector3& nu, int order, SupportJet* jet) const;
+  WalkingShape Walking() const;
 
  private:
   // The squares t_i² + σ²‖t‖² as quadratic forms of ν: factors of ν_j² in column i.

@@ -7,6 +7,30 @@
 #include "core/base/check.h"
 
 namespace rollgait {
+namespace {
+
+template <typename Body>
+concept Walks = requires(const Body& body) {
+  body.Walking();
+};
+
+template <typename Body>
+concept KnowsTangents = requires(const Body& body, const Eigen::Matrix<double, 3, 2>& tangents) {
+  body.TangentHessian(Vector3(), tangents);
+};
+
+template <typename... Bodies>
+std::vector<std::string> WalkingNames(const std::variant<Bodies...>*) {
+  std::vector<std::string> names;
+  const auto add = [&names](const auto* body) {
+    using Body = std::remove_cvref_t<decltype(*body)>;
+    if constexpr (Walks<Body>) names.push_back(Body::kWalks);
+  };
+  (add(static_cast<const Bodies*>(nullptr)), ...);
+  return names;
+}
+
+}  // namespace
 
 Surface Surface::MovedTo(const Vector3& center) const {
   ROLLGAIT_CHECK(center.allFinite());
@@ -60,14 +84,21 @@ Vector3 Surface::RollingVelocity(const Vector3& nu, const Vector3& omega) const 
 
 Eigen::Matrix2d Surface::TangentHessian(const Vector3& nu, const Eigen::Matrix<double, 3, 2>& tangents) const {
   Eigen::Matrix2d block;
-  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&kind_)) {
-    block = ellipsoid->TangentHessian(nu, tangents);
-  } else {
-    SupportJet jet;
-    std::visit([&](const auto& body) { body.Evaluate(nu, 2, &jet); }, kind_);
-    if (jet.order < 2) return Eigen::Matrix2d::Constant(kInfinity);
-    block = tangents.transpose() * jet.S * tangents;
-  }
+  std::visit(
+      [&](const auto& body) {
+        if constexpr (KnowsTangents<std::remove_cvref_t<decltype(body)>>) {
+          block = body.TangentHessian(nu, tangents);
+        } else {
+          SupportJet jet;
+          body.Evaluate(nu, 2, &jet);
+          if (jet.order < 2) {
+            block.setConstant(kInfinity);
+          } else {
+            block = tangents.transpose() * jet.S * tangents;
+          }
+        }
+      },
+      kind_);
   block.diagonal().array() += rounding_;
   return block;
 }
@@ -82,10 +113,26 @@ void Surface::Evaluate(const Vector3& nu, int order, SupportJet* jet) const {
 }
 
 const Vector3* Surface::semi_axes() const {
-  if (const auto* body = plain<Ellipsoid>()) return &body->semi_axes();
-  if (const auto* body = plain<SmoothSuperellipsoid>()) return &body->semi_axes();
-  return nullptr;
+  if (!plain_) return nullptr;
+  return std::visit(
+      [](const auto& body) -> const Vector3* {
+        if constexpr (Walks<std::remove_cvref_t<decltype(body)>>) return &body.semi_axes();
+        return nullptr;
+      },
+      kind_);
 }
+
+std::optional<WalkingShape> Surface::walking() const {
+  if (!plain_) return std::nullopt;
+  return std::visit(
+      [](const auto& body) -> std::optional<WalkingShape> {
+        if constexpr (Walks<std::remove_cvref_t<decltype(body)>>) return body.Walking();
+        return std::nullopt;
+      },
+      kind_);
+}
+
+std::vector<std::string> Surface::WalkingKinds() { return WalkingNames(static_cast<const Kind*>(nullptr)); }
 
 double Surface::Size() const {
   double size = 0;

@@ -1,17 +1,22 @@
 #ifndef ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 #define ROLLGAIT_CORE_GEOMETRY_SURFACE_H_
 
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/base/result.h"
+#include "core/geometry/covered_ellipsoid.h"
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/implicit_surface.h"
 #include "core/geometry/smooth_superellipsoid.h"
 #include "core/geometry/sphere.h"
 #include "core/geometry/superellipsoid.h"
 #include "core/geometry/support_jet.h"
+#include "core/geometry/walking_shape.h"
 
 namespace rollgait {
 
@@ -22,7 +27,7 @@ namespace rollgait {
 // kinds, no virtual call.
 class Surface {
  public:
-  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, SmoothSuperellipsoid, ImplicitSurface>;
+  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, SmoothSuperellipsoid, ImplicitSurface, CoveredEllipsoid>;
 
   Surface(Kind kind) : kind_(std::move(kind)) {}  // NOLINT: a surface of that kind
   template <typename Body>
@@ -42,10 +47,11 @@ class Surface {
     return plain_ ? std::get_if<Body>(&kind_) : nullptr;
   }
   const Ellipsoid* ellipsoid() const { return plain<Ellipsoid>(); }
-  // Of a body that can walk: an ellipsoid or a smooth superellipsoid, about the origin and not rounded; otherwise null.
-  // Of their kind are the surfaces that have four derivatives at every normal and a second implementation in
-  // core/validation.
+  // Of a body that can walk: of a kind that has a WalkingShape, about the origin and not rounded; otherwise nothing.
   const Vector3* semi_axes() const;
+  std::optional<WalkingShape> walking() const;
+  // Names of those kinds: "an ellipsoid", "a superellipsoid with smoothing".
+  static std::vector<std::string> WalkingKinds();
 
   double Support(const Vector3& nu) const;          // h, m
   Vector3 SupportPoint(const Vector3& nu) const;    // x, m

@@ -13,7 +13,9 @@ namespace rollgait {
 
 // Exponents of feet that walk (docs/explanation/walking.md), and the smoothing of all of them: without it a foot would
 // stand flat where a superellipsoid has no curvature, or no derivative of it.
-inline constexpr double kLeastFootExponent = 0.4, kMostFootExponent = 1.8, kFootSmoothing = 0.1;
+inline constexpr double kLeastFootExponent = SmoothSuperellipsoid::kLeastWalkingExponent;
+inline constexpr double kMostFootExponent = SmoothSuperellipsoid::kMostWalkingExponent;
+inline constexpr double kFootSmoothing = SmoothSuperellipsoid::kLeastWalkingSmoothing;
 
 // A surface of a foot, axes forward, left and up when the foot is level; its lowest point is then at the sole.
 struct FootSurface {

@@ -36,7 +36,7 @@ struct OwnModel {
 //   units                       total mass and leg length out of range, radii of gyration longer than twice the leg
 //   joints                      a missing or infinite range, velocity or effort of a joint that is not of the base
 //   roles                       no hip; an axis across the role; a passive torque of people on another joint
-//   feet                        no contact on a side, surfaces that are neither ellipsoids nor smooth superellipsoids,
+//   feet                        no contact on a side, surfaces without a WalkingShape,
 //                               soles above the hip, beside each other by more than a fifth of the leg, or above the
 //                               centre of mass of a link
 //   mirror                      links, joints, limits or contacts that are not the mirror images they name

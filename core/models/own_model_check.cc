@@ -5,7 +5,6 @@
 #include <numbers>
 #include <set>
 
-#include "core/models/foot.h"
 #include "core/models/joint_limits.h"
 
 namespace rollgait {
@@ -55,26 +54,22 @@ bool IsIndex(int index, size_t count) { return index >= 0 && static_cast<size_t>
 void CheckSurface(const char* list, int index, const Surface& surface, const Vector3& center, const Matrix3& rotation,
                   OwnModelCheck* check) {
   constexpr double kLeast = 0.001, kMost = 1;  // m
-  const Vector3* const axes = surface.semi_axes();
-  const auto* const super = surface.plain<SmoothSuperellipsoid>();
-  const std::string field = super != nullptr ? "surface.superellipsoid" : "surface.ellipsoid";
-  if (axes == nullptr) {
-    check->Refuse(list, index, "surface",
-                  "is neither an ellipsoid nor a superellipsoid with smoothing, without rounding; no other surface "
-                  "walks");
-  } else if (!(axes->minCoeff() >= kLeast && axes->maxCoeff() <= kMost)) {
-    check->Refuse(list, index, field + ".semi_axes_m", "are (", axes->transpose(), ") m; each must be between ", kLeast,
-                  " and ", kMost, " m");
-  }
-  if (super != nullptr) {
-    const auto refuse = [&](const char* member, double value, double least, double most) {
-      if (value >= least && value <= most) return;
-      check->Refuse(list, index, field + "." + member, "is ", value, "; of a body that walks it must be between ",
-                    least, " and ", most);
-    };
-    refuse("exponent_1", super->exponent_1(), kLeastFootExponent, kMostFootExponent);
-    refuse("exponent_2", super->exponent_2(), kLeastFootExponent, kMostFootExponent);
-    refuse("smoothing", super->smoothing(), kFootSmoothing, SmoothSuperellipsoid::kMaxSmoothing);
+  if (const std::optional<WalkingShape> shape = surface.walking()) {
+    const std::string field = std::string("surface.") + shape->field + ".";
+    const Vector3& axes = shape->semi_axes;
+    if (!(axes.minCoeff() >= kLeast && axes.maxCoeff() <= kMost)) {
+      check->Refuse(list, index, field + "semi_axes_m", "are (", axes.transpose(), ") m; each must be between ", kLeast,
+                    " and ", kMost, " m");
+    }
+    for (const WalkingShape::Number& number : shape->numbers) {
+      if (number.value >= number.least && number.value <= number.most) continue;
+      check->Refuse(list, index, field + number.field, "is ", number.value,
+                    "; of a body that walks it must be between ", number.least, " and ", number.most);
+    }
+  } else {
+    std::string kinds;
+    for (const std::string& kind : Surface::WalkingKinds()) kinds += (kinds.empty() ? "" : " nor ") + kind;
+    check->Refuse(list, index, "surface", "is neither ", kinds, ", without rounding; no other surface walks");
   }
   if (!(center.cwiseAbs().maxCoeff() <= 10)) {
     check->Refuse(list, index, "center_m", "is (", center.transpose(), ") m; every component must be within ±10 m");

@@ -50,21 +50,7 @@ double Climb(const PosedBody& a, const PosedBody& b, Vector3 nu) {
 }  // namespace
 
 double PlaneDistance(const PosedBody& a, const PosedBody& b, const Vector3& nu) {
-  return nu.dot(b.p_WE - a.p_WE) - Support(a, nu) - Support(b, nu);
-}
-
-SmoothNorm::SmoothNorm(const Vector3& semi_axes, double exponent_1, double exponent_2, double smoothing)
-    : q_1_(2 / (2 - exponent_1)), q_2_(2 / (2 - exponent_2)), square_(smoothing * smoothing) {
-  for (int i = 0; i < 3; ++i) scales_[i] = semi_axes[i] / Unscaled(Vector3::Unit(i));
-}
-
-double SmoothNorm::operator()(const Vector3& nu) const { return Unscaled(scales_.cwiseProduct(nu)); }
-
-double SmoothNorm::Unscaled(const Vector3& t) const {
-  const double round = square_ * t.squaredNorm();
-  const auto smoothed = [&](double of) { return std::sqrt(of * of + round); };
-  const double around = std::pow(std::pow(smoothed(t.x()), q_2_) + std::pow(smoothed(t.y()), q_2_), 1 / q_2_);
-  return std::pow(std::pow(around, q_1_) + std::pow(smoothed(t.z()), q_1_), 1 / q_1_);
+  return nu.dot(b.p_WE - a.p_WE) - Support(a, nu) - Support(b, -nu);
 }
 
 namespace {
@@ -111,7 +97,7 @@ ScaledContact FindScaledContact(const PosedBody& a, const PosedBody& b) {
   ScaledContact contact = FindScaledContactOfEllipsoids(a, b);
   const Vector3 r = b.p_WE - a.p_WE;
   if ((!a.norm && !b.norm) || r.isZero(0)) return contact;
-  const auto sum = [&](const Vector3& nu) { return Support(a, nu) + Support(b, nu); };
+  const auto sum = [&](const Vector3& nu) { return Support(a, nu) + Support(b, -nu); };
   Vector3 nu = contact.nu / contact.nu.dot(r);
   const Vector3 t_1 = r.unitOrthogonal(), t_2 = r.normalized().cross(t_1);
   const double unit = nu.norm();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
 
-#include "core/base/check.h"
 #include "core/trajectory/sampling.h"
 #include "core/validation/body_overlap.h"
 #include "core/validation/residuals.h"
@@ -19,16 +21,22 @@ constexpr double kGolden = 0.6180339887498949;
 using Posture = std::vector<PosedBody>;
 
 PosedBody ShapeOf(const Surface& surface) {
+  using Support = std::function<double(const Vector3&)>;
   PosedBody body;
-  ROLLGAIT_CHECK(surface.semi_axes() != nullptr);
-  body.semi_axes = *surface.semi_axes();
-  if (const auto* super = surface.plain<SmoothSuperellipsoid>()) {
-    body.norm.emplace(body.semi_axes, super->exponent_1(), super->exponent_2(), super->smoothing());
+  if (const std::optional<WalkingShape> shape = surface.walking()) {
+    body.semi_axes = shape->semi_axes;
+    if (shape->support) body.norm = std::make_shared<const Support>(shape->support);
+    return body;
   }
+  // No model that walks has another surface. It would be judged by its own support function.
+  for (int i = 0; i < 3; ++i) {
+    body.semi_axes[i] = std::max(surface.Support(Vector3::Unit(i)), surface.Support(-Vector3::Unit(i)));
+  }
+  body.norm = std::make_shared<const Support>([surface](const Vector3& nu) { return surface.Support(nu); });
   return body;
 }
 
-// No point of the body is further from its centre. A superellipsoid may fill the box around it.
+// No point of the body is further from its centre. What is no ellipsoid may fill the box around it.
 double Reach(const PosedBody& body) { return body.norm ? body.semi_axes.norm() : body.semi_axes.maxCoeff(); }
 
 class IntervalSearch {

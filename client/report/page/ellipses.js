@@ -1,4 +1,4 @@
-// Poses of the scene's ellipsoids and superellipsoids, and their outlines.
+// Poses of the scene's ellipsoids and other surfaces, and their outlines.
 
 function multiply(a, b) {
   // quaternions w, x, y, z
@@ -63,37 +63,27 @@ function outline(center, quaternion, axes, [u, v]) {
   };
 }
 
-// Gradient of a superellipsoid's support function (rollgait.v1.Superellipsoid with smoothing, `form` as the scene has it)
-// before its axes are scaled.
-function slopeOf(form, t) {
-  const round = form.smoothing ** 2,
-    whole = round * (t[0] ** 2 + t[1] ** 2 + t[2] ** 2);
-  const n = t.map((c) => Math.sqrt(c * c + whole));
-  const m = (n[0] ** form.around + n[1] ** form.around) ** (1 / form.around),
-    h = (m ** form.along + n[2] ** form.along) ** (1 / form.along),
-    side = (m / h) ** (form.along - 1);
-  const slopes = [
-    (side * (n[0] / m) ** (form.around - 1)) / n[0],
-    (side * (n[1] / m) ** (form.around - 1)) / n[1],
-    (n[2] / h) ** (form.along - 1) / n[2],
-  ];
-  const common = round * (slopes[0] + slopes[1] + slopes[2]);
-  return slopes.map((s, k) => (s + common) * t[k]);
+// Value and gradient of a norm of norms (SupportNorm in client/report/surface_shape.h).
+function normOf(form, t) {
+  if (form.squares) {
+    const value = Math.sqrt(form.squares.reduce((sum, s, k) => sum + s * t[k] * t[k], 0));
+    return { value, slope: form.squares.map((s, k) => (s * t[k]) / value) };
+  }
+  const parts = form.parts.map((part) => normOf(part, t));
+  const value = parts.reduce((sum, part) => sum + part.value ** form.exponent, 0) ** (1 / form.exponent);
+  const shares = parts.map((part) => (part.value / value) ** (form.exponent - 1));
+  return { value, slope: t.map((_, k) => parts.reduce((sum, part, p) => sum + shares[p] * part.slope[k], 0)) };
 }
 
 // The point of a shape furthest along a direction, in its own axes.
 function furthestPoint(axes, form, direction) {
   const stretched = direction.map((d, k) => d * axes[k]);
-  if (!form) {
-    const size = Math.hypot(...stretched);
-    return axes.map((a, k) => (a * stretched[k]) / size);
+  if (form) {
+    const { slope } = normOf(form, stretched);
+    return axes.map((a, k) => a * slope[k]);
   }
-  const scales = [0, 1, 2].map((k) => 1 / slopeOf(form, [+(k === 0), +(k === 1), +(k === 2)])[k]);
-  const slope = slopeOf(
-    form,
-    stretched.map((c, k) => c * scales[k]),
-  );
-  return axes.map((a, k) => a * scales[k] * slope[k]);
+  const size = Math.hypot(...stretched);
+  return axes.map((a, k) => (a * stretched[k]) / size);
 }
 
 // The outline of any shape seen along an axis: points around it.
@@ -103,7 +93,7 @@ function outlinePoints(center, quaternion, shape, [u, v]) {
   return Array.from({ length: OUTLINE_POINTS }, (_, i) => {
     const angle = (2 * Math.PI * i) / OUTLINE_POINTS,
       direction = [0, 1, 2].map((k) => Math.cos(angle) * r[u][k] + Math.sin(angle) * r[v][k]);
-    const offset = turn(r, furthestPoint(shape.axes, shape.super, direction));
+    const offset = turn(r, furthestPoint(shape.axes, shape.form, direction));
     return [center[u] + offset[u], center[v] + offset[v]];
   });
 }

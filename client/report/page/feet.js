@@ -22,7 +22,7 @@ function footMap(scene, side) {
     .filter((shape) => links.has(shape.link))
     .map((shape) => ({
       ...outline(shape.center, shape.rotation, shape.axes, PLANES.top),
-      points: shape.super ? outlinePoints(shape.center, shape.rotation, shape, PLANES.top) : null,
+      points: shape.form ? outlinePoints(shape.center, shape.rotation, shape, PLANES.top) : null,
       part: shape.part,
     }));
   return { parts, outlines };

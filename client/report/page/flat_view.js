@@ -29,7 +29,7 @@ function figure(solve, view, withForces) {
   const order = scene.shapes.map((shape, i) => ({ shape, i })).sort((a, b) => depth(a.shape) - depth(b.shape));
   const group = svg("g"),
     marks = order.map(({ shape, i }) => {
-      const mark = svg(shape.super ? "polygon" : "ellipse", {
+      const mark = svg(shape.form ? "polygon" : "ellipse", {
         "data-part": shape.part,
         style: `${sidePaint(shape.side, color)};stroke-width:0.006`,
       });
@@ -46,7 +46,7 @@ function figure(solve, view, withForces) {
   const update = (percent) => {
     const poses = shapePoses(scene, percent);
     for (const { mark, shape, i } of marks) {
-      if (shape.super) {
+      if (shape.form) {
         const points = outlinePoints(poses[i].center, poses[i].quaternion, shape, plane);
         mark.setAttribute("points", points.map((p) => p.map((c) => c.toFixed(4)).join(",")).join(" "));
         continue;

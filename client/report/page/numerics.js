@@ -128,7 +128,7 @@ function convergence() {
 
 function contactText(contact) {
   const size = `${words(contact.name)} with semi-axes ${contact.semi_axes.map((a) => fmt(a * 1e3, 3)).join(" × ")} mm`;
-  return contact.exponents ? `${size} and exponents ${contact.exponents.map((e) => fmt(e, 3)).join(", ")}` : size;
+  return contact.numbers ? `${size} and ${contact.numbers}` : size;
 }
 
 function model() {

@@ -105,12 +105,12 @@ class WalkerMesh {
   addForms(sphere, options, beads, painted = false) {
     const forms = new Map();
     for (const bead of beads) {
-      const form = bead.shape?.super,
+      const form = bead.shape?.form,
         key = JSON.stringify(form ?? null);
       forms.set(key, { form, beads: [...(forms.get(key)?.beads ?? []), bead] });
     }
     return [...forms.values()].map(({ form, beads: alike }) =>
-      this.addBeads(form ? superellipsoid(sphere, form) : sphere, options, alike, painted),
+      this.addBeads(form ? formed(sphere, form) : sphere, options, alike, painted),
     );
   }
 
@@ -292,8 +292,8 @@ class WalkerMesh {
   }
 }
 
-// The superellipsoid of a form with semi-axes 1, from the unit sphere, whose normals it keeps.
-function superellipsoid(sphere, form) {
+// The body of a form with semi-axes 1, from the unit sphere, whose normals it keeps.
+function formed(sphere, form) {
   const shape = sphere.clone(),
     place = shape.attributes.position;
   for (let i = 0; i < place.count; ++i) {

@@ -22,6 +22,10 @@ PosedBody RandomEllipsoid(SeededRandom& random) {
   return body;
 }
 
+std::shared_ptr<const std::function<double(const Vector3&)>> NormOf(const SmoothSuperellipsoid& body) {
+  return std::make_shared<const std::function<double(const Vector3&)>>(body.Walking().support);
+}
+
 // The point of the body furthest along nu, from its centre.
 Vector3 FurthestAlong(const PosedBody& body, const Vector3& nu) {
   const Vector3 local = body.semi_axes.cwiseProduct(body.R_WE.transpose() * nu);
@@ -120,11 +124,11 @@ TEST(BodyOverlapTest, OfSuperellipsoidsAgreesWithTheSeparationOfPairs) {
     b.p_WE = random.Vector(-0.3, 0.3);
     const double e_1 = random.Uniform(0.6, 1.6), e_2 = random.Uniform(0.6, 1.6);
     const SmoothSuperellipsoid super(a.semi_axes, e_1, e_2, 0.1);
-    a.norm.emplace(a.semi_axes, e_1, e_2, 0.1);
+    a.norm = NormOf(SmoothSuperellipsoid(a.semi_axes, e_1, e_2, 0.1));
     Surface one = super, two = Ellipsoid(b.semi_axes);
     if (i % 2 == 0) {
       two = SmoothSuperellipsoid(b.semi_axes, e_2, e_1, 0.1);
-      b.norm.emplace(b.semi_axes, e_2, e_1, 0.1);
+      b.norm = NormOf(SmoothSuperellipsoid(b.semi_axes, e_2, e_1, 0.1));
     }
     const Vector3 nu = random.Unit();
     EXPECT_NEAR((*a.norm)(nu), one.Support(nu), 1e-14);

@@ -76,7 +76,7 @@ function heightsOfBearingOutlines() {
     for (const contact of scene.contacts) {
       const shape = scene.shapes[contact.shape],
         { center, quaternion } = poses[contact.shape];
-      if (!shape.super || !trackAt(scene, contact.rows, 8, percent)) continue;
+      if (!shape.form || !trackAt(scene, contact.rows, 8, percent)) continue;
       heights.push(Math.min(...outlinePoints(center, quaternion, shape, PLANES.side).map((p) => p[1])));
     }
   }
