@@ -6,18 +6,10 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
+#include "core/multibody/joint_kind.h"
 #include "core/multibody/joint_role.h"
 
 namespace rollgait {
-
-// kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and
-// the link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's
-// origin in link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
-enum class JointType { kRevolute, kPrismatic, kFree };
-
-// Numbers that a joint contributes to q and to v.
-constexpr int PositionCount(JointType type) { return type == JointType::kFree ? 7 : 1; }
-constexpr int VelocityCount(JointType type) { return type == JointType::kFree ? 6 : 1; }
 
 // A joint and the link it moves. See rollgait.v1.Joint for the meaning of each field.
 struct Joint {
@@ -52,6 +44,10 @@ struct Joint {
   JointRole role = JointRole::kNone;
   BodySide side = BodySide::kMidline;
   PassiveKind passive = PassiveKind::kNone;
+
+  const JointKind& kind() const { return KindOf(type); }
+  // How far the link moves along the axis by unit of the position, m. Contract: one degree of freedom.
+  double Advance() const { return kind().advance; }
 };
 
 // An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating
