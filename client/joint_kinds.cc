@@ -25,7 +25,10 @@ bool Turns(const v1::Joint& joint) { return OptionsOf(joint).GetExtension(v1::jo
 
 bool IsSlide(const v1::Joint& joint) { return Slides(joint) && !Turns(joint); }
 
-double Advance(const v1::Joint& joint) { return IsSlide(joint) ? 1 : 0; }
+double Advance(const v1::Joint& joint) {
+  if (!Slides(joint)) return 0;
+  return Turns(joint) ? joint.pitch_m_rad() : 1;
+}
 
 void RequireTurnOrSlide(const v1::Joint& joint, int index) {
   if (Turns(joint) != Slides(joint)) return;

@@ -9,7 +9,7 @@ namespace rollgait {
 // kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and
 // the link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's
 // origin in link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
-enum class JointType { kRevolute, kPrismatic, kFree };
+enum class JointType { kRevolute, kPrismatic, kFree, kScrew };
 
 // What dynamics, checks, conversion and tables know of a type of joints. One with one degree of freedom moves its link
 // along the unit axis u of the joint frame by a constant twist S = [turn · u; advance · u], angular first, at the
@@ -34,6 +34,7 @@ inline constexpr JointKind kJointKinds[] = {
     {JointType::kRevolute, "TYPE_REVOLUTE", "revolute", 1, 1, true, 0},
     {JointType::kPrismatic, "TYPE_PRISMATIC", "prismatic", 1, 1, false, 1},
     {JointType::kFree, "TYPE_FREE", "free", 7, 6, false, 0},
+    {JointType::kScrew, "TYPE_SCREW", "screw", 1, 1, true, 0},
 };
 
 constexpr const JointKind& KindOf(JointType type) { return kJointKinds[static_cast<size_t>(type)]; }

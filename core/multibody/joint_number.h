@@ -8,7 +8,7 @@
 namespace rollgait {
 
 // What Model::Create asks of a number for itself; kOther: rules of its own, which compare it with others.
-enum class JointNumberRule { kOther, kFinite, kNotNegative };
+enum class JointNumberRule { kOther, kFinite, kNotNegative, kPitch };
 
 // A number that messages say of a joint.
 struct JointNumber {
@@ -31,6 +31,7 @@ inline constexpr JointNumber kJointNumbers[] = {
     {&Joint::stiffness, "stiffness", "stiffness", "stiffness", JointNumberRule::kNotNegative, false},
     {&Joint::damping, "damping", "damping", "damping", JointNumberRule::kNotNegative},
     {&Joint::rest_position, "rest_position", "rest_position", "rest", JointNumberRule::kFinite, false},
+    {&Joint::pitch, "pitch", "pitch_m_rad", "pitch_m_rad", JointNumberRule::kPitch},
 };
 
 // What the number of this joint breaks of its rule; null: nothing.
@@ -41,6 +42,9 @@ inline const char* Problem(const JointNumber& number, const Joint& joint) {
       return std::isfinite(value) ? nullptr : "must be finite";
     case JointNumberRule::kNotNegative:
       return std::isfinite(value) && value >= 0 ? nullptr : "must be finite and at least 0";
+    case JointNumberRule::kPitch:
+      if (joint.type != JointType::kScrew) return value == 0 ? nullptr : "must be 0: only a screw has a pitch";
+      return std::abs(value) <= 1 && value != 0 ? nullptr : "must be within [-1, 1] m/rad and not 0";
     case JointNumberRule::kOther:
       break;
   }

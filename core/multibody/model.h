@@ -31,6 +31,7 @@ struct Joint {
   double stiffness = 0;      // N m/rad or N/m, >= 0; 0 of a free joint
   double rest_position = 0;  // rad or m
   double damping = 0;        // N m s/rad or N s/m, >= 0
+  double pitch = 0;          // m/rad, of a screw: how far its link moves along the axis as it turns; 0 of any other
 
   std::string link;
   double mass = 0;                           // kg, >= 0
@@ -47,7 +48,7 @@ struct Joint {
 
   const JointKind& kind() const { return KindOf(type); }
   // How far the link moves along the axis by unit of the position, m. Contract: one degree of freedom.
-  double Advance() const { return kind().advance; }
+  double Advance() const { return kind().advance + pitch; }
 };
 
 // An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating
