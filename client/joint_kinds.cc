@@ -1,6 +1,7 @@
 #include "client/joint_kinds.h"
 
 #include "client/failure.h"
+#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -28,6 +29,11 @@ bool IsSlide(const v1::Joint& joint) { return Slides(joint) && !Turns(joint); }
 double Advance(const v1::Joint& joint) {
   if (!Slides(joint)) return 0;
   return Turns(joint) ? joint.pitch_m_rad() : 1;
+}
+
+std::string JointText(const v1::Joint& joint) {
+  if (!Turns(joint) || Advance(joint) == 0) return JointWord(joint);
+  return JointWord(joint) + " " + FormatNumber(1e3 * Advance(joint)) + " mm/rad";
 }
 
 void RequireTurnOrSlide(const v1::Joint& joint, int index) {

@@ -11,6 +11,9 @@ namespace rollgait::client {
 // "revolute"; of a type that this program does not know its number, "type 9".
 std::string JointWord(const v1::Joint& joint);
 
+// The same with how far the link moves along the axis where it also turns: "screw 5 mm/rad".
+std::string JointText(const v1::Joint& joint);
+
 // True if positions are angles, rad, and efforts N m: the link turns about the axis.
 bool Turns(const v1::Joint& joint);
 // True if positions are lengths, m, and efforts N: the link moves along the axis and does not turn.

@@ -119,7 +119,7 @@ std::string ModelText(const v1::Model& model) {
                   "CENTRE OF MASS m", "IYY kg m²"}};
   for (const v1::Joint& joint : model.joints()) {
     const bool known_parent = joint.parent() >= 0 && joint.parent() < model.joints_size();
-    joints.push_back({joint.name(), JointWord(joint), known_parent ? model.joints(joint.parent()).name() : "world",
+    joints.push_back({joint.name(), JointText(joint), known_parent ? model.joints(joint.parent()).name() : "world",
                       Vector(joint.origin_m()), Vector(joint.axis()), PositionRange(joint), EffortRange(joint),
                       joint.link_name(), FormatNumber(joint.mass_kg()), Vector(joint.center_of_mass_m()),
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});

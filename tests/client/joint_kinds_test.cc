@@ -133,6 +133,8 @@ TEST_P(ClientJointKindsTest, OptionsAreTheRowOfTheTable) {
   EXPECT_EQ(Turns(joint), kind.turns);
   EXPECT_EQ(IsSlide(joint), kind.is_slide());
   EXPECT_EQ(Advance(joint), scene_->model.joint(0).Advance());
+  const bool both = kind.turns && Advance(joint) != 0;
+  EXPECT_EQ(JointText(joint), both ? std::string(kind.word) + " 230 mm/rad" : kind.word);
 }
 
 // A format of joints that turn or slide takes these, and says the type and the joint of any other.
