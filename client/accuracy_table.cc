@@ -2,6 +2,7 @@
 
 #include "client/error_table.h"
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -49,7 +50,7 @@ Display DisplayOf(const v1::CriterionResult& criterion, const v1::Model& model) 
   for (const Display& display : kDisplays) {
     if (criterion.criterion() != display.field) continue;
     for (const v1::Joint& joint : model.joints()) {
-      const bool slides = joint.name() == criterion.where() && joint.type() == v1::Joint::TYPE_PRISMATIC;
+      const bool slides = joint.name() == criterion.where() && IsSlide(joint);
       if (slides && criterion.criterion() == "max_range_excess") return {display.field, 1e3, "mm", display.explanation};
     }
     return display;

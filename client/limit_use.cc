@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "client/joint_kinds.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -14,7 +15,7 @@ constexpr double kNear = 1e-3;  // of the range or limit
 constexpr double kLoadedShareOfWeight = 0.01;
 
 std::string WithUnit(double value, const v1::Joint& joint, LimitKind kind) {
-  const bool revolute = joint.type() == v1::Joint::TYPE_REVOLUTE;
+  const bool revolute = Turns(joint);
   switch (kind) {
     case LimitKind::kPosition:
       return revolute ? FormatNumber(value * 180 / kPi) + "°" : FormatNumber(value) + " m";

@@ -15,13 +15,15 @@ std::vector<LinkPose> Poses(const Model& model, const VectorX& q, const VectorX&
     const Matrix3 R_WJ = parent.R_WL * joint.R_PJ;
     LinkPose& pose = poses[static_cast<size_t>(i)];
     pose.axis = R_WJ * joint.axis;
-    const bool turns = joint.type == JointType::kRevolute;
-    const Vector3 arm = parent.R_WL * joint.p_PJ + (turns ? Vector3(Vector3::Zero()) : Vector3(pose.axis * q[i]));
+    const bool turns = joint.kind().turns;
+    const double advance = joint.Advance();
+    const Vector3 arm = parent.R_WL * joint.p_PJ + pose.axis * (advance * q[i]);
     pose.p_WL = parent.p_WL + arm;
     pose.R_WL = turns ? Matrix3(R_WJ * Eigen::AngleAxisd(q[i], joint.axis).toRotationMatrix()) : R_WJ;
     pose.w_WL = parent.w_WL;
     pose.v_WL = parent.v_WL + parent.w_WL.cross(arm);
-    (turns ? pose.w_WL : pose.v_WL) += pose.axis * v[i];
+    if (turns) pose.w_WL += pose.axis * v[i];
+    pose.v_WL += pose.axis * (advance * v[i]);
   }
   return poses;
 }
@@ -40,8 +42,8 @@ MatrixX PointJacobian(const Model& model, const std::vector<LinkPose>& poses, in
   MatrixX jacobian = MatrixX::Zero(3, model.size());
   for (int i = link; i >= 0; i = model.parent(i)) {
     const LinkPose& pose = poses[static_cast<size_t>(i)];
-    const bool turns = model.joint(i).type == JointType::kRevolute;
-    jacobian.col(i) = turns ? Vector3(pose.axis.cross(point - pose.p_WL)) : pose.axis;
+    jacobian.col(i) = model.joint(i).Advance() * pose.axis;
+    if (model.joint(i).kind().turns) jacobian.col(i) += pose.axis.cross(point - pose.p_WL);
   }
   return jacobian;
 }

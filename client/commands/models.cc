@@ -4,6 +4,7 @@
 #include "client/import/model_file.h"
 #include "client/import/side_proposal.h"
 #include "client/import/tree_file.h"
+#include "client/joint_kinds.h"
 #include "client/json.h"
 #include "client/output.h"
 #include "client/report/kinematics.h"
@@ -33,7 +34,7 @@ std::string Vector(const v1::Vector3& v) { return Vector(ToVector(v)); }
 
 // "-30 … 120 °", or "free".
 std::string PositionRange(const v1::Joint& joint) {
-  const bool angle = joint.type() == v1::Joint::TYPE_REVOLUTE;
+  const bool angle = Turns(joint);
   const double scale = angle ? 180 / kPi : 1.0;
   if (joint.position_max() - joint.position_min() > 1e6) return "free";
   return FormatNumber(joint.position_min() * scale) + " … " + FormatNumber(joint.position_max() * scale) +
@@ -43,8 +44,7 @@ std::string PositionRange(const v1::Joint& joint) {
 std::string EffortRange(const v1::Joint& joint) {
   if (!joint.actuated()) return "-";
   if (joint.effort_max() > 1e12) return "free";
-  return FormatNumber(joint.effort_min()) + " … " + FormatNumber(joint.effort_max()) +
-         (joint.type() == v1::Joint::TYPE_PRISMATIC ? " N" : " N m");
+  return FormatNumber(joint.effort_min()) + " … " + FormatNumber(joint.effort_max()) + (IsSlide(joint) ? " N" : " N m");
 }
 
 // Springs and dampers of joints; empty without any.
@@ -53,7 +53,7 @@ Rows SpringRows(const v1::Model& model) {
   for (const v1::Joint& joint : model.joints()) {
     if (joint.stiffness() == 0 && joint.damping() == 0) continue;
     if (rows.empty()) rows = {{"SPRING AT", "STIFFNESS", "AT REST", "DAMPING"}};
-    const bool slides = joint.type() == v1::Joint::TYPE_PRISMATIC;
+    const bool slides = IsSlide(joint);
     rows.push_back({joint.name(), FormatNumber(joint.stiffness()) + (slides ? " N/m" : " N m/rad"),
                     slides ? FormatNumber(joint.rest_position()) + " m"
                            : FormatVisible(joint.rest_position() * 180 / kPi, 1e-9) + "°",
@@ -111,10 +111,9 @@ std::string ModelText(const v1::Model& model) {
                   "CENTRE OF MASS m", "IYY kg m²"}};
   for (const v1::Joint& joint : model.joints()) {
     const bool known_parent = joint.parent() >= 0 && joint.parent() < model.joints_size();
-    joints.push_back({joint.name(), joint.type() == v1::Joint::TYPE_PRISMATIC ? "prismatic" : "revolute",
-                      known_parent ? model.joints(joint.parent()).name() : "world", Vector(joint.origin_m()),
-                      Vector(joint.axis()), PositionRange(joint), EffortRange(joint), joint.link_name(),
-                      FormatNumber(joint.mass_kg()), Vector(joint.center_of_mass_m()),
+    joints.push_back({joint.name(), JointText(joint), known_parent ? model.joints(joint.parent()).name() : "world",
+                      Vector(joint.origin_m()), Vector(joint.axis()), PositionRange(joint), EffortRange(joint),
+                      joint.link_name(), FormatNumber(joint.mass_kg()), Vector(joint.center_of_mass_m()),
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
   }
   text += "\n" + FormatTable(joints, "");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 
 namespace rollgait::client {
 namespace {
@@ -17,9 +18,7 @@ std::vector<BodyLink> BodyLinks(const v1::Model& model) {
   std::vector<int> children(model.joints_size(), 0);
   for (int i = 0; i < model.joints_size(); ++i) {
     const v1::Joint& joint = model.joints(i);
-    if (joint.type() != v1::Joint::TYPE_REVOLUTE && joint.type() != v1::Joint::TYPE_PRISMATIC) {
-      Refuse(i, ".type must be TYPE_REVOLUTE or TYPE_PRISMATIC for this format");
-    }
+    RequireTurnOrSlide(joint, i);
     if (joint.parent() < -1 || joint.parent() >= i) {
       Refuse(i, ".parent is " + std::to_string(joint.parent()) + ", must be in [-1, " + std::to_string(i - 1) +
                     "]: parents come first");

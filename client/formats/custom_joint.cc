@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 
 namespace rollgait::client {
 namespace {
@@ -44,7 +45,7 @@ CustomJoint ToCustomJoint(const v1::Model& model, const BodyLink& body) {
       if (frame.position.norm() > kOnePoint_m) Refuse(joint, "its origin is not that of the joint before it");
       turned = turned * frame.rotation;
     }
-    const bool slides = joint.type() == v1::Joint::TYPE_PRISMATIC;
+    const bool slides = IsSlide(joint);
     if (slides && !custom.rotations.empty()) Refuse(joint, "it slides after a rotation");
     std::vector<TransformAxis>& axes = slides ? custom.translations : custom.rotations;
     if (axes.size() == 3) Refuse(joint, "it is the fourth of its kind");

@@ -8,6 +8,7 @@
 #include "client/formats/exact_number.h"
 #include "client/formats/link_shapes.h"
 #include "client/formats/xml_writer.h"
+#include "client/joint_kinds.h"
 
 namespace rollgait::client {
 namespace {
@@ -84,7 +85,7 @@ class MjcfWriter {
     const v1::Joint& joint = model_.joints(index);
     const bool limited = std::isfinite(joint.position_min()) && std::isfinite(joint.position_max());
     XmlWriter::Attributes attributes = {{"name", joint.name()},
-                                        {"type", joint.type() == v1::Joint::TYPE_PRISMATIC ? "slide" : "hinge"},
+                                        {"type", IsSlide(joint) ? "slide" : "hinge"},
                                         {"pos", Exact(frame.position)},
                                         {"axis", Exact(Eigen::Vector3d(frame.rotation * ToVector(joint.axis())))},
                                         {"limited", limited ? "true" : "false"}};

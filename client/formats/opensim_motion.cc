@@ -9,6 +9,7 @@
 #include "client/formats/opensim_coordinates.h"
 #include "client/formats/osim.h"
 #include "client/formats/xml_writer.h"
+#include "client/joint_kinds.h"
 #include "client/report/kinematics.h"
 #include "client/text.h"
 
@@ -57,7 +58,7 @@ std::string ToMot(const v1::Solve& solve) {
   for (const StrideSample& sample : stride.samples) {
     text += Exact(sample.time_s);
     for (int i = 0; i < model.joints_size(); ++i) {
-      const double unit = model.joints(i).type() == v1::Joint::TYPE_PRISMATIC ? 1 : 180 / kPi;
+      const double unit = IsSlide(model.joints(i)) ? 1 : 180 / kPi;
       text += "\t" + Exact(coordinates[i].sign * unit * sample.instant.position[i]);
     }
     text += "\n";

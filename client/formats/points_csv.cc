@@ -1,5 +1,6 @@
 #include "client/formats/points_csv.h"
 
+#include "client/joint_kinds.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -7,9 +8,9 @@ namespace {
 
 constexpr int kCsvDigits = 12;
 
-bool IsPrismatic(const v1::Model& model, const std::string& joint) {
+bool IsSlideOf(const v1::Model& model, const std::string& joint) {
   for (const v1::Joint& candidate : model.joints()) {
-    if (candidate.name() == joint) return candidate.type() == v1::Joint::TYPE_PRISMATIC;
+    if (candidate.name() == joint) return IsSlide(candidate);
   }
   return false;
 }
@@ -27,7 +28,7 @@ std::string CsvHeader(const v1::Trajectory& trajectory, const v1::Model& model) 
   const auto add = [&](const auto& names, const std::string& quantity, const std::string& angular,
                        const std::string& linear) {
     for (const std::string& name : names) {
-      header += "," + name + " " + quantity + " [" + (IsPrismatic(model, name) ? linear : angular) + "]";
+      header += "," + name + " " + quantity + " [" + (IsSlideOf(model, name) ? linear : angular) + "]";
     }
   };
   add(trajectory.joint_names(), "position", "rad", "m");

@@ -2,6 +2,7 @@
 
 #include "client/failure.h"
 #include "client/formats/body_links.h"
+#include "client/joint_kinds.h"
 
 namespace rollgait::client {
 namespace {
@@ -13,7 +14,7 @@ void RequireSkeleton(const v1::Model& model, const std::vector<BodyLink>& bodies
       throw Failure(ExitCode::kUsage, "link " + name + ": this format has one root, the first body");
     }
     for (const int joint : bodies[b].joints) {
-      if (b > 0 && model.joints(joint).type() == v1::Joint::TYPE_PRISMATIC) {
+      if (b > 0 && IsSlide(model.joints(joint))) {
         throw Failure(ExitCode::kUsage,
                       "joint " + model.joints(joint).name() + ": this format has no joint that slides on a body");
       }

@@ -8,6 +8,7 @@
 #include "client/formats/body_links.h"
 #include "client/formats/exact_number.h"
 #include "client/formats/xml_writer.h"
+#include "client/joint_kinds.h"
 #include "client/report/kinematics.h"
 
 namespace rollgait::client {
@@ -44,7 +45,7 @@ void WriteLink(const v1::Joint& joint, XmlWriter& xml) {
 }
 
 void WriteJoint(const v1::Joint& joint, const std::string& parent, XmlWriter& xml) {
-  const bool prismatic = joint.type() == v1::Joint::TYPE_PRISMATIC;
+  const bool prismatic = IsSlide(joint);
   const bool bounded = std::isfinite(joint.position_min()) && std::isfinite(joint.position_max());
   xml.Open("joint", {{"name", joint.name()}, {"type", prismatic ? "prismatic" : bounded ? "revolute" : "continuous"}});
   xml.Empty("parent", {{"link", parent}});
@@ -83,10 +84,7 @@ std::string ToUrdf(const v1::Model& model) {
   xml.Empty("link", {{"name", "world"}});
   for (int i = 0; i < model.joints_size(); ++i) {
     const v1::Joint& joint = model.joints(i);
-    if (joint.type() != v1::Joint::TYPE_REVOLUTE && joint.type() != v1::Joint::TYPE_PRISMATIC) {
-      throw Failure(ExitCode::kUsage, "model.joints[" + std::to_string(i) +
-                                          "].type must be TYPE_REVOLUTE or TYPE_PRISMATIC for this format");
-    }
+    RequireTurnOrSlide(joint, i);
     WriteLink(joint, xml);
     WriteJoint(joint, joint.parent() < 0 ? "world" : model.joints(joint.parent()).link_name(), xml);
   }

@@ -5,6 +5,7 @@
 
 #include "client/failure.h"
 #include "client/formats/urdf.h"
+#include "client/joint_kinds.h"
 #include "client/json.h"
 
 namespace rollgait::client {
@@ -78,6 +79,9 @@ v1::ModelSideFile SideFileOfModel(const v1::Model& model) {
   return side;
 }
 
-std::string ToUrdfSide(const v1::Model& model) { return ToJsonText(SideFileOfModel(model)); }
+std::string ToUrdfSide(const v1::Model& model) {
+  for (int i = 0; i < model.joints_size(); ++i) RequireTurnOrSlide(model.joints(i), i);  // of a URDF that there is
+  return ToJsonText(SideFileOfModel(model));
+}
 
 }  // namespace rollgait::client

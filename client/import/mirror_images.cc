@@ -7,6 +7,7 @@
 #include "client/failure.h"
 #include "client/formats/body_links.h"
 #include "client/import/mirror_names.h"
+#include "client/joint_kinds.h"
 #include "client/report/kinematics.h"
 #include "client/text.h"
 
@@ -43,7 +44,7 @@ double MirrorSign(const v1::Model& model, int joint, int image) {
   };
   Eigen::Vector3d mirrored = axis(image).cwiseProduct(Eigen::Vector3d(1, -1, 1));
   // The axis of a turn is a pseudovector.
-  if (model.joints(joint).type() == v1::Joint::TYPE_REVOLUTE) mirrored = -mirrored;
+  if (Turns(model.joints(joint))) mirrored = -mirrored;
   return axis(joint).dot(mirrored) < 0 ? -1 : 1;
 }
 

@@ -5,6 +5,7 @@
 
 #include "client/formats/urdf.h"
 #include "client/import/side_file.h"
+#include "client/joint_kinds.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -52,7 +53,7 @@ void SetLimits(const LinkTree& tree, const TreeJoint& joint, const std::string& 
   to->set_actuated(actuated);
   double velocity = said.has_velocity_max() ? said.velocity_max() : joint.velocity;
   if (!said.has_velocity_max() && !base && !tree.states_velocity) {
-    velocity = to->type() == v1::Joint::TYPE_PRISMATIC ? kAssumedSlide_m_s : kAssumedTurn_rad_s;
+    velocity = IsSlide(*to) ? kAssumedSlide_m_s : kAssumedTurn_rad_s;
   }
   if (!said.has_velocity_max() && (unlimited(velocity) || (!actuated && velocity == 0))) velocity = kUnbounded;
   to->set_velocity_max(velocity);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 #include "client/report/surface_shape.h"
 
 namespace rollgait::client {
@@ -32,9 +33,9 @@ std::vector<Pose> LinkPoses(const v1::Model& model, const std::vector<double>& p
     pose.rotation = parent.rotation * ToRotation(joint.orientation());
     pose.position = parent.position + parent.rotation * ToVector(joint.origin_m());
     const Eigen::Vector3d axis = ToVector(joint.axis());
-    if (joint.type() == v1::Joint::TYPE_PRISMATIC) {
-      pose.position += pose.rotation * axis * positions[i];
-    } else {
+    const double advance = Advance(joint);
+    if (advance != 0) pose.position += pose.rotation * axis * (advance * positions[i]);
+    if (Turns(joint)) {
       pose.rotation = pose.rotation * Eigen::AngleAxisd(positions[i], axis.normalized()).toRotationMatrix();
     }
     poses.push_back(pose);

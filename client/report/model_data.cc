@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/joint_kinds.h"
 #include "client/report/sides.h"
 #include "client/report/surface_shape.h"
 #include "client/text.h"
@@ -12,7 +13,7 @@ namespace rollgait::client {
 nlohmann::json ModelData(const v1::Model& model) {
   nlohmann::json joints = nlohmann::json::array();
   for (const v1::Joint& joint : model.joints()) {
-    const bool angle = joint.type() != v1::Joint::TYPE_PRISMATIC;
+    const bool angle = !IsSlide(joint);
     const double scale = angle ? 180 / kPi : 1;
     const bool bounded = joint.position_max() - joint.position_min() < 1e6;
     joints.push_back(

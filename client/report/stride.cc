@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 #include "client/report/kinematics.h"
 
 namespace rollgait::client {
@@ -28,7 +29,7 @@ std::vector<double> ForwardShift(const v1::Model& model, double displacement_m) 
   std::vector<bool> at_root(model.joints_size(), false);
   for (int i = 0; i < model.joints_size(); ++i) {
     const v1::Joint& joint = model.joints(i);
-    const bool free = joint.type() == v1::Joint::TYPE_PRISMATIC && !joint.actuated();
+    const bool free = IsSlide(joint) && !joint.actuated();
     at_root[i] = free && (joint.parent() < 0 || at_root[joint.parent()]);
     const Eigen::Vector3d axis(joint.axis().x(), joint.axis().y(), joint.axis().z());
     if (at_root[i]) shift[i] = displacement_m * (poses[i].rotation * axis).x();

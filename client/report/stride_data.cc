@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/joint_kinds.h"
 #include "client/report/kinematics.h"
 #include "client/report/packed_rows.h"
 #include "client/report/sides.h"
@@ -38,7 +39,7 @@ json StrideData(const Stride& stride, const v1::Model& model) {
   json joints = json::array();
   for (int i = 0; i < model.joints_size(); ++i) {
     const v1::Joint& joint = model.joints(i);
-    const bool slide = joint.type() == v1::Joint::TYPE_PRISMATIC;
+    const bool slide = IsSlide(joint);
     if (slide && !joint.actuated()) continue;
     const double scale = slide ? 1 : 180 / kPi;
     const bool bounded = joint.position_max() - joint.position_min() < 1e6;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 #include "client/report/motion.h"
 #include "client/text.h"
 
@@ -31,7 +32,7 @@ TrueErrors ErrorsAgainst(const v1::SolveResult& reference, const v1::SolveResult
     for (int i = 0; i < kInstants; ++i) {
       const Instant a = one.At(TimeOf(one.phases()[p], i)), b = other.At(TimeOf(other.phases()[p], i));
       for (int j = 0; j < model.joints_size(); ++j) {
-        if (model.joints(j).type() != v1::Joint::TYPE_REVOLUTE) continue;
+        if (!Turns(model.joints(j))) continue;
         errors.angle_deg = std::max(errors.angle_deg, std::abs(a.position[j] - b.position[j]) * 180 / kPi);
         errors.torque_n_m = std::max(errors.torque_n_m, std::abs(a.effort[j] - b.effort[j]));
       }

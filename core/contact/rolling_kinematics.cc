@@ -39,7 +39,9 @@ void RollingJacobian(const BodyDynamics& dynamics, const ContactSurface& surface
   jacobian->middleRows(first_row, rows).setZero();
   for (int j = surface.joint; j >= 0; j = dynamics.parent(j)) {
     const Vector3 axis = state[j].R_WL * dynamics.axis(j);
-    const Vector3 column = dynamics.turns(j) ? Vector3(axis.cross(point - state[j].p_WL)) : axis;
+    const double advance = dynamics.advance(j);
+    Vector3 column = dynamics.turns(j) ? Vector3(axis.cross(point - state[j].p_WL)) : Vector3(advance * axis);
+    if (dynamics.turns(j) && advance != 0) column += advance * axis;
     for (int k = 0; k < rows; ++k) (*jacobian)(first_row + k, j) = column[surface.directions[k]];
   }
 }

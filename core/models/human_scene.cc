@@ -21,7 +21,7 @@ bool IsBase(const Joint& joint) { return joint.name.starts_with("base_"); }
 
 // Which switch of the selection fixes a joint, null if none does.
 const char* FixedBy(const Joint& joint, const BodySelection& selection) {
-  const bool lateral = joint.type == JointType::kPrismatic ? joint.axis.y() != 0 : joint.axis.y() == 0;
+  const bool lateral = joint.kind().is_slide() ? joint.axis.y() != 0 : joint.axis.y() == 0;
   if (selection.sagittal && lateral) return "sagittal";
   if (selection.drop_arms && (joint.name.starts_with("shoulder") || joint.name.starts_with("elbow"))) {
     return "drop_arms";

@@ -27,10 +27,13 @@ class Comparison {
     const Joint& joint = model_.joint(index);
     const Joint& image = model_.joint(joint.mirror_joint);
     const Matrix3 &R = Rotation(index), &R_image = Rotation(joint.mirror_joint);
-    // The axis of a turn is a pseudovector.
-    const double sign = joint.mirror_sign * (joint.type == JointType::kRevolute ? -1 : 1);
+    // The axis of a turn is a pseudovector; along it the image of one that also moves advances the other way.
+    const bool turns = joint.kind().turns;
+    const double sign = joint.mirror_sign * (turns ? -1 : 1);
     const Vector3 axis = R * joint.axis, axis_image = sign * Mirrored(R_image * image.axis);
-    return (axis - axis_image).norm() <= kTolerance && IsPlace(Origin(index), Origin(joint.mirror_joint)) &&
+    return (axis - axis_image).norm() <= kTolerance &&
+           std::abs(joint.Advance() - (turns ? -1 : 1) * image.Advance()) <= kTolerance &&
+           IsPlace(Origin(index), Origin(joint.mirror_joint)) &&
            std::abs(joint.mass - image.mass) <= kTolerance * joint.mass &&
            (joint.mass == 0 ||
             IsPlace(At(index, joint.center_of_mass), At(joint.mirror_joint, image.center_of_mass))) &&

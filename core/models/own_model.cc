@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/models/own_model_check.h"
+#include "core/multibody/joint_number.h"
 
 namespace rollgait {
 namespace {
@@ -12,12 +13,15 @@ namespace {
 std::string WireField(const std::string& field) {
   constexpr std::pair<const char*, const char*> kNames[] = {{"p_PJ", "origin_m"},
                                                             {"R_PJ", "orientation"},
-                                                            {"mass", "mass_kg"},
                                                             {"center_of_mass", "center_of_mass_m"},
                                                             {"inertia", "inertia_kg_m2"}};
   const size_t dot = field.rfind('.');
   for (const auto& [ours, wire] : kNames) {
     if (dot != std::string::npos && field.substr(dot + 1) == ours) return field.substr(0, dot + 1) + wire;
+  }
+  for (const JointNumber& number : kJointNumbers) {
+    if (dot != std::string::npos && field.substr(dot + 1) == number.name)
+      return field.substr(0, dot + 1) + number.field;
   }
   return field;
 }

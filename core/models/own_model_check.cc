@@ -122,9 +122,10 @@ bool IsTranslation(JointRole role) {
 void CheckBaseJoint(int index, OwnModelCheck* check) {
   const Joint& joint = check->own.joints[index];
   const char* const role = RoleName(joint.role);
-  const char* const unit = IsTranslation(joint.role) ? "prismatic" : "revolute";
-  if ((joint.type == JointType::kPrismatic) != IsTranslation(joint.role)) {
-    check->Refuse("joints", index, "type", "of joint \"", joint.name, "\" with ", role, " must be ", unit);
+  const JointType wanted = IsTranslation(joint.role) ? JointType::kPrismatic : JointType::kRevolute;
+  if (joint.type != wanted) {
+    check->Refuse("joints", index, "type", "of joint \"", joint.name, "\" with ", role, " must be ",
+                  KindOf(wanted).word);
   }
   if (joint.actuated) {
     check->Refuse("joints", index, "actuated", "of joint \"", joint.name,
@@ -184,7 +185,7 @@ void CheckOwnSizes(OwnModelCheck* check) {
     if (!joint.link.empty() && !IsName(joint.link)) {
       check->Refuse("joints", i, "link_name", "is not 1 to ", kMaxName, " letters, digits, \"_\", \"-\" or \".\"");
     }
-    if (joint.type == JointType::kFree) {
+    if (joint.kind().is_free()) {
       check->Refuse("joints", i, "type", "of joint \"", joint.name,
                     "\" is TYPE_FREE, which is for Simulate; a floating base is a chain of six joints");
     }
@@ -288,8 +289,8 @@ void CheckOwnBase(OwnModelCheck* check) {
                     "; everything hangs on the last joint of the base, ", last);
     }
     const double sideways = std::abs((check->R_WL[i] * joints[i].axis).y());
-    const bool is_turn = joints[i].type == JointType::kRevolute;
-    if (!in_space && (is_turn ? sideways < 1 - kStraight : sideways > kStraight)) {
+    const bool turns_out = joints[i].kind().turns && sideways < 1 - kStraight;
+    if (!in_space && (turns_out || (joints[i].Advance() != 0 && sideways > kStraight))) {
       check->Refuse("joints", i, "axis", "of joint \"", joints[i].name,
                     "\" moves the body out of the plane, in which its contacts work (directions x and z)");
     }

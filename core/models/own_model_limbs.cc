@@ -33,7 +33,7 @@ void CheckLimits(int index, OwnModelCheck* check) {
 void CheckRole(int index, OwnModelCheck* check) {
   const Joint& joint = check->own.joints[index];
   const double across = std::abs((check->R_WL[index] * joint.axis).y());
-  if (joint.role != JointRole::kNone && (joint.type != JointType::kRevolute || across < 0.5)) {
+  if (joint.role != JointRole::kNone && (!joint.kind().turns || across < 0.5)) {
     check->Refuse("joints", index, "axis", "of joint \"", joint.name, "\" is (",
                   (check->R_WL[index] * joint.axis).transpose(),
                   ") in the world; the joint of a role turns within 60° of y, its component along y must reach 0.5");
@@ -71,10 +71,14 @@ void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
   const Vector3 origin = check->p_WL[index], expected = mirror * check->p_WL[other];
   if ((origin - expected).norm() > tolerance)
     differs("origin_m", origin.transpose(), expected.transpose(), " m (world)");
-  // A turn's axis is a pseudovector.
+  // A turn's axis is a pseudovector; along it the image of one that also moves advances the other way.
   const Vector3 axis = R * joint.axis, flip = mirror * (R_image * image.axis) * joint.mirror_sign;
-  const Vector3 wanted = joint.type == JointType::kRevolute ? Vector3(-flip) : flip;
+  const Vector3 wanted = joint.kind().turns ? Vector3(-flip) : flip;
   if ((axis - wanted).norm() > kMirrorTolerance) differs("axis", axis.transpose(), wanted.transpose(), " (world)");
+  const double advance = joint.kind().turns ? -image.Advance() : image.Advance();
+  if (std::abs(joint.Advance() - advance) > tolerance) {
+    differs("axis", joint.Advance(), advance, " m along it by unit of the position");
+  }
   if (std::abs(joint.mass - image.mass) > kMirrorTolerance * joint.mass) {
     differs("mass_kg", joint.mass, image.mass, " kg");
   }

@@ -24,7 +24,7 @@ std::vector<double> FixedPositions(const Model& model, const std::map<std::strin
     const int joint = model.Find(name);
     if (joint < 0) {
       violations->push_back({field, "the model has no joint of that name; see GetModel for its joints"});
-    } else if (model.joint(joint).type == JointType::kFree) {
+    } else if (model.joint(joint).kind().is_free()) {
       violations->push_back({field, "is a free joint, which cannot be locked; lock joints with one degree of freedom"});
     } else if (!std::isfinite(position)) {
       violations->push_back({field, "is not a finite number; give the position to lock the joint at"});
@@ -55,11 +55,11 @@ ModelReduction::Place JointFrame(const Joint& joint, const std::vector<ModelRedu
 }
 
 ModelReduction::Place Moved(const Joint& joint, double position, ModelReduction::Place frame) {
-  if (joint.type == JointType::kRevolute) {
-    // At zero exactly the identity, so that nothing is lost to rounding.
-    if (position != 0) frame.R_KL *= Eigen::AngleAxisd(position, joint.axis).toRotationMatrix();
-  } else {
-    frame.p_KL += frame.R_KL * joint.axis * position;
+  const double advance = joint.Advance();
+  if (advance != 0) frame.p_KL += frame.R_KL * joint.axis * (advance * position);
+  // At zero exactly the identity, so that nothing is lost to rounding.
+  if (joint.kind().turns && position != 0) {
+    frame.R_KL *= Eigen::AngleAxisd(position, joint.axis).toRotationMatrix();
   }
   return frame;
 }

@@ -68,8 +68,8 @@ BodyDynamics::BodyDynamics(const Model& model)
     : model_(model), nq_(model.nq()), nv_(model.nv()), total_mass_(model.total_mass()) {
   for (int i = 0; i < model.size(); ++i) {
     const Joint& joint = model.joint(i);
-    joints_.push_back({joint.parent, joint.type, model.q_index(i), model.v_index(i), VelocityCount(joint.type),
-                       joint.axis, joint.R_PJ, joint.p_PJ,
+    joints_.push_back({joint.parent, joint.kind().turns, joint.Advance() != 0, joint.Advance(), model.q_index(i),
+                       model.v_index(i), VelocityCount(joint.type), joint.axis, joint.R_PJ, joint.p_PJ,
                        InertiaAboutOrigin(joint.mass, joint.center_of_mass, joint.inertia), joint.stiffness,
                        joint.rest_position, joint.damping});
   }
@@ -77,29 +77,28 @@ BodyDynamics::BodyDynamics(const Model& model)
 
 Motion BodyDynamics::Column(const JointData& joint, int c) {
   Motion unit;
-  if (joint.type == JointType::kFree) {
+  if (joint.free()) {
     (c < 3 ? unit.angular : unit.linear)[c % 3] = 1;
-  } else {
-    (joint.type == JointType::kRevolute ? unit.angular : unit.linear) = joint.axis;
+    return unit;
   }
+  if (joint.turns) unit.angular = joint.axis;
+  if (joint.slides) unit.linear = joint.advance * joint.axis;
   return unit;
 }
 
 double BodyDynamics::Along(const JointData& joint, int c, const Force& f) {
-  if (joint.type == JointType::kFree) return (c < 3 ? f.moment : f.force)[c % 3];
-  return joint.axis.dot(joint.type == JointType::kRevolute ? f.moment : f.force);
+  if (joint.free()) return (c < 3 ? f.moment : f.force)[c % 3];
+  if (!joint.turns) return joint.advance * joint.axis.dot(f.force);
+  const double moment = joint.axis.dot(f.moment);
+  return !joint.slides ? moment : moment + joint.advance * joint.axis.dot(f.force);
 }
 
 Motion BodyDynamics::Relative(const JointData& joint, const VectorX& v) {
-  switch (joint.type) {
-    case JointType::kFree:
-      return {v.segment<3>(joint.v_index), v.segment<3>(joint.v_index + 3)};
-    case JointType::kRevolute:
-      return {joint.axis * v[joint.v_index], Vector3::Zero()};
-    case JointType::kPrismatic:
-      break;
-  }
-  return {Vector3::Zero(), joint.axis * v[joint.v_index]};
+  if (joint.free()) return {v.segment<3>(joint.v_index), v.segment<3>(joint.v_index + 3)};
+  if (!joint.slides) return {joint.axis * v[joint.v_index], Vector3::Zero()};
+  const Vector3 linear = joint.axis * (joint.advance * v[joint.v_index]);
+  if (!joint.turns) return {Vector3::Zero(), linear};
+  return {joint.axis * v[joint.v_index], linear};
 }
 
 void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state) const {
@@ -109,23 +108,19 @@ void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state
     const JointData& joint = joints_[i];
     const double* position = q.data() + joint.q_index;
     Link& link = (*state)[i];
-    if (joint.type != JointType::kFree) {
+    if (joint.free()) {
+      link.R_PL.noalias() = joint.R_PJ * QuaternionRotation(position);
+      link.p_PL = joint.p_PJ + joint.R_PJ * q.segment<3>(joint.q_index + 4);
+    } else {
       link.position = *position;
       link.velocity = v[joint.v_index];
-    }
-    switch (joint.type) {
-      case JointType::kRevolute:
+      if (joint.turns) {
         link.R_PL.noalias() = joint.R_PJ * AxisRotation(joint.axis, *position);
-        link.p_PL = joint.p_PJ;
-        break;
-      case JointType::kPrismatic:
+      } else {
         link.R_PL = joint.R_PJ;
-        link.p_PL = joint.p_PJ + joint.R_PJ * (joint.axis * *position);
-        break;
-      case JointType::kFree:
-        link.R_PL.noalias() = joint.R_PJ * QuaternionRotation(position);
-        link.p_PL = joint.p_PJ + joint.R_PJ * q.segment<3>(joint.q_index + 4);
-        break;
+      }
+      link.p_PL = joint.p_PJ;
+      if (joint.slides) link.p_PL += joint.R_PJ * (joint.axis * (joint.advance * *position));
     }
     if (joint.parent < 0) {
       link.R_WL = link.R_PL;
@@ -141,7 +136,7 @@ void BodyDynamics::ComputeState(const VectorX& q, const VectorX& v, State* state
     }
     // Joint velocity, and the velocity product V × (S v) with the V before it is added (S v × S v = 0).
     const Motion rate = Relative(joint, v);
-    if (joint.type == JointType::kFree) link.spin = rate.angular;
+    if (joint.free()) link.spin = rate.angular;
     link.bias.angular += link.twist.angular.cross(rate.angular);
     link.bias.linear += link.twist.angular.cross(rate.linear) + link.twist.linear.cross(rate.angular);
     link.twist.angular += rate.angular;
@@ -212,7 +207,7 @@ void BodyDynamics::NewtonEuler(const State& state, const VectorX* a, const Vecto
     const JointData& joint = joints_[i];
     const Force& f = workspace->force[i];
     for (int c = 0; c < joint.columns; ++c) (*tau)[joint.v_index + c] = Along(joint, c, f);
-    if (joint.type == JointType::kFree) {
+    if (joint.free()) {
       tau->segment<3>(joint.v_index) += joint.damping * state[i].spin;
     } else if (joint.stiffness > 0 || joint.damping > 0) {
       (*tau)[joint.v_index] += joint.stiffness * (state[i].position - joint.rest) + joint.damping * state[i].velocity;
@@ -242,12 +237,10 @@ void BodyDynamics::AddTwistJacobian(const State& state, int link, const Vector3&
     if (joint.columns == 1) {
       const Vector3 axis = sign * (state[j].R_WL * joint.axis);
       auto column = jacobian->col(joint.v_index);
-      if (joint.type == JointType::kPrismatic) {
-        column.tail<3>() += axis;
-      } else {
-        column.head<3>() += axis;
-        column.tail<3>() += axis.cross(point - state[j].p_WL);
-      }
+      if (joint.slides) column.tail<3>() += joint.advance * axis;
+      if (!joint.turns) continue;
+      column.head<3>() += axis;
+      column.tail<3>() += axis.cross(point - state[j].p_WL);
       continue;
     }
     for (int c = 0; c < joint.columns; ++c) {

@@ -65,9 +65,11 @@ class BodyDynamics {
   int nv() const { return nv_; }
   // Parent of joint i, -1 for the world.
   int parent(int i) const { return joints_[i].parent; }
-  // Axis of joint i in its own link's axes (unit), and whether it turns (true) or slides. One degree of freedom only.
+  // Axis of joint i in its own link's axes (unit), whether its link turns about it, and how far it moves along it by
+  // unit of the position, m. One degree of freedom only.
   const Vector3& axis(int i) const { return joints_[i].axis; }
-  bool turns(int i) const { return joints_[i].type == JointType::kRevolute; }
+  bool turns(int i) const { return joints_[i].turns; }
+  double advance(int i) const { return joints_[i].advance; }
   double total_mass() const { return total_mass_; }
 
   // Poses, twists and bias accelerations at q (nq), v (nv). Resizes `state`.
@@ -96,13 +98,15 @@ class BodyDynamics {
  private:
   struct JointData {
     int parent;
-    JointType type;
+    bool turns, slides;  // slides: advance is not zero
+    double advance;      // m by unit of the position, see JointKind
     int q_index, v_index, columns;
     Vector3 axis;
     Matrix3 R_PJ;
     Vector3 p_PJ;
     Inertia inertia;
     double stiffness, rest, damping;
+    bool free() const { return columns > 1; }
   };
   // Column c of the motion subspace of a joint, and the component of a force along it.
   static Motion Column(const JointData& joint, int c);

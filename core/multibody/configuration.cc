@@ -26,7 +26,7 @@ void PositionRate(const Model& model, const VectorX& q, const VectorX& v, Vector
   rate->resize(model.nq());
   for (int i = 0; i < model.size(); ++i) {
     const int iq = model.q_index(i), iv = model.v_index(i);
-    if (model.joint(i).type != JointType::kFree) {
+    if (!model.joint(i).kind().is_free()) {
       (*rate)[iq] = v[iv];
       continue;
     }
@@ -42,7 +42,7 @@ VectorX Retract(const Model& model, const VectorX& q, const VectorX& delta) {
   VectorX result = q;
   for (int i = 0; i < model.size(); ++i) {
     const int iq = model.q_index(i), iv = model.v_index(i);
-    if (model.joint(i).type != JointType::kFree) {
+    if (!model.joint(i).kind().is_free()) {
       result[iq] += delta[iv];
       continue;
     }
@@ -60,7 +60,7 @@ VectorX Retract(const Model& model, const VectorX& q, const VectorX& delta) {
 double NormalizeQuaternions(const Model& model, VectorX* q) {
   double worst = 0;
   for (int i = 0; i < model.size(); ++i) {
-    if (model.joint(i).type != JointType::kFree) continue;
+    if (!model.joint(i).kind().is_free()) continue;
     const double norm = q->segment<4>(model.q_index(i)).norm();
     worst = std::max(worst, std::abs(norm - 1));
     q->segment<4>(model.q_index(i)) /= norm;
@@ -71,7 +71,7 @@ double NormalizeQuaternions(const Model& model, VectorX* q) {
 VectorX NeutralConfiguration(const Model& model) {
   VectorX q = VectorX::Zero(model.nq());
   for (int i = 0; i < model.size(); ++i) {
-    if (model.joint(i).type == JointType::kFree) q[model.q_index(i)] = 1;
+    if (model.joint(i).kind().is_free()) q[model.q_index(i)] = 1;
   }
   return q;
 }

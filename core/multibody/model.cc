@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/multibody/joint_number.h"
 
 namespace rollgait {
 namespace {
@@ -67,13 +68,13 @@ class JointChecker {
       Refuse("R_PJ", "is not a rotation; its columns must be a right-handed orthonormal basis");
     }
     const bool is_unit = joint().axis.allFinite() && std::abs(joint().axis.norm() - 1) <= kUnitTolerance;
-    if (joint().type != JointType::kFree && !is_unit) {
+    if (!joint().kind().is_free() && !is_unit) {
       RefuseValue("axis", joint().axis.transpose(), "must be a finite vector of length 1");
     }
   }
 
   void CheckRanges() {
-    if (joint().type == JointType::kFree) {
+    if (joint().kind().is_free()) {
       if (joint().actuated) Refuse("actuated", "must be false: a free joint has no motor");
       if (joint().position_min != -kInfinity || joint().position_max != kInfinity) {
         Refuse("position_min", "must be left out like position_max: a free joint has no range");
@@ -91,13 +92,9 @@ class JointChecker {
     if (!(joint().effort_min <= joint().effort_max)) {
       RefuseValue("effort_min", joint().effort_min, "must not be larger than effort_max, and neither may be NaN");
     }
-    if (!(std::isfinite(joint().stiffness) && joint().stiffness >= 0)) {
-      RefuseValue("stiffness", joint().stiffness, "must be finite and at least 0");
+    for (const JointNumber& number : kJointNumbers) {
+      if (const char* problem = Problem(number, joint())) RefuseValue(number.name, joint().*number.member, problem);
     }
-    if (!(std::isfinite(joint().damping) && joint().damping >= 0)) {
-      RefuseValue("damping", joint().damping, "must be finite and at least 0");
-    }
-    if (!std::isfinite(joint().rest_position)) RefuseValue("rest_position", joint().rest_position, "must be finite");
     if (!joint().actuated && (joint().effort_min != 0 || joint().effort_max != 0)) {
       Refuse("effort_max", "must be 0 like effort_min, because the joint is not actuated");
     }

@@ -6,18 +6,10 @@
 
 #include "core/base/result.h"
 #include "core/base/types.h"
+#include "core/multibody/joint_kind.h"
 #include "core/multibody/joint_role.h"
 
 namespace rollgait {
-
-// kFree: six degrees of freedom. Its positions are the quaternion w, x, y, z (link -> joint frame; used as q/|q|) and
-// the link's origin in the joint frame, m; its velocities the twist of the link relative to the parent at the link's
-// origin in link axes, [angular rad/s; linear m/s]. A twist in link axes keeps the joint's motion subspace constant.
-enum class JointType { kRevolute, kPrismatic, kFree };
-
-// Numbers that a joint contributes to q and to v.
-constexpr int PositionCount(JointType type) { return type == JointType::kFree ? 7 : 1; }
-constexpr int VelocityCount(JointType type) { return type == JointType::kFree ? 6 : 1; }
 
 // A joint and the link it moves. See rollgait.v1.Joint for the meaning of each field.
 struct Joint {
@@ -39,6 +31,7 @@ struct Joint {
   double stiffness = 0;      // N m/rad or N/m, >= 0; 0 of a free joint
   double rest_position = 0;  // rad or m
   double damping = 0;        // N m s/rad or N s/m, >= 0
+  double pitch = 0;          // m/rad, of a screw: how far its link moves along the axis as it turns; 0 of any other
 
   std::string link;
   double mass = 0;                           // kg, >= 0
@@ -52,6 +45,10 @@ struct Joint {
   JointRole role = JointRole::kNone;
   BodySide side = BodySide::kMidline;
   PassiveKind passive = PassiveKind::kNone;
+
+  const JointKind& kind() const { return KindOf(type); }
+  // How far the link moves along the axis by unit of the position, m. Contract: one degree of freedom.
+  double Advance() const { return kind().advance + pitch; }
 };
 
 // An immutable kinematic tree of joints, parents first. Without free joints nq = nv = number of joints and the floating

@@ -80,11 +80,13 @@ void MotionDerivatives::SetState(const BodyDynamics::State& state) {
     }
     const int first = model_.v_index(i);
     for (int c = 0; c < VelocityCount(joint.type); ++c) {
-      const bool free = joint.type == JointType::kFree;
+      const bool free = joint.kind().is_free();
       const Vector3 direction = free ? Vector3(link.R_WL.col(c % 3)) : Vector3(link.R_WL * joint.axis);
-      const bool turns = free ? c < 3 : joint.type == JointType::kRevolute;
-      columns_[static_cast<size_t>(first + c)].s =
-          turns ? FromPoint(p, direction, Vector3::Zero()) : Stack(Vector3::Zero(), direction);
+      const bool turns = free ? c < 3 : joint.kind().turns;
+      const double advance = free ? (turns ? 0 : 1) : joint.Advance();
+      Vector6& s = columns_[static_cast<size_t>(first + c)].s;
+      s = turns ? FromPoint(p, direction, Vector3::Zero()) : Stack(Vector3::Zero(), advance * direction);
+      if (turns && advance != 0) s.tail<3>() += advance * direction;
     }
     if (body.massive) {
       body.own = WorldInertia(joint, link, p);
@@ -178,7 +180,7 @@ void MotionDerivatives::InverseDynamics(VectorX* tau) const {
   for (int i = 0; i < model_.size(); ++i) {
     if (!HasSpring(model_.joint(i))) continue;
     const Body& body = bodies_[static_cast<size_t>(i)];
-    if (model_.joint(i).type == JointType::kFree)
+    if (model_.joint(i).kind().is_free())
       tau->segment<3>(model_.v_index(i)) += body.couple;
     else
       (*tau)[model_.v_index(i)] += body.spring;
@@ -217,7 +219,7 @@ void MotionDerivatives::InverseDynamics(Eigen::Ref<RowMajorMatrix> dq, Eigen::Re
     }
     if (!HasSpring(model_.joint(i))) continue;
     dq(first, first) += model_.joint(i).stiffness;
-    const int turns = model_.joint(i).type == JointType::kFree ? 3 : 1;
+    const int turns = model_.joint(i).kind().is_free() ? 3 : 1;
     for (int k = first; k < first + turns; ++k) dv(k, k) += model_.joint(i).damping;
   }
 }

@@ -24,7 +24,9 @@ TreeDynamics::TreeDynamics(const Model& model) : model_(&model), n_(model.size()
   for (const Joint& joint : model.joints()) {
     JointData data;
     data.parent = joint.parent;
-    data.revolute = joint.type == JointType::kRevolute;
+    data.turns = joint.kind().turns;
+    data.advance = joint.Advance();
+    data.slides = data.advance != 0;
     data.massive = joint.mass > 0;
     data.axis_index = 0;
     data.axis_sign = joint.axis.cwiseAbs().maxCoeff(&data.axis_index);
@@ -90,9 +92,8 @@ void TreeDynamics::UpdatePose(int i, double q) {
   }
   const int k = joint.axis_index;
   const Vector3 axis_W = joint.aligned ? Vector3(joint.axis_sign * R.col(k)) : Vector3(R * joint.axis);
-  if (!joint.revolute) {
-    origin += q * axis_W;
-    axis_[i] << Vector3::Zero(), axis_W;
+  if (joint.slides) {
+    Slide(i, q, axis_W);
     return;
   }
   axis_[i] << axis_W, origin.cross(axis_W);
@@ -105,6 +106,17 @@ void TreeDynamics::UpdatePose(int i, double q) {
   const Vector3 before = R.col(l);
   R.col(l) = c * before + s * R.col(m);
   R.col(m) = c * R.col(m) - s * before;
+}
+
+// What a joint does that moves its link along the axis, about which it may turn it as well.
+void TreeDynamics::Slide(int i, double q, const Vector3& axis_W) {
+  const JointData& joint = joints_[i];
+  origin_[i] += (joint.advance * q) * axis_W;
+  axis_[i] << Vector3::Zero(), joint.advance * axis_W;
+  if (!joint.turns) return;
+  axis_[i].head<3>() = axis_W;
+  axis_[i].tail<3>() += origin_[i].cross(axis_W);
+  rotation_[i] *= Rodrigues(joint.axis, q);
 }
 
 void TreeDynamics::UpdateKinematics(const double* q, const double* v) {

@@ -66,9 +66,10 @@ class TreeDynamics {
   // What never changes of a joint and its link.
   struct JointData {
     int parent;
-    bool revolute, massive;
-    bool aligned;    // R_PJ is the identity and the axis is ± a coordinate axis
-    int axis_index;  // of an aligned joint
+    bool turns, slides, massive;  // slides: advance is not zero
+    double advance;               // m by unit of the position, see JointKind
+    bool aligned;                 // R_PJ is the identity and the axis is ± a coordinate axis
+    int axis_index;               // of an aligned joint
     double axis_sign;
     Vector3 p_PJ, axis, center_of_mass;
     Matrix3 R_PJ, inertia;
@@ -97,6 +98,7 @@ class TreeDynamics {
     RowMajorMatrix vectors;
   };
   void UpdatePose(int i, double q);
+  void Slide(int i, double q, const Vector3& axis_W);
   void UpdateAccelerations(const double* v, const double* a, const Vector3& gravity);
   void UpdateForces();
   void UpdateInertias();

@@ -80,7 +80,7 @@ class SceneChecker {
       for (int c = 0; c < VelocityCount(joint.type); ++c) {
         CheckRange(path + "initial.velocity", scene_.v[iv + c], -kMaxSceneNumber, kMaxSceneNumber, " rad/s or m/s");
       }
-      if (joint.type == JointType::kFree && !(scene_.q.segment<4>(iq).norm() > 1e-6)) {
+      if (joint.kind().is_free() && !(scene_.q.segment<4>(iq).norm() > 1e-6)) {
         Refuse(path + "initial.orientation", scene_.q.segment<4>(iq).transpose(),
                "must be a quaternion w x y z of length above 1e-6 (it is normalised)");
       }
@@ -122,7 +122,7 @@ class SceneChecker {
         const std::string gate_path = path + ElementOf("gates", g);
         if (!(gate.min <= gate.max))
           Refuse(gate_path + "min", gate.min, "must not be larger than max, neither may be NaN");
-        if (scene_.model.joint(gate.joint).type == JointType::kFree) {
+        if (scene_.model.joint(gate.joint).kind().is_free()) {
           Refuse(gate_path + "joint", scene_.model.joint(gate.joint).name, "must have one degree of freedom");
         }
       }

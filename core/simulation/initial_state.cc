@@ -19,7 +19,7 @@ std::vector<int> AdjustedColumns(const SimulationScene& scene) {
   std::vector<int> columns;
   for (int joint : scene.adjusted_joints) {
     const int iv = scene.model.v_index(joint);
-    if (scene.model.joint(joint).type == JointType::kFree) {
+    if (scene.model.joint(joint).kind().is_free()) {
       for (int c = 3; c < 6; ++c) columns.push_back(iv + c);
     } else {
       columns.push_back(iv);

@@ -39,7 +39,7 @@ SceneDynamics::SceneDynamics(const SimulationScene& scene)
       tau_(VectorX::Zero(nv_)),
       solver_(scene.model.ColumnParents()) {
   for (int i = 0; i < scene.model.size(); ++i) {
-    if (scene.model.joint(i).type != JointType::kFree) tau_[scene.model.v_index(i)] = scene.efforts[i];
+    if (!scene.model.joint(i).kind().is_free()) tau_[scene.model.v_index(i)] = scene.efforts[i];
   }
 }
 
@@ -114,7 +114,7 @@ double SceneDynamics::Power() const {
   double power = tau_.dot(v_);
   for (int i = 0; i < scene_.model.size(); ++i) {
     const Joint& joint = scene_.model.joint(i);
-    const int damped = joint.type == JointType::kFree ? 3 : 1;
+    const int damped = joint.kind().is_free() ? 3 : 1;
     power -= joint.damping * v_.segment(scene_.model.v_index(i), damped).squaredNorm();
   }
   return power;

@@ -178,7 +178,7 @@ void IntervalPathRows::AddDegree(const OptimalControlProblem& problem, int degre
       const double size = problem.effort_size();
       Row row{KeyOf("degree", joint, order),
               "degree of effort " + limits.name,
-              limits.type == JointType::kPrismatic ? "N" : "N m",
+              limits.kind().effort_unit(),
               size,
               0,
               0,
@@ -198,7 +198,7 @@ void IntervalPathRows::AddEfforts(const OptimalControlProblem& problem, int phas
     const double size = problem.effort_size();
     Row row{KeyOf("effort", joint, k),
             "effort " + limits.name,
-            limits.type == JointType::kPrismatic ? "N" : "N m",
+            limits.kind().effort_unit(),
             size,
             bounds.min / size,
             bounds.max / size,
@@ -214,13 +214,12 @@ void IntervalPathRows::AddStates(const OptimalControlProblem& problem, int joint
                                  const EliminatedScheme& scheme, const Locals& locals) {
   const Joint& limits = problem.model.joint(joint);
   const MatrixX coefficients = StateCoefficients(scheme, velocity);
-  const bool prismatic = limits.type == JointType::kPrismatic;
   // The first and the last coefficient are states of nodes, which have bounds.
   for (int k = 1; k + 1 < coefficients.rows(); ++k) {
     const double size = velocity ? kVelocityShare * limits.velocity_max : 1;
     Row row{KeyOf(velocity ? "velocity" : "range", joint, k),
             (velocity ? "velocity " : "range ") + limits.name,
-            std::string(prismatic ? "m" : "rad") + (velocity ? "/s" : ""),
+            std::string(limits.kind().unit()) + (velocity ? "/s" : ""),
             size,
             (velocity ? -limits.velocity_max : limits.position_min) / size,
             (velocity ? limits.velocity_max : limits.position_max) / size,

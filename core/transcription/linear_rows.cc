@@ -42,7 +42,7 @@ void AddPeriodicityRows(const OptimalControlProblem& problem, const DecisionLayo
       const double sign = problem.mirrored ? joint.mirror_sign : 1;
       LinearRows::Row row;
       row.name = "periodicity " + joint.name;
-      row.unit = std::string(joint.type == JointType::kPrismatic ? "m" : "rad") + (block == 0 ? "" : "/s");
+      row.unit = std::string(joint.kind().unit()) + (block == 0 ? "" : "/s");
       row.terms.emplace_back(layout.node(layout.intervals()) + block * n + j, 1.0);
       row.terms.emplace_back(layout.node(0) + block * n + source, -sign);
       if (block == 0 && j == problem.forward_joint) row.terms.emplace_back(layout.displacement(), -1.0);
@@ -69,7 +69,7 @@ void AddJumpPositionRows(const OptimalControlProblem& problem, const DecisionLay
     for (int j = 0; j < problem.model.size(); ++j) {
       const Joint& joint = problem.model.joint(j);
       rows->Add({"position at touch-down " + joint.name,
-                 joint.type == JointType::kPrismatic ? "m" : "rad",
+                 joint.kind().unit(),
                  0,
                  0,
                  {{layout.node(layout.first_interval(p)) + j, 1.0},

@@ -77,13 +77,13 @@ class Comparison {
   explicit Comparison(const Scene& scene) {
     const Model& model = scene.model;
     for (int joint = 0; joint < model.size(); ++joint) {
-      const bool slides = model.joint(joint).type == JointType::kPrismatic;
+      const bool slides = model.joint(joint).kind().is_slide();
       positions_.push_back(Add(slides ? MotionQuantity::kPlace : MotionQuantity::kAngle, model.joint(joint).name));
       velocities_.push_back(
           Add(slides ? MotionQuantity::kLinearVelocity : MotionQuantity::kAngularVelocity, model.joint(joint).name));
     }
     for (const int joint : model.actuated()) {
-      const bool slides = model.joint(joint).type == JointType::kPrismatic;
+      const bool slides = model.joint(joint).kind().is_slide();
       efforts_.push_back(Add(slides ? MotionQuantity::kForce : MotionQuantity::kTorque, model.joint(joint).name));
     }
     for (const ContactSurface& contact : scene.contacts) {

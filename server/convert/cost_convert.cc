@@ -10,12 +10,6 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-const FieldDescriptor* FieldOf(const Message& message, const char* name) {
-  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);
-  ROLLGAIT_CHECK(field != nullptr);
-  return field;
-}
-
 std::optional<double> DecodeNumber(const Message& message, const char* name) {
   const FieldDescriptor* field = FieldOf(message, name);
   const Reflection& fields = *message.GetReflection();

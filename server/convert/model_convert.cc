@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/check.h"
+#include "server/convert/joint_convert.h"
 #include "server/convert/surface_convert.h"
 
 namespace rollgait::server {
@@ -22,18 +23,6 @@ void EncodeRotation(const Matrix3& rotation, v1::Quaternion* encoded) {
   encoded->set_z(q.z());
 }
 
-v1::Joint::Type EncodeType(JointType type) {
-  switch (type) {
-    case JointType::kRevolute:
-      return v1::Joint::TYPE_REVOLUTE;
-    case JointType::kPrismatic:
-      return v1::Joint::TYPE_PRISMATIC;
-    case JointType::kFree:
-      return v1::Joint::TYPE_FREE;
-  }
-  ROLLGAIT_CHECK(false);
-}
-
 v1::BodySide EncodeSide(BodySide side) {
   switch (side) {
     case BodySide::kMidline:
@@ -48,19 +37,14 @@ v1::BodySide EncodeSide(BodySide side) {
 
 void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_name(joint.name);
-  encoded->set_type(EncodeType(joint.type));
+  encoded->set_type(EncodeJointType(joint.type));
   encoded->set_parent(joint.parent);
   EncodeVector(joint.p_PJ, encoded->mutable_origin_m());
   EncodeRotation(joint.R_PJ, encoded->mutable_orientation());
   EncodeVector(joint.axis, encoded->mutable_axis());
-  encoded->set_position_min(joint.position_min);
-  encoded->set_position_max(joint.position_max);
-  encoded->set_velocity_max(joint.velocity_max);
+  EncodeJointNumbers(joint, encoded);
   encoded->set_actuated(joint.actuated);
-  encoded->set_effort_min(joint.effort_min);
-  encoded->set_effort_max(joint.effort_max);
   encoded->set_link_name(joint.link);
-  encoded->set_mass_kg(joint.mass);
   EncodeVector(joint.center_of_mass, encoded->mutable_center_of_mass_m());
   const Matrix3& inertia = joint.inertia;
   for (const double entry :
@@ -73,9 +57,6 @@ void EncodeJoint(const Joint& joint, int index, v1::Joint* encoded) {
   encoded->set_role(static_cast<v1::Joint::Role>(joint.role));
   encoded->set_side(EncodeSide(joint.side));
   encoded->set_passive(static_cast<v1::Joint::Passive>(joint.passive));
-  encoded->set_stiffness(joint.stiffness);
-  encoded->set_rest_position(joint.rest_position);
-  encoded->set_damping(joint.damping);
 }
 
 void EncodeContact(const ContactSurface& contact, const Scene& scene, v1::ContactSurface* encoded) {

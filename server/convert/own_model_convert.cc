@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "server/convert/joint_convert.h"
 #include "server/convert/surface_convert.h"
 
 namespace rollgait::server {
@@ -104,27 +105,18 @@ class Decoder {
     Joint joint;
     joint.name = encoded.name();
     joint.link = encoded.link_name();
-    switch (encoded.type()) {
-      case v1::Joint::TYPE_REVOLUTE:
-        joint.type = JointType::kRevolute;
-        break;
-      case v1::Joint::TYPE_PRISMATIC:
-        joint.type = JointType::kPrismatic;
-        break;
-      default:
-        Refuse(path + "type", "must be TYPE_REVOLUTE or TYPE_PRISMATIC; a floating base is a chain of such joints");
+    const JointKind* const kind = DecodeJointType(encoded.type());
+    if (kind == nullptr || kind->is_free()) {
+      Refuse(path + "type", "must be " + JointTypeNames(false) + "; a floating base is a chain of such joints");
+    } else {
+      joint.type = kind->type;
     }
+    DecodeJointNumbers(encoded, &joint);
     joint.parent = encoded.parent();
     joint.p_PJ = Vector(encoded.origin_m());
     joint.R_PJ = Rotation(path + "orientation", encoded.has_orientation(), encoded.orientation());
     joint.axis = Vector(encoded.axis());
-    joint.position_min = encoded.position_min();
-    joint.position_max = encoded.position_max();
-    joint.velocity_max = encoded.velocity_max();
     joint.actuated = encoded.actuated();
-    joint.effort_min = encoded.effort_min();
-    joint.effort_max = encoded.effort_max();
-    joint.mass = encoded.mass_kg();
     joint.center_of_mass = Vector(encoded.center_of_mass_m());
     if (encoded.inertia_kg_m2_size() == 6) {
       const auto& e = encoded.inertia_kg_m2();
@@ -140,9 +132,6 @@ class Decoder {
     joint.side = DecodeSide(path + "side", encoded.side());
     joint.passive =
         DecodeEnum<PassiveKind>(path + "passive", encoded.passive(), v1::Joint::Passive_IsValid(encoded.passive()));
-    joint.stiffness = encoded.stiffness();
-    joint.rest_position = encoded.rest_position();
-    joint.damping = encoded.damping();
     return joint;
   }
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "core/multibody/joint_number.h"
+#include "server/convert/joint_convert.h"
 #include "server/convert/scene_decoding.h"
 
 namespace rollgait::server {
@@ -11,12 +13,16 @@ namespace {
 
 // How Model::Create names fields, and how the scene does.
 std::string SceneField(std::string field) {
-  static const std::map<std::string, std::string> kNames = {{"p_PJ", "origin_m"},
-                                                            {"R_PJ", "orientation"},
-                                                            {"mass", "mass_kg"},
-                                                            {"rest_position", "rest"},
-                                                            {"center_of_mass", "center_of_mass_m"},
-                                                            {"inertia", "inertia_kg_m2"}};
+  static const std::map<std::string, std::string> kNames = [] {
+    std::map<std::string, std::string> names = {{"p_PJ", "origin_m"},
+                                                {"R_PJ", "orientation"},
+                                                {"center_of_mass", "center_of_mass_m"},
+                                                {"inertia", "inertia_kg_m2"}};
+    for (const JointNumber& number : kJointNumbers) {
+      if (number.scene_field != nullptr) names[number.name] = number.scene_field;
+    }
+    return names;
+  }();
   const size_t dot = field.rfind('.');
   if (dot == std::string::npos) return field;
   const auto name = kNames.find(field.substr(dot + 1));
@@ -68,26 +74,19 @@ class SceneDecoder {
     const std::string path = "joints[" + std::to_string(i) + "].";
     rollgait::Joint joint;
     joint.name = joint.link = encoded.name();
-    switch (encoded.type()) {
-      case v1::Joint::TYPE_REVOLUTE:
-        joint.type = JointType::kRevolute;
-        break;
-      case v1::Joint::TYPE_PRISMATIC:
-        joint.type = JointType::kPrismatic;
-        break;
-      case v1::Joint::TYPE_FREE:
-        joint.type = JointType::kFree;
-        break;
-      default:
-        decoding_.Refuse(path + "type", "enum value " + std::to_string(encoded.type()) +
-                                            "; must be TYPE_REVOLUTE, TYPE_PRISMATIC or TYPE_FREE");
+    const JointKind* const kind = DecodeJointType(encoded.type());
+    if (kind == nullptr) {
+      decoding_.Refuse(path + "type",
+                       "enum value " + std::to_string(encoded.type()) + "; must be " + JointTypeNames(true));
+    } else {
+      joint.type = kind->type;
     }
+    DecodeJointNumbers(encoded, &joint);
     if (!encoded.parent().empty()) joint.parent = decoding_.Joint(path + "parent", encoded.parent());
     joint.p_PJ = decoding_.Point(path + "origin_m", encoded.origin_m());
     joint.R_PJ =
         decoding_.Rotation(path + "orientation", encoded.has_orientation(), encoded.orientation()).toRotationMatrix();
     joint.axis = decoding_.Direction(path + "axis", encoded.has_axis(), encoded.axis(), Vector3::UnitZ());
-    joint.mass = encoded.mass_kg();
     joint.center_of_mass = decoding_.Point(path + "center_of_mass_m", encoded.center_of_mass_m());
     if (encoded.inertia_kg_m2_size() == 6) {
       const auto& e = encoded.inertia_kg_m2();
@@ -95,11 +94,6 @@ class SceneDecoder {
     } else if (encoded.inertia_kg_m2_size() != 0) {
       decoding_.Refuse(path + "inertia_kg_m2", "has " + std::to_string(encoded.inertia_kg_m2_size()) +
                                                    " entries; must have 6 (xx, yy, zz, xy, xz, yz) or none");
-    }
-    joint.damping = encoded.damping();
-    if (joint.type != JointType::kFree) {
-      joint.stiffness = encoded.stiffness();
-      joint.rest_position = encoded.rest();
     }
     if (!encoded.mirror_joint().empty()) {
       joint.mirror_joint = decoding_.Joint(path + "mirror_joint", encoded.mirror_joint());
@@ -115,7 +109,7 @@ class SceneDecoder {
       const v1::SceneJointState& state = joint.initial();
       scene->efforts.push_back(joint.effort());
       const int iq = scene->model.q_index(i), iv = scene->model.v_index(i);
-      if (scene->model.joint(i).type != JointType::kFree) {
+      if (!scene->model.joint(i).kind().is_free()) {
         scene->q[iq] = state.position();
         scene->v[iv] = state.velocity();
         continue;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/multibody/joint_number.h"
 #include "core/multibody/model.h"
 
 namespace rollgait::testing {
@@ -27,15 +28,34 @@ inline Matrix3 RandomRotation(std::mt19937& random) {
   return Eigen::Quaterniond(w.normalized()).toRotationMatrix();
 }
 
-// A branching tree of n joints of both types with random placements and physical inertias; some inner links are
-// massless.
+// Types with one degree of freedom.
+inline std::vector<JointType> OneDegreeTypes() {
+  std::vector<JointType> types;
+  for (const JointKind& kind : kJointKinds) {
+    if (!kind.is_free()) types.push_back(kind.type);
+  }
+  return types;
+}
+
+// Makes the joint one of this type; numbers that joints of it cannot leave as they are by default get a value.
+inline void SetType(JointType type, Joint* joint) {
+  joint->type = type;
+  for (const JointNumber& number : kJointNumbers) {
+    if (Problem(number, *joint) != nullptr) joint->*number.member = 0.23;
+    if (Problem(number, *joint) != nullptr) joint->*number.member = 0;
+  }
+}
+
+// A branching tree of n joints, of every type of one degree of freedom in turn, with random placements and physical
+// inertias; some inner links are massless.
 inline Model RandomTree(std::mt19937& random, int n) {
+  const std::vector<JointType> types = OneDegreeTypes();
   std::vector<Joint> joints(n);
   for (int i = 0; i < n; ++i) {
     Joint& joint = joints[i];
     joint.name = "joint" + std::to_string(i);
     joint.link = "link" + std::to_string(i);
-    joint.type = i % 3 == 1 ? JointType::kPrismatic : JointType::kRevolute;
+    SetType(types[static_cast<size_t>(i % 3) % types.size()], &joint);
     joint.parent = i == 0 ? -1 : std::uniform_int_distribution<int>(i < n / 2 ? i - 1 : 0, i - 1)(random);
     joint.p_PJ = RandomVector(random, 3);
     joint.R_PJ = RandomRotation(random);
@@ -65,7 +85,7 @@ inline Model RandomTree(std::mt19937& random, int n) {
 // The same joints, those named by their index free; every link has mass.
 inline Model WithFreeJoints(std::vector<Joint> joints, std::initializer_list<size_t> free) {
   for (const size_t i : free) {
-    joints[i].type = JointType::kFree;
+    SetType(JointType::kFree, &joints[i]);
     joints[i].actuated = false;
     joints[i].effort_min = joints[i].effort_max = 0;
   }

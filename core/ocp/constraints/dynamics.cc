@@ -15,11 +15,9 @@ DynamicsConstraint::DynamicsConstraint(const Model& model, const std::vector<Con
 }
 
 std::string DynamicsConstraint::Name(int row) const { return "dynamics " + model_.joint(row).name; }
-std::string DynamicsConstraint::Unit(int row) const {
-  return model_.joint(row).type == JointType::kPrismatic ? "N" : "N m";
-}
+std::string DynamicsConstraint::Unit(int row) const { return model_.joint(row).kind().effort_unit(); }
 double DynamicsConstraint::Size(int row) const {
-  return model_.joint(row).type == JointType::kPrismatic ? force_size_ : effort_size_;
+  return model_.joint(row).kind().is_slide() ? force_size_ : effort_size_;
 }
 void DynamicsConstraint::Bounds(double, double* lower, double* upper) const {
   std::fill_n(lower, rows(), 0.0);

@@ -5,6 +5,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "server/convert/gait_request_convert.h"
@@ -44,6 +45,42 @@ TEST_P(OwnModelConvertTest, ComesBackToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, OwnModelConvertTest, ::testing::Values("planar", "human29"));
+
+// The shanks of people move along the axis of the knee by some millimetres as it bends.
+v1::Model WithScrews() {
+  v1::Model model = Written("human29");
+  model.clear_selection();
+  model.clear_stature_m();
+  for (v1::Joint& joint : *model.mutable_joints()) {
+    if (joint.role() != v1::Joint::ROLE_KNEE_FLEXION) continue;
+    joint.set_type(v1::Joint::TYPE_SCREW);
+    joint.set_pitch_m_rad(joint.side() == v1::BODY_SIDE_LEFT ? 1e-3 / 3 : -1e-3 / 3);
+  }
+  return model;
+}
+
+TEST(OwnModelConvert, ScrewsComeBackToTheBit) {
+  v1::SolveSpec spec;
+  *spec.mutable_model()->mutable_own() = ThroughJson(WithScrews());
+  const Result<GaitSpec> checked = DecodeSpec(spec);
+  ASSERT_TRUE(checked.ok()) << checked.violations()[0].field << " " << checked.violations()[0].message;
+  const v1::Model back = EncodeModel(checked.value().scene, 9.81);
+  EXPECT_EQ(ThroughJson(back).SerializeAsString(), ThroughJson(WithScrews()).SerializeAsString());
+  EXPECT_TRUE(checked.value().scene.symmetric);
+}
+
+// The mirror image of a screw is one of the opposite hand.
+TEST(OwnModelConvert, ScrewsOfOneHandOnBothSidesAreRefused) {
+  v1::SolveSpec spec;
+  *spec.mutable_model()->mutable_own() = WithScrews();
+  for (v1::Joint& joint : *spec.mutable_model()->mutable_own()->mutable_joints()) {
+    joint.set_pitch_m_rad(std::abs(joint.pitch_m_rad()));
+  }
+  const Result<GaitSpec> checked = DecodeSpec(spec);
+  ASSERT_FALSE(checked.ok());
+  EXPECT_NE(checked.violations()[0].message.find("m along it by unit of the position"), std::string::npos)
+      << checked.violations()[0].message;
+}
 
 TEST(OwnModelConvert, RolesArriveUnderTheirNames) {
   const v1::Model model = Written("human29");
@@ -131,7 +168,28 @@ INSTANTIATE_TEST_SUITE_P(
                [](v1::ModelSelection* s) { s->mutable_own()->mutable_contacts(0)->mutable_directions(0)->set_x(0.5); },
                "model.own.contacts[0].directions", "unit vectors"},
         Broken{"Mass", [](v1::ModelSelection* s) { s->mutable_own()->mutable_joints(3)->set_mass_kg(-1); },
-               "model.own.joints[3].mass_kg", "is -1"}),
+               "model.own.joints[3].mass_kg", "is -1"},
+        Broken{"PitchOfARevolute",
+               [](v1::ModelSelection* s) { s->mutable_own()->mutable_joints(3)->set_pitch_m_rad(0.01); },
+               "model.own.joints[3].pitch_m_rad", "only a screw"},
+        Broken{"ScrewWithoutPitch",
+               [](v1::ModelSelection* s) { s->mutable_own()->mutable_joints(3)->set_type(v1::Joint::TYPE_SCREW); },
+               "model.own.joints[3].pitch_m_rad", "not 0"},
+        Broken{"ScrewOutOfThePlane",
+               [](v1::ModelSelection* s) {
+                 for (v1::Joint& joint : *s->mutable_own()->mutable_joints()) {
+                   if (joint.role() != v1::Joint::ROLE_HIP_FLEXION) continue;
+                   joint.set_type(v1::Joint::TYPE_SCREW);
+                   joint.set_pitch_m_rad(joint.side() == v1::BODY_SIDE_LEFT ? 0.01 : -0.01);
+                 }
+               },
+               "model.own.joints[3].axis", "out of the plane"},
+        Broken{"ScrewAsBase",
+               [](v1::ModelSelection* s) {
+                 s->mutable_own()->mutable_joints(0)->set_type(v1::Joint::TYPE_SCREW);
+                 s->mutable_own()->mutable_joints(0)->set_pitch_m_rad(0.01);
+               },
+               "model.own.joints[0].type", "must be prismatic"}),
     [](const ::testing::TestParamInfo<Broken>& broken) { return std::string(broken.param.name); });
 
 }  // namespace
