@@ -7,6 +7,7 @@
 #include "client/formats/format_table.h"
 #include "client/repeated_flags.h"
 #include "client/sweep/grid.h"
+#include "client/tradeoff_flags.h"
 
 namespace rollgait::client {
 namespace {
@@ -110,31 +111,10 @@ void AddSweep(CLI::App& app, SweepOptions& options) {
 }
 
 void AddTradeoff(CLI::App& app, TradeoffOptions& options) {
-  CLI::App* const tradeoff =
-      app.add_subcommand("tradeoff", "CPU time against true error of one gait over schemes, meshes and tolerances");
-  AddSpecFlags(*tradeoff, options.spec);
-  for (const char* flag : {"--scheme", "--intervals", "--double-intervals", "--tolerance", "--max-refinements",
-                           "--errors", "--max-error", "--warm-start"}) {
-    tradeoff->remove_option(tradeoff->get_option(flag));
-  }
-  tradeoff->add_option("--scheme", options.schemes, "Schemes, separated by commas")
-      ->capture_default_str()
-      ->group("Grid");
-  tradeoff
-      ->add_option("--intervals", options.intervals, "Of single support: FROM:TO:STEP, or numbers separated by commas")
-      ->capture_default_str()
-      ->group("Grid");
-  tradeoff->add_option("--tolerance", options.tolerances, "Scaled KKT errors, separated by commas")
-      ->capture_default_str()
-      ->group("Grid");
-  tradeoff->add_flag("--errors", options.estimate_errors,
-                     "Also solve each point with the estimate of its errors; its time does not count");
-  tradeoff->add_option("-o,--output", options.output,
-                       "Write tradeoff.csv, tradeoff.json and tradeoff.html into this folder");
+  CLI::App* const tradeoff = app.add_subcommand(
+      "tradeoff", "CPU time against true error of one gait or scene over schemes, meshes and tolerances");
+  AddTradeoffFlags(*tradeoff, options);
   AddReconnect(*tradeoff, options.reconnect_s);
-  tradeoff->footer(
-      "Ctrl-C leaves the solves alone; the same command attaches to them.\n"
-      "Example: rollgait tradeoff --model planar --speed 1.3 --accuracy draft --scheme radau2,radau3 --output front");
 }
 
 void AddListFilters(CLI::App& command, ListFilter& filter) {

@@ -12,6 +12,7 @@
 #include "client/interrupt.h"
 #include "client/json.h"
 #include "client/output.h"
+#include "client/simulation_end.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -106,37 +107,9 @@ std::string EventText(const v1::SimulationEvent& event) {
   return text;
 }
 
-std::string EndText(v1::SimulationReport::End end) {
-  switch (end) {
-    case v1::SimulationReport::END_DURATION:
-      return "reached the end";
-    case v1::SimulationReport::END_IMPACT_COUNT:
-      return "ended at the impact asked for";
-    case v1::SimulationReport::END_FRICTION_LOST:
-      return "ended where friction was lost";
-    case v1::SimulationReport::END_STEP_TOO_SMALL:
-      return "ended early: the tolerance cannot be met; loosen it, unless a body comes to rest on an almost flat "
-             "surface";
-    case v1::SimulationReport::END_NOT_FINITE:
-      return "ended early: the accelerations are not finite; is a flat surface in contact?";
-    case v1::SimulationReport::END_TOO_MANY_STEPS:
-      return "ended early: too many steps; raise max_steps or loosen the tolerance";
-    case v1::SimulationReport::END_FRICTION_UNDETERMINED:
-      return "ended early: friction leaves the motion undetermined; lower a coefficient or use fewer contacts";
-    case v1::SimulationReport::END_ROLLING_IMPOSSIBLE:
-      return "ended early: a contact would have to pull to go on rolling, and closes if it is let go; give it a "
-             "friction "
-             "coefficient and FRICTION_LOSS_SLIDE";
-    case v1::SimulationReport::END_TOO_MANY_EVENTS:
-      return "ended early: too many events; raise max_events";
-    default:
-      return "was stopped";
-  }
-}
-
 std::string ReportText(const v1::SimulationReport& report) {
   std::vector<std::vector<std::string>> rows = {
-      {"end", FormatNumber(report.end_time_s(), 12), "s", EndText(report.end())},
+      {"end", FormatNumber(report.end_time_s(), 12), "s", SimulationEndText(report.end())},
       {"steps", std::to_string(report.steps()), "",
        std::to_string(report.rejected_steps()) + " rejected, " + std::to_string(report.evaluations()) + " evaluations"},
       {"impacts", std::to_string(report.impacts()), "", ""},
@@ -156,11 +129,6 @@ std::string ReportText(const v1::SimulationReport& report) {
   }
   if (report.redundant()) rows.push_back({"contacts", "redundant", "", "the forces are not unique"});
   return FormatTable(rows, "lr");
-}
-
-bool Completed(v1::SimulationReport::End end) {
-  return end == v1::SimulationReport::END_DURATION || end == v1::SimulationReport::END_IMPACT_COUNT ||
-         end == v1::SimulationReport::END_FRICTION_LOST;
 }
 
 }  // namespace
@@ -212,7 +180,7 @@ ExitCode RunSimulate(const SimulateOptions& options, const GlobalOptions& global
   terminal.out.flush();
   if (document) document->Finish(report);
   if (!global.quiet) terminal.err << ReportText(report);
-  return Completed(report.end()) ? ExitCode::kSuccess : ExitCode::kNoSolution;
+  return IsCompleted(report.end()) ? ExitCode::kSuccess : ExitCode::kNoSolution;
 }
 
 }  // namespace rollgait::client

@@ -1,19 +1,17 @@
 #include "client/commands/tradeoff.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <tuple>
 
 #include "client/commands/follow.h"
-#include "client/output.h"
-#include "client/report/report.h"
+#include "client/commands/tradeoff_result.h"
 #include "client/sweep/batches.h"
 #include "client/sweep/folder.h"
 #include "client/sweep/leave.h"
 #include "client/sweep/request_digest.h"
 #include "client/sweep/solve_group.h"
 #include "client/text.h"
-#include "client/tradeoff/tradeoff_table.h"
+#include "client/tradeoff/solve_row.h"
 
 namespace rollgait::client {
 namespace {
@@ -71,12 +69,12 @@ class Solver {
 };
 
 // The finest of the optimal points: of the highest order, then of most intervals, then of the least tolerance.
-const TradeoffRow* FinestOf(const std::vector<TradeoffRow>& rows) {
-  const auto rank = [](const TradeoffRow& row) {
+const SolveRow* FinestOf(const std::vector<SolveRow>& rows) {
+  const auto rank = [](const SolveRow& row) {
     return std::tuple(OrderOf(row.point.scheme), row.point.intervals, -row.point.tolerance);
   };
-  const TradeoffRow* finest = nullptr;
-  for (const TradeoffRow& row : rows) {
+  const SolveRow* finest = nullptr;
+  for (const SolveRow& row : rows) {
     if (row.is_optimal && (finest == nullptr || rank(*finest) < rank(row))) finest = &row;
   }
   return finest;
@@ -91,7 +89,7 @@ v1::SolveSpec Continued(const v1::SolveSpec& task, const TradeoffPoint& from, co
 }
 
 // The last two meshes of the reference, the finest last; empty if a step from one to the next fails.
-std::vector<v1::Solve> SolveReference(Solver& solver, const v1::SolveSpec& task, const TradeoffRow& finest) {
+std::vector<v1::Solve> SolveReference(Solver& solver, const v1::SolveSpec& task, const SolveRow& finest) {
   std::vector<v1::Solve> steps;
   std::string from = finest.solve.name();
   TradeoffPoint to = finest.point;
@@ -107,10 +105,10 @@ std::vector<v1::Solve> SolveReference(Solver& solver, const v1::SolveSpec& task,
 
 // Follows the points that are far from the reference to the reference's mesh.
 void FindMinima(Solver& solver, const v1::SolveSpec& task, const v1::SolveResult& reference, int intervals,
-                std::vector<TradeoffRow>& rows) {
+                std::vector<SolveRow>& rows) {
   std::vector<v1::SolveSpec> specs;
-  std::vector<TradeoffRow*> far;
-  for (TradeoffRow& row : rows) {
+  std::vector<SolveRow*> far;
+  for (SolveRow& row : rows) {
     if (!row.errors) continue;
     row.minimum = MinimumOf(row.errors->angle_deg, std::nullopt);
     if (row.errors->angle_deg <= kFarAngle_deg) continue;
@@ -135,19 +133,12 @@ ExitCode FirstFailure(const std::vector<v1::Solve>& solves) {
   return ExitCode::kSuccess;
 }
 
-void Write(const TradeoffOptions& options, const nlohmann::json& data, const std::vector<TradeoffRow>& rows,
-           const Terminal& terminal) {
-  const std::filesystem::path folder = options.output;
-  WriteDocument(TradeoffCsv(rows), (folder / "tradeoff.csv").string(), terminal.out);
-  WriteDocument(data.dump(2) + "\n", (folder / "tradeoff.json").string(), terminal.out);
-  WriteDocument(TradeoffHtml(data), (folder / "tradeoff.html").string(), terminal.out);
-}
-
 }  // namespace
 
 ExitCode RunTradeoff(const TradeoffOptions& options, const GlobalOptions& global, const Terminal& terminal) {
+  if (!options.scene.file.empty()) return RunSceneTradeoff(options, global, terminal);
   const v1::SolveSpec task = BuildSpec(options.spec);
-  const auto points = MakeTradeoffPoints(options.schemes, options.intervals, options.tolerances);
+  const auto points = MakeTradeoffPoints(options.schemes, options.intervals, options.tolerances.value_or("1e-6"));
   std::vector<v1::SolveSpec> specs, estimating;
   std::string all;
   for (const TradeoffPoint& point : points) {
@@ -164,13 +155,13 @@ ExitCode RunTradeoff(const TradeoffOptions& options, const GlobalOptions& global
   Connection connection(global);
   Solver solver(connection, progress, leave, options.reconnect_s, name);
   const std::vector<v1::Solve> solves = solver.Solve(specs, "point");
-  std::vector<TradeoffRow> rows;
+  std::vector<SolveRow> rows;
   for (size_t i = 0; i < points.size(); ++i) rows.push_back(RowOfPoint(points[i], solves[i]));
   if (options.estimate_errors) {
     const std::vector<v1::Solve> twins = solver.Solve(estimating, "estimate");
     for (size_t i = 0; i < rows.size(); ++i) rows[i].estimated = EstimateOf(twins[i].result());
   }
-  const TradeoffRow* const finest = FinestOf(rows);
+  const SolveRow* const finest = FinestOf(rows);
   std::vector<v1::Solve> reference;
   if (finest != nullptr) reference = SolveReference(solver, task, *finest);
   if (!reference.empty()) {
@@ -182,16 +173,10 @@ ExitCode RunTradeoff(const TradeoffOptions& options, const GlobalOptions& global
       rows[i].is_well_known = IsWellKnown(rows[i].errors->angle_deg, apart_deg);
     }
     FindMinima(solver, task, truth, finest->point.intervals << kReferenceHalvings, rows);
-    MarkFront(rows);
   }
   progress.End();
-  const auto data = TradeoffJson(name, reference.empty() ? "" : reference.back().name(), rows);
-  if (!options.output.empty()) Write(options, data, rows, terminal);
-  if (global.json) {
-    terminal.out << data.dump() << std::endl;
-  } else if (!global.quiet) {
-    terminal.out << TradeoffText(rows) << std::flush;
-  }
+  WriteTradeoff(SolveTable(name, reference.empty() ? "" : reference.back().name(), rows), options.output, global,
+                terminal);
   if (reference.empty()) {
     throw Failure(ExitCode::kNoSolution,
                   finest == nullptr ? "tradeoff: no point is optimal, so there is no reference and no error is known"

@@ -1,46 +1,43 @@
-// What `rollgait tradeoff` found, one row a point.
+// What `rollgait tradeoff` found, of solves and of simulations: a row has settings, CPU time and errors.
 #ifndef ROLLGAIT_CLIENT_TRADEOFF_TRADEOFF_TABLE_H_
 #define ROLLGAIT_CLIENT_TRADEOFF_TRADEOFF_TABLE_H_
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "client/tradeoff/minimum.h"
-#include "client/tradeoff/points.h"
-#include "client/tradeoff/true_errors.h"
-#include "rollgait/v1/solve.pb.h"
-
 namespace rollgait::client {
 
-struct TradeoffRow {
-  TradeoffPoint point;
-  v1::Solve solve;  // without trajectory and multipliers
-  bool is_optimal = false;
-  int iterations = 0;
-  std::optional<TrueErrors> errors;     // none without a reference
-  std::optional<TrueErrors> estimated;  // by the service, with --errors
-  Minimum minimum = Minimum::kUnknown;
-  bool is_well_known = false;  // the error of the angle
-  bool is_on_front = false;
+struct TradeoffColumn {
+  std::string name;                     // in files
+  std::string title;                    // for people, with the unit; empty: in files only
+  double scale = 1;                     // of the number for people
+  int digits = 4;                       // likewise
+  std::string picture = "", unit = "";  // what is drawn against CPU time; empty: nothing
 };
 
-// Without errors.
-TradeoffRow RowOfPoint(const TradeoffPoint& point, const v1::Solve& solve);
-// The largest errors that the service estimated; none where it gave no estimate.
-std::optional<TrueErrors> EstimateOf(const v1::SolveResult& result);
+struct TradeoffTable {
+  std::string name;       // a digest of what was asked
+  std::string reference;  // what the errors are against; empty: there is none, and no error is known
+  // Among them cpu_time_s [s], well_known (of the error of the front) and on_front.
+  std::vector<TradeoffColumn> columns;
+  std::string error;   // the column of the front
+  std::string same;    // the column that is "same" in rows that have found what the reference has
+  std::string series;  // the column whose values are drawn in colours of their own
+  // Objects: a word, a number or a truth by the name of its column; what is not known is missing. Names without a
+  // column stand in the JSON document only.
+  std::vector<nlohmann::json> rows;
+};
 
-// Marks the optimal rows in the reference's minimum of which no other is as fast and as accurate, and better in one:
-// CPU time against the largest error of a joint angle.
-void MarkFront(std::vector<TradeoffRow>& rows);
+// Sets on_front in every row: true in those that have found what the reference has and of which no other such row is
+// as fast and as accurate, and better in one.
+void MarkFront(TradeoffTable& table);
 
-// For people; comma separated values with a line of names (RFC 4180); {"tradeoff", "reference", "points"}. `reference`
-// is the name of the solve, empty: none.
-std::string TradeoffText(const std::vector<TradeoffRow>& rows);
-std::string TradeoffCsv(const std::vector<TradeoffRow>& rows);
-nlohmann::json TradeoffJson(const std::string& name, const std::string& reference,
-                            const std::vector<TradeoffRow>& rows);
+// For people, "?" before an error of the front that is not known well; comma separated values with a line of names
+// (RFC 4180); {"tradeoff", "reference", "columns", "points" …}.
+std::string TradeoffText(const TradeoffTable& table);
+std::string TradeoffCsv(const TradeoffTable& table);
+nlohmann::json TradeoffJson(const TradeoffTable& table);
 
 }  // namespace rollgait::client
 

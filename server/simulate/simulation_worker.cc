@@ -1,10 +1,12 @@
 #include "server/simulate/simulation_worker.h"
 
 #include <chrono>
+#include <ctime>
 #include <exception>
 #include <new>
 #include <string>
 
+#include "core/base/check.h"
 #include "core/base/stop.h"
 #include "core/simulation/initial_state.h"
 #include "server/base/framing.h"
@@ -19,6 +21,13 @@ using Clock = std::chrono::steady_clock;
 constexpr int kBatchSize = 64;
 constexpr std::chrono::milliseconds kBatchTime{50};
 constexpr int kNoRequest = 4;
+
+// Of this process so far, user and system, s.
+double CpuTime() {
+  timespec time{};
+  ROLLGAIT_CHECK(clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) == 0);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 class SimulationWorker {
  public:
@@ -83,6 +92,7 @@ class SimulationWorker {
 
   Violations RunSimulation(const SimulationScene& scene) {
     const Clock::time_point start = batch_start_ = Clock::now();
+    const double cpu_start = CpuTime();
     SimulationObserver observer;
     observer.sample = [this](const SimulationSample& sample) {
       v1::SampleBatch* samples = batch_.mutable_content()->mutable_samples();
@@ -100,8 +110,9 @@ class SimulationWorker {
     Flush();
     wire::SimulatorMessage message;
     *message.mutable_content()->mutable_report() = EncodeReport(report.value(), scene);
-    message.mutable_content()->mutable_report()->set_wall_time_s(
-        std::chrono::duration<double>(Clock::now() - start).count());
+    v1::SimulationReport& encoded = *message.mutable_content()->mutable_report();
+    encoded.set_wall_time_s(std::chrono::duration<double>(Clock::now() - start).count());
+    encoded.set_cpu_time_s(CpuTime() - cpu_start);
     Send(message);
     return {};
   }

@@ -6,7 +6,7 @@
 #include "client/spec_words.h"
 #include "client/text.h"
 #include "client/tradeoff/points.h"
-#include "client/tradeoff/tradeoff_table.h"
+#include "client/tradeoff/solve_row.h"
 #include "client/tradeoff/true_errors.h"
 #include "tests/client/sample_solve.h"
 
@@ -108,19 +108,18 @@ TEST(TradeoffMinimumTest, AnotherOneKeepsMostOfTheError) {
   EXPECT_FALSE(IsWellKnown(0.4, 0.21));
 }
 
-TradeoffRow RowAt(double cpu_time_s, double angle_deg) {
+SolveRow RowAt(double cpu_time_s, double angle_deg) {
   v1::Solve solve = SampleSolve("solves/a", 0);
   solve.mutable_result()->set_cpu_time_s(cpu_time_s);
-  TradeoffRow row = RowOfPoint({"radau2", 8, 1e-6}, solve);
+  SolveRow row = RowOfPoint({"radau2", 8, 1e-6}, solve);
   row.errors = TrueErrors{0.001, angle_deg, 2.0};
   row.minimum = Minimum::kSame;
   return row;
 }
 
-std::vector<bool> FrontOf(std::vector<TradeoffRow> rows) {
-  MarkFront(rows);
+std::vector<bool> FrontOf(const std::vector<SolveRow>& rows) {
   std::vector<bool> marks;
-  for (const TradeoffRow& row : rows) marks.push_back(row.is_on_front);
+  for (const nlohmann::json& row : SolveTable("n", "", rows).rows) marks.push_back(row.at("on_front"));
   return marks;
 }
 
@@ -130,14 +129,12 @@ TEST(TradeoffFrontTest, WhatNoOtherBeatsInTimeAndError) {
   EXPECT_THAT(FrontOf({RowAt(1, 0.5), RowAt(1, 0.5)}), testing::ElementsAre(true, true)) << "equals do not beat";
 }
 
-TEST(TradeoffFrontTest, AnotherMinimumAndWhatIsNotOptimalIsNotOnItAndBeatsNothing) {
-  TradeoffRow other = RowAt(0.1, 0.01), unknown = other, not_optimal = other, without = other;
+TEST(TradeoffFrontTest, AnotherMinimumAndWhatHasNoErrorIsNotOnItAndBeatsNothing) {
+  SolveRow other = RowAt(0.1, 0.01), unknown = other, without = other;
   other.minimum = Minimum::kOther;
   unknown.minimum = Minimum::kUnknown;
-  not_optimal.is_optimal = false;
   without.errors.reset();
-  EXPECT_THAT(FrontOf({other, unknown, not_optimal, without, RowAt(1, 0.5)}),
-              testing::ElementsAre(false, false, false, false, true));
+  EXPECT_THAT(FrontOf({other, unknown, without, RowAt(1, 0.5)}), testing::ElementsAre(false, false, false, true));
 }
 
 class TradeoffTableTest : public testing::Test {
@@ -149,9 +146,8 @@ class TradeoffTableTest : public testing::Test {
     failed.mutable_error()->set_message("died");
     rows_ = {RowAt(1, 0.5), RowOfPoint({"radau3", 4, 1e-8}, failed)};
     rows_[0].is_well_known = true;
-    MarkFront(rows_);
   }
-  std::vector<TradeoffRow> rows_;
+  std::vector<SolveRow> rows_;
 };
 
 TEST_F(TradeoffTableTest, RowsAreShort) {
@@ -163,29 +159,30 @@ TEST_F(TradeoffTableTest, RowsAreShort) {
 }
 
 TEST_F(TradeoffTableTest, ForPeople) {
-  EXPECT_THAT(TradeoffText(rows_), testing::ContainsRegex("\\* +radau2 +8 +1e-06 +optimal +same +1 +62 +812.5 +0.1 "
-                                                          "+0.5 +2 +- +- +-"));
-  EXPECT_THAT(TradeoffText(rows_), testing::ContainsRegex("radau3 +4 +1e-08 +failed +- +- +-"));
+  EXPECT_THAT(TradeoffText(SolveTable("n", "", rows_)),
+              testing::ContainsRegex("\\* +radau2 +8 +1e-06 +optimal +same +1 +62 +812.5 +0.1 "
+                                     "+0.5 +2 +- +- +-"));
+  EXPECT_THAT(TradeoffText(SolveTable("n", "", rows_)), testing::ContainsRegex("radau3 +4 +1e-08 +failed +- +- +-"));
   rows_[0].is_well_known = false;
-  EXPECT_THAT(TradeoffText(rows_), HasSubstr("?0.5"));
+  EXPECT_THAT(TradeoffText(SolveTable("n", "", rows_)), HasSubstr("?0.5"));
 }
 
 TEST_F(TradeoffTableTest, AsCommaSeparatedValues) {
-  const std::string text = TradeoffCsv(rows_);
+  const std::string text = TradeoffCsv(SolveTable("n", "", rows_));
   EXPECT_THAT(text, testing::StartsWith("scheme,intervals,tolerance,solve,ended,from_cache,minimum,well_known,on_front,"
                                         "cpu_time_s,iterations,objective,objective_error,angle_error_deg,"));
   EXPECT_THAT(text, HasSubstr("\nradau2,8,1e-06,solves/a,optimal,0,same,1,1,1,62,812.5,0.001,0.5,2,,,\n"));
-  EXPECT_THAT(text, testing::EndsWith("\nradau3,4,1e-08,solves/b,failed,0,,0,0,,,,,,,,,\n"));
+  EXPECT_THAT(text, testing::EndsWith("\nradau3,4,1e-08,solves/b,failed,0,,,0,,,,,,,,,\n"));
 }
 
 TEST_F(TradeoffTableTest, AsJson) {
-  const nlohmann::json data = TradeoffJson("n", "solves/r", rows_);
+  const nlohmann::json data = TradeoffJson(SolveTable("n", "solves/r", rows_));
   EXPECT_EQ(data.at("reference"), "solves/r");
   EXPECT_EQ(data.at("points").at(0).at("angle_error_deg"), 0.5);
   EXPECT_EQ(data.at("points").at(0).at("on_front"), true);
   EXPECT_EQ(data.at("points").at(1).at("error"), "died");
   EXPECT_FALSE(data.at("points").at(1).contains("angle_error_deg"));
-  EXPECT_FALSE(TradeoffJson("n", "", rows_).contains("reference"));
+  EXPECT_FALSE(TradeoffJson(SolveTable("n", "", rows_)).contains("reference"));
 }
 
 TEST_F(TradeoffTableTest, TheServicesEstimateInDegrees) {

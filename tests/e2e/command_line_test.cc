@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -81,6 +82,24 @@ TEST_F(CommandLineTest, ASweepIsSolvedOnceFoundByItsLabelAndGoneOnWith) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("requests[1].spec.slope_rad"));
   EXPECT_EQ(rows(Run("list --label sweep=wrong --json").out).size(), 0u) << "all or none";
+}
+
+TEST_F(CommandLineTest, ASceneTakesLongerWithLessErrorAndIsNotSimulatedTwice) {
+  ASSERT_NE(daemon_.address(), "");
+  const std::string line = "tradeoff --scene " ROLLGAIT_SCENES
+                           "/rattleback.json --duration 3 --tolerance 1e-4,1e-9 --output " +
+                           directory_.path() + "/front";
+  const Ended ended = Run(line + " --json");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const nlohmann::json data = nlohmann::json::parse(ended.out);
+  const nlohmann::json &coarse = data.at("points").at(0), &fine = data.at("points").at(1);
+  EXPECT_GT(double(coarse.at("pose_error")), 100 * double(fine.at("pose_error")));
+  EXPECT_GT(double(fine.at("pose_error")), 0) << "the reference is finer";
+  EXPECT_GT(double(fine.at("cpu_time_s")), 0);
+  EXPECT_LT(int(coarse.at("evaluations")), int(fine.at("evaluations")));
+  EXPECT_EQ(fine.at("on_front"), true) << "none is as accurate";
+  const Ended again = Run(line + " --json");
+  EXPECT_EQ(again.out, ended.out) << "times of a second run would differ";
 }
 
 TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {

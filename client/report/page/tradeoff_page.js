@@ -1,15 +1,23 @@
 // Puts the page of `rollgait tradeoff` together: its points, and their front of CPU time against true error.
-const POINTS = DATA.tradeoff.points;
-const KNOWN = POINTS.filter((p) => p.angle_error_deg !== undefined && p.minimum === "same");
-const SCHEMES = [...new Set(POINTS.map((p) => p.scheme))];
-const nameOf = (p) => `${p.scheme}, ${p.intervals} intervals, tolerance ${fmt(p.tolerance)}`;
-const endOf = (p) => words((p.termination || p.state).replace(/^(TERMINATION|SOLVE_STATE)_/, "").toLowerCase());
+const TABLE = DATA.tradeoff;
+const POINTS = TABLE.points;
+const KNOWN = POINTS.filter((p) => p[TABLE.error] !== undefined && p[TABLE.same] === "same");
+const SERIES = [...new Set(POINTS.map((p) => p[TABLE.series]))];
+const SHOWN = TABLE.columns.filter((c) => c.title);
+const isWord = (c) => POINTS.some((p) => typeof p[c.name] === "string");
+// Of a point: its settings are what stands before how it ended.
+const SETTINGS = SHOWN.slice(
+  0,
+  SHOWN.findIndex((c) => c.name === "ended"),
+);
+const nameOf = (p) =>
+  SETTINGS.map((c) => (isWord(c) ? p[c.name] : `${c.title} ${fmt(p[c.name])}`)).join(", ");
 
 function pointSeries(column) {
-  return SCHEMES.map((scheme, i) => {
-    const own = KNOWN.filter((p) => p.scheme === scheme);
+  return SERIES.map((value, i) => {
+    const own = KNOWN.filter((p) => p[TABLE.series] === value);
     return {
-      label: scheme,
+      label: value,
       color: solveColor(i),
       line: false,
       dots: true,
@@ -22,7 +30,7 @@ function pointSeries(column) {
 function errorPlot(title, unit, column) {
   const series = pointSeries(column);
   const front = KNOWN.filter((p) => p.on_front).sort((a, b) => a.cpu_time_s - b.cpu_time_s);
-  if (column === "angle_error_deg")
+  if (column === TABLE.error)
     series.push({
       label: "front",
       color: "var(--soft)",
@@ -38,9 +46,9 @@ page.append(
   el(
     "p",
     { class: "soft" },
-    DATA.tradeoff.reference
-      ? `Errors against ${DATA.tradeoff.reference}, solved from the finest point on four times as many intervals. A ` +
-          "point in another minimum than the reference is not drawn."
+    TABLE.reference
+      ? `Errors against the reference: ${TABLE.reference}. It is finer than the finest point. A point that found another ` +
+          `${TABLE.same} than the reference is not drawn.`
       : "No reference was reached, so no error is known.",
   ),
 );
@@ -49,51 +57,21 @@ if (KNOWN.length)
     el(
       "div",
       { class: "grid three" },
-      errorPlot("Largest error of a joint angle", "°", "angle_error_deg"),
-      errorPlot("Largest error of a joint torque", "N m", "torque_error_n_m"),
-      errorPlot("Error of the objective", "", "objective_error"),
+      ...TABLE.columns.filter((c) => c.picture).map((c) => errorPlot(c.picture, c.unit, c.name)),
     ),
   );
-const number = (value, digits = 3) => (value === undefined ? "–" : fmt(value, digits));
+function cell(p, column) {
+  const value = p[column.name];
+  if (value === undefined) return "–";
+  if (typeof value === "string") return value;
+  const mark = column.name === TABLE.error && p.well_known === false ? "?" : "";
+  return mark + fmt(column.scale * value, column.digits);
+}
 page.append(
   table(
-    [
-      "Front",
-      "Scheme",
-      "Intervals",
-      "Tolerance",
-      "Ended",
-      "Minimum",
-      "CPU s",
-      "Iterations",
-      "Objective",
-      "Objective error",
-      "Angle °",
-      "Torque N m",
-      "Estimated angle °",
-      "Estimated torque N m",
-    ],
-    POINTS.map((p) => [
-      p.on_front ? "yes" : "",
-      p.scheme,
-      String(p.intervals),
-      fmt(p.tolerance),
-      endOf(p),
-      p.minimum || "–",
-      number(p.cpu_time_s),
-      number(p.iterations, 6),
-      number(p.objective, 7),
-      number(p.objective_error),
-      (p.well_known === false ? "?" : "") + number(p.angle_error_deg),
-      number(p.torque_error_n_m),
-      number(p.estimated_angle_error_deg),
-      number(p.estimated_torque_error_n_m),
-    ]),
-    [2, 3, 6, 7, 8, 9, 10, 11, 12, 13],
+    ["front", ...SHOWN.map((c) => c.title)],
+    POINTS.map((p) => [p.on_front ? "yes" : "", ...SHOWN.map((c) => cell(p, c))]),
+    SHOWN.map((c, i) => (isWord(c) ? -1 : i + 1)).filter((i) => i > 0),
   ),
-  el(
-    "p",
-    { class: "soft" },
-    "? The two meshes of the reference differ by more than half of this error: it is not known well.",
-  ),
+  el("p", { class: "soft" }, "? The last two references differ by more than half of this error: it is not known well."),
 );

@@ -49,7 +49,8 @@ TEST_F(TradeoffCommandTest, SolvesThePointsThenAReferenceFromTheFinestAndWritesF
   EXPECT_EQ(nlohmann::json::parse(json).at("points").size(), 4u);
   std::stringstream page;
   page << std::ifstream(folder / "tradeoff.html").rdbuf();
-  EXPECT_THAT(page.str(), HasSubstr("\"tradeoff\":{\"points\":[{\"angle_error_deg\""));
+  EXPECT_THAT(page.str(), HasSubstr("\"tradeoff\":{\"columns\":[{"));
+  EXPECT_THAT(page.str(), HasSubstr("\"points\":[{\"angle_error_deg\""));
   std::stringstream csv;
   csv << std::ifstream(folder / "tradeoff.csv").rdbuf();
   EXPECT_THAT(csv.str(), HasSubstr("\nradau3,8,1e-06,solves/planar0,optimal,"));

@@ -64,6 +64,8 @@ TEST(SimulationStream, StreamsSamplesEventsAndAReport) {
   EXPECT_EQ(all.report->end(), v1::SimulationReport::END_DURATION);
   EXPECT_EQ(all.report->impacts(), 2);
   EXPECT_GT(all.report->min_normal_force_n(), 0);
+  EXPECT_GT(all.report->cpu_time_s(), 0);
+  EXPECT_LE(all.report->cpu_time_s(), all.report->wall_time_s() + 0.01) << "one thread; the clocks are read in turn";
 }
 
 TEST(SimulationStream, FindsAPeriodicGait) {
