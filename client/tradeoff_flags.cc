@@ -69,7 +69,7 @@ void AddTradeoffFlags(CLI::App& command, TradeoffOptions& options) {
       .add_option("--drift", options.drifts,
                   "projection, baumgarte and none, separated by commas; default: that of the scene")
       ->group(group);
-  command.add_option("--repeats", options.repeats, "Runs of each point; the least CPU time counts")
+  command.add_option("--repeats", options.repeats, "Runs of each point; the median of their CPU times counts")
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
       ->group(group);

@@ -24,7 +24,7 @@ struct TradeoffOptions {
   // With a scene's file there is no request; `duration_s` of `spec` overrides that of the scene.
   SceneInput scene;
   std::string absolutes, drifts;  // empty: that of the scene
-  int repeats = 3;                // of each point; the least CPU time counts
+  int repeats = 3;                // of each point; the median of their CPU times counts
   std::optional<double> max_wall_time_s;
 };
 inline constexpr char kSceneTolerances[] = "1e-4,1e-6,1e-8,1e-10";

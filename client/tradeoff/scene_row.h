@@ -13,7 +13,7 @@
 namespace rollgait::client {
 
 // Cells of a TradeoffTable that SceneTable makes. `errors` are none of a simulation that ended early.
-//   cpu_time_s            the least of the runs of this point
+//   cpu_time_s            the median of the runs of this point
 //   reference_difference  pose() of the reference against one that is half an order coarser, m or rad
 nlohmann::json SceneRow(const ScenePoint& point, const v1::SimulationReport& report, double cpu_time_s,
                         const std::optional<SceneErrors>& errors, double reference_difference);
