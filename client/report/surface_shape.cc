@@ -51,6 +51,21 @@ SurfaceShape ReadSuperellipsoid(const v1::Surface& surface) {
   return read;
 }
 
+// The sum of the support functions of core and cover.
+SurfaceShape ReadCoveredEllipsoid(const v1::Surface& surface) {
+  const Vector3d axes = ToVector(surface.covered_ellipsoid().semi_axes_m());
+  const Vector3d cover = ToVector(surface.covered_ellipsoid().cover_m());
+  SurfaceShape read{axes, {}, ""};
+  if (cover.isZero(0)) return read;
+  SupportNorm core, around;
+  core.squares = (axes - cover).cwiseQuotient(axes).cwiseAbs2();
+  around.squares = cover.cwiseQuotient(axes).cwiseAbs2();
+  read.form = SupportNorm{1, {core, around}};
+  read.numbers =
+      "cover " + FormatNumber(cover.x()) + ", " + FormatNumber(cover.y()) + ", " + FormatNumber(cover.z()) + " m";
+  return read;
+}
+
 // The row of a shape of v1::Surface: pictures, tables and side files know no other place for it.
 struct ShapeRow {
   v1::Surface::ShapeCase shape;
@@ -62,6 +77,7 @@ constexpr ShapeRow kShapes[] = {
     {v1::Surface::kEllipsoid, "an ellipsoid", ReadEllipsoid},
     {v1::Surface::kSphere, nullptr, ReadSphere},
     {v1::Surface::kSuperellipsoid, "a superellipsoid", ReadSuperellipsoid},
+    {v1::Surface::kCoveredEllipsoid, "a covered ellipsoid", ReadCoveredEllipsoid},
 };
 
 const ShapeRow* RowOf(const v1::Surface& surface) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geometry/covered_ellipsoid.h"
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/implicit_surface.h"
 #include "core/geometry/smooth_superellipsoid.h"
@@ -26,7 +27,7 @@ namespace rollgait {
 // kinds, no virtual call.
 class Surface {
  public:
-  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, SmoothSuperellipsoid, ImplicitSurface>;
+  using Kind = std::variant<Ellipsoid, Sphere, Superellipsoid, SmoothSuperellipsoid, ImplicitSurface, CoveredEllipsoid>;
 
   Surface(Kind kind) : kind_(std::move(kind)) {}  // NOLINT: a surface of that kind
   template <typename Body>

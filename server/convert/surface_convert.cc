@@ -53,6 +53,14 @@ std::optional<Surface> DecodeSuperellipsoid(const std::string& field, const v1::
   return take(Superellipsoid::Create(axes, e_1, e_2, field));
 }
 
+std::optional<Surface> DecodeCoveredEllipsoid(const std::string& field, const v1::CoveredEllipsoid& shape,
+                                              Violations* violations) {
+  const auto created = CoveredEllipsoid::Create(DecodeAxes(shape.semi_axes_m()), DecodeAxes(shape.cover_m()), field);
+  if (created.ok()) return Surface(created.value());
+  violations->insert(violations->end(), created.violations().begin(), created.violations().end());
+  return std::nullopt;
+}
+
 // How a kind of surface is written; the visit in EncodeSurface does not compile without one for each.
 void EncodeKind(const Ellipsoid& shape, v1::Surface* encoded) {
   EncodeAxes(shape.semi_axes(), encoded->mutable_ellipsoid()->mutable_semi_axes_m());
@@ -73,6 +81,11 @@ void EncodeKind(const Superellipsoid& shape, v1::Surface* encoded) { EncodeSuper
 
 void EncodeKind(const SmoothSuperellipsoid& shape, v1::Surface* encoded) {
   EncodeSuperellipsoid(shape, encoded).set_smoothing(shape.smoothing());
+}
+
+void EncodeKind(const CoveredEllipsoid& shape, v1::Surface* encoded) {
+  EncodeAxes(shape.semi_axes(), encoded->mutable_covered_ellipsoid()->mutable_semi_axes_m());
+  EncodeAxes(shape.cover(), encoded->mutable_covered_ellipsoid()->mutable_cover_m());
 }
 
 // No message says an equation.
@@ -98,6 +111,10 @@ constexpr ShapeRow kShapes[] = {
     {v1::Surface::kSuperellipsoid, "superellipsoid", "a superellipsoid",
      [](const std::string& field, const v1::Surface& surface, Violations* violations) {
        return DecodeSuperellipsoid(field, surface.superellipsoid(), violations);
+     }},
+    {v1::Surface::kCoveredEllipsoid, "covered_ellipsoid", "a covered ellipsoid",
+     [](const std::string& field, const v1::Surface& surface, Violations* violations) {
+       return DecodeCoveredEllipsoid(field, surface.covered_ellipsoid(), violations);
      }},
 };
 

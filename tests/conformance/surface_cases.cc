@@ -78,6 +78,12 @@ SurfaceCase SmoothCase(const std::string& name, double eps1, double eps2, double
           nullptr, 0, angle};
 }
 
+SurfaceCase CoveredCase(const std::string& name, const Vector3& axes, const Vector3& cover,
+                        const std::function<double(const Vector3&)>& equation, double angle) {
+  return {name, [=](double scale) { return Surface(CoveredEllipsoid::Create(scale * axes, scale * cover).value()); },
+          equation, 0, angle};
+}
+
 SurfaceCase FlattenedCase(const std::string& name, double eps1, double eps2, double delta, double angle) {
   const Vector3 axes(0.8, 1.2, 0.5);
   return {
@@ -115,6 +121,14 @@ std::vector<SurfaceCase> MakeCases() {
       SmoothCase("SmoothBoxySuperellipsoid", 0.6, 0.6, 0.15),
       SmoothCase("SmoothPinchedSuperellipsoid", 1.6, 1.6, 0.1),
       SmoothCase("SmoothMixedSuperellipsoid", 0.7, 1.4, 0.15),
+      CoveredCase("CoveredEllipsoid", axes, {0.3, 0.9, 0.1}, nullptr, 0.1),
+      CoveredCase("EvenlyCoveredEllipsoid", axes, {0.2, 0.2, 0.2}, nullptr, 0.3),
+      CoveredCase("ThinCoreInACover", axes, {0.05, 0.1, 0.47}, nullptr, 0.025),
+      CoveredCase("EllipsoidWithoutCover", axes, {0, 0, 0}, ellipsoid, 0.4),
+      CoveredCase("EllipsoidInACoverOfItsShape", axes, 0.3 * axes, ellipsoid, 0.4),
+      CoveredCase(
+          "SphereInASphere", {0.7, 0.7, 0.7}, {0.3, 0.3, 0.3}, [](const Vector3& x) { return x.squaredNorm() - 0.49; },
+          1),
       FlattenedCase("FlattenedSuperellipsoid", 0.5, 0.8, 0.05, 0.2),
       FlattenedCase("FlattenedBox", 0.25, 0.25, 0.02, 0.12),
       {"ImplicitQuartic",
