@@ -131,8 +131,8 @@ struct Measured {
   double cpu_time_s;
 };
 
-// The median CPU time of so many runs, of an even number the lower one. A clock that stood still during a run (seen on
-// a busy virtual machine) says 0, which is no time; such a run does not count.
+// The median CPU time of so many runs, of an even number the lower one. On a busy virtual machine some runs of 1 to 3
+// ms report exactly 0, for a reason that is not known; that is no time, so such a run does not count.
 Measured Measure(Simulator& simulator, Connection& connection, const v1::SimulationScene& scene, int repeats) {
   Measured measured;
   std::vector<double> times;
