@@ -9,6 +9,7 @@ function fmt(value, digits = 4) {
     const [mantissa, exponent] = value.toExponential(Math.max(digits - 2, 1)).split("e");
     const raised = (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)];
     const superscript = exponent.replace("+", "").replace(/[-0-9]/g, raised);
+    if (value === Number(`1e${exponent}`)) return "10" + superscript;
     return mantissa.replace("-", "−") + "·10" + superscript;
   }
   return String(Number(value.toPrecision(digits))).replace("-", "−");

@@ -3,12 +3,12 @@ const TABLE = DATA.tradeoff;
 const POINTS = TABLE.points;
 const KNOWN = POINTS.filter((p) => p[TABLE.error] !== undefined && p[TABLE.same] === "same");
 const SERIES = [...new Set(POINTS.map((p) => p[TABLE.series]))];
-const SHOWN = TABLE.columns.filter((c) => c.title);
+const COLUMNS = TABLE.columns.filter((c) => c.title);
 const isWord = (c) => POINTS.some((p) => typeof p[c.name] === "string");
 // Of a point: its settings are what stands before how it ended.
-const SETTINGS = SHOWN.slice(
+const SETTINGS = COLUMNS.slice(
   0,
-  SHOWN.findIndex((c) => c.name === "ended"),
+  COLUMNS.findIndex((c) => c.name === "ended"),
 );
 const nameOf = (p) =>
   SETTINGS.map((c) => (isWord(c) ? p[c.name] : `${c.title} ${fmt(p[c.name])}`)).join(", ");
@@ -69,9 +69,9 @@ function cell(p, column) {
 }
 page.append(
   table(
-    ["front", ...SHOWN.map((c) => c.title)],
-    POINTS.map((p) => [p.on_front ? "yes" : "", ...SHOWN.map((c) => cell(p, c))]),
-    SHOWN.map((c, i) => (isWord(c) ? -1 : i + 1)).filter((i) => i > 0),
+    ["front", ...COLUMNS.map((c) => c.title)],
+    POINTS.map((p) => [p.on_front ? "yes" : "", ...COLUMNS.map((c) => cell(p, c))]),
+    COLUMNS.map((c, i) => (isWord(c) ? -1 : i + 1)).filter((i) => i > 0),
   ),
   el("p", { class: "soft" }, "? The last two references differ by more than half of this error: it is not known well."),
 );

@@ -48,6 +48,15 @@ class PageTest(unittest.TestCase):
         for part in ("upper arm", "forearm", "shank", "heel"):
             self.assertEqual([sides[f"right {part}"], sides[f"left {part}"]], [1, 2], part)
 
+    def test_front_of_a_tradeoff_is_drawn_and_listed(self):
+        self.open(reports.front())
+        self.assertEqual(browser.evaluate("document.querySelectorAll('tbody tr').length"), 2)
+        titles = browser.evaluate("document.body.textContent")
+        for title in ("Largest error of a position", "Largest error of an angle", "CPU time"):
+            self.assertIn(title, titles)
+        self.assertGreaterEqual(browser.evaluate("document.querySelectorAll('svg circle').length"), 6)
+        self.assertEqual(browser.evaluate("[fmt(1e-5), fmt(-1e-5), fmt(1.2e-5, 3)]"), ["10⁻⁵", "−1.00·10⁻⁵", "1.2·10⁻⁵"])
+
     def test_views_and_arrangement(self):
         self.open(reports.several(3))
         pictures = set()

@@ -62,3 +62,10 @@ class Reports:
         self.run("solve", *motion, "-q", "-o", str(solve))
         self.run("report", str(solve), "-q", "-o", str(page))
         return page
+
+    def front(self) -> pathlib.Path:
+        """Of a simulation with two tolerances."""
+        scene = pathlib.Path(__file__).resolve().parents[4] / "scenes" / "ball_bowled.json"
+        points = ["--tolerance", "1e-3,1e-6", "--repeats", "1", "--duration", "0.5"]
+        self.run("tradeoff", "--scene", str(scene), *points, "--output", str(WORK / "front"))
+        return WORK / "front" / "tradeoff.html"
