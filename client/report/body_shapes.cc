@@ -15,6 +15,10 @@ using Eigen::Vector3d;
 constexpr double kShoulderDepth = 0.182;  // below the vertex
 constexpr double kUpperArm = 0.153;
 constexpr double kStature_m = 1.774;
+constexpr double kFlesh =
+    0.04;  // around the joints of a trunk or pelvis that is known by them only, of the leg's length
+constexpr double kMiddleThickness =
+    0.35;  // of a trunk or pelvis that is known by its joints only, of its largest extent
 
 std::string Words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -41,7 +45,9 @@ class Drawing {
     }
     std::set<int> covered;
     for (const BodyShape& shape : shapes_) {
-      if (sides_[shape.joint] != Side::kMiddle || model_.stature_m() <= 0) covered.insert(shape.joint);
+      // A surface beside the middle, like a forearm that moves with the trunk, does not show the trunk.
+      const bool in_middle = std::abs(shape.pose.position.y()) <= shape.semi_axes.minCoeff();
+      if (sides_[shape.joint] != Side::kMiddle || (model_.stature_m() <= 0 && in_middle)) covered.insert(shape.joint);
     }
     for (int i = 0; i < model_.joints_size(); ++i) {
       if (model_.joints(i).mass_kg() > 0 && covered.count(i) == 0) AddLink(i);
@@ -116,7 +122,10 @@ class Drawing {
       AddLimb(link, children);
       return;
     }
-    if (model_.stature_m() <= 0) return;
+    if (model_.stature_m() <= 0) {
+      AddMiddle(link, children);
+      return;
+    }
     std::vector<int> hips;
     bool has_trunk_above = false;
     for (const int child : children) {
@@ -127,6 +136,18 @@ class Drawing {
     }
     if (!hips.empty()) AddPelvis(link, hips);
     if (!has_trunk_above) AddTrunk(link, children);
+  }
+
+  // Of a body whose stature is not known: around its joint, its centre of mass and the joints that it carries.
+  void AddMiddle(int link, const std::vector<int>& children) {
+    Vector3d low = Vector3d::Zero(), high = Vector3d::Zero();
+    const auto reach = [&](const Vector3d& place) { low = low.cwiseMin(place), high = high.cwiseMax(place); };
+    reach(ToVector(model_.joints(link).center_of_mass_m()));
+    for (const int child : children) reach(Place(child, link));
+    const Vector3d half = (high - low) / 2 + Vector3d::Constant(kFlesh * model_.leg_length_m());
+    const double thinnest = kMiddleThickness * half.maxCoeff();
+    if (thinnest < 1e-3) return;
+    Draw(Words(model_.joints(link).link_name()), link, (low + high) / 2, half.cwiseMax(thinnest), Side::kMiddle);
   }
 
   void AddLimb(int link, const std::vector<int>& children) {

@@ -31,7 +31,8 @@ struct BodyShape {
 };
 
 // Contacts come first, in the order of Model.contacts. The link that carries the upper end of the body gets a head
-// whose top is at stature height in the upright posture (zero posture, hips at leg length over the ground). Throws
+// whose top is at stature height in the upright posture (zero posture, hips at leg length over the ground). Without a
+// stature, as in own models, a link in the middle is an ellipsoid around its joints and centre of mass. Throws
 // Failure(kUsage) for a surface on no joint of the model.
 std::vector<BodyShape> BodyShapes(const v1::Model& model);
 

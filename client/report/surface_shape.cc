@@ -132,11 +132,13 @@ bool MayWalk(const v1::Surface& surface) {
 }
 
 std::string NamesOfWalkingShapes() {
-  std::string names;
+  std::vector<std::string> names;
   for (const ShapeRow& row : kShapes) {
-    if (row.walks != nullptr) names += (names.empty() ? "" : " or ") + std::string(row.walks);
+    if (row.walks != nullptr) names.emplace_back(row.walks);
   }
-  return names;
+  std::string list = names.front();
+  for (size_t i = 1; i < names.size(); ++i) list += (i + 1 < names.size() ? ", " : " or ") + names[i];
+  return list;
 }
 
 }  // namespace rollgait::client

@@ -39,7 +39,7 @@ struct SurfaceShape {
 SurfaceShape ShapeOf(const v1::Surface& surface);
 
 // Whether bodies that walk may have such a surface (the server knows within which bounds), and which these are: "an
-// ellipsoid or a superellipsoid".
+// ellipsoid or a superellipsoid", separated by commas where there are more.
 bool MayWalk(const v1::Surface& surface);
 std::string NamesOfWalkingShapes();
 

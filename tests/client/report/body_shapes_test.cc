@@ -66,6 +66,33 @@ TEST(BodyShapesTest, SurfacesOfTheModelAreDrawnAsTheyAre) {
   EXPECT_EQ(parts.at("left foot").kind, ShapeKind::kContact);
 }
 
+// An own model has no stature: its trunk is where its hips and its centre of mass are.
+TEST(BodyShapesTest, DrawsTheMiddleOfABodyOfUnknownStature) {
+  v1::Model model = SampleModel();
+  model.clear_stature_m();
+  const int trunk = 2;
+  model.mutable_joints(trunk)->mutable_center_of_mass_m()->set_z(0.3);
+  const std::string part = model.joints(trunk).link_name();
+  const BodyShape drawn = ByPart(model).at(part);
+  EXPECT_EQ(drawn.joint, trunk);
+  EXPECT_EQ(drawn.side, Side::kMiddle);
+  EXPECT_LE(drawn.pose.position.z() - drawn.semi_axes.z(), 0);
+  EXPECT_GE(drawn.pose.position.z() + drawn.semi_axes.z(), 0.3 - 1e-12);
+  EXPECT_GE(drawn.semi_axes.y(), 0.08 - 1e-12) << "the hips";
+  EXPECT_GT(drawn.semi_axes.x(), 0.02) << "no plate";
+
+  v1::BodySurface& body = *model.add_bodies();
+  body.set_name("hand");
+  body.set_joint(trunk);
+  for (const auto set : {&v1::Vector3::set_x, &v1::Vector3::set_y, &v1::Vector3::set_z}) {
+    (body.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->*set)(0.05);
+  }
+  body.mutable_center_m()->set_y(0.25);
+  EXPECT_THAT(ByPart(model), Contains(Key(part))) << "a hand at its side does not show it";
+  body.mutable_center_m()->set_y(0);
+  EXPECT_THAT(ByPart(model), testing::Not(Contains(Key(part)))) << "what the model says is drawn in its place";
+}
+
 TEST(BodyShapesTest, RefusesASurfaceOnNoJoint) {
   v1::Model model = SampleModel();
   model.mutable_contacts(0)->set_joint(9);
