@@ -79,12 +79,11 @@ TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
        "contacts[1].link of \"right\" is \"rihgt\", no link of x.urdf; did you mean right?"},
       {[](v1::ModelSideFile& s) { s.mutable_contacts(1)->set_name("left"); }, "contacts[1].name \"left\" stands twice"},
       {[](v1::ModelSideFile& s) { s.mutable_contacts(0)->clear_side(); }, "contacts[0].side must be BODY_SIDE_LEFT"},
-      {[](v1::ModelSideFile& s) { s.mutable_contacts(0)->clear_surface(); },
-       "must be an ellipsoid, a superellipsoid or a covered ellipsoid with semi-axes in"},
+      {[](v1::ModelSideFile& s) { s.mutable_contacts(0)->clear_surface(); }, "must be an ellipsoid, a superellipsoid"},
       {[](v1::ModelSideFile& s) {
          s.mutable_contacts(0)->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->set_x(120);
        },
-       "must be an ellipsoid, a superellipsoid or a covered ellipsoid with semi-axes in"},
+       "must be an ellipsoid, a superellipsoid"},
       {[](v1::ModelSideFile& s) { s.mutable_contacts(0)->mutable_center_m()->set_x(432); },
        "every component must be within ±10 m"},
       {[](v1::ModelSideFile& s) { s.mutable_base_orientation()->set_w(2); },

@@ -239,7 +239,8 @@ TEST(DecodeSurface, KnowsEveryShape) {
   EXPECT_FALSE(DecodeSurface("body", v1::Surface(), &violations));
   ASSERT_EQ(violations.size(), 1u);
   EXPECT_EQ(violations[0].field, "body");
-  EXPECT_EQ(violations[0].message, "is not set; give an ellipsoid, a sphere or a superellipsoid");
+  EXPECT_EQ(violations[0].message.rfind("is not set; give an ellipsoid, a sphere, a superellipsoid", 0), 0u)
+      << violations[0].message;
 }
 
 TEST(DecodeSurface, RefusesSmoothingBesideFlattening) {
