@@ -1,12 +1,16 @@
 #include "server/base/process_limits.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 
 #include "server/base/sanitized.h"
@@ -40,6 +44,34 @@ TEST(ProcessLimits, ConfinedProcessesYieldTheProcessorAndNeverTakeNicenessBack) 
   EXPECT_TRUE(ExitedWith0(InChild([] { return !ConfineProcess() && getpriority(PRIO_PROCESS, 0) >= 10; })));
   EXPECT_TRUE(ExitedWith0(InChild([] {
     return setpriority(PRIO_PROCESS, 0, 15) == 0 && !ConfineProcess() && getpriority(PRIO_PROCESS, 0) == 15;
+  })));
+}
+
+// Whether the kernel's sched_attr of this process tells this slice: 0 before Linux 6.12.
+bool HasSlice(uint64_t nanos) {
+  struct {
+    uint32_t size, policy;
+    uint64_t flags;
+    int32_t nice;
+    uint32_t priority;
+    uint64_t runtime, deadline, period;
+  } attributes{};
+  return syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) == 0 && attributes.runtime == nanos;
+}
+
+TEST(ProcessLimits, ConfinedProcessesAreDisplacedByWhoeverWakesUp) {
+  const int status = InChild([] {
+    if (HasSlice(0)) _exit(77);
+    return !ConfineProcess() && HasSlice(100'000'000);
+  });
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "slices cannot be asked for before Linux 6.12";
+  EXPECT_TRUE(ExitedWith0(status));
+}
+
+TEST(ProcessLimits, ConfinedProcessesKeepAPolicyThatSomebodyChose) {
+  EXPECT_TRUE(ExitedWith0(InChild([] {
+    const sched_param none{};
+    return sched_setscheduler(0, SCHED_IDLE, &none) == 0 && !ConfineProcess() && sched_getscheduler(0) == SCHED_IDLE;
   })));
 }
 
