@@ -34,14 +34,13 @@ struct SchedulingAttributes {
 
 // Asks for long turns on the processor. Since Linux 6.12 a thread that wakes up displaces one with a longer slice at
 // once; beside one of the same slice it may wait for the next tick, whatever their niceness. Older kernels take it and
-// do nothing.
-std::optional<std::string> TakeLongSlices() {
+// do nothing; where a container's rules refuse it, calls wait longer beside work and nothing else changes.
+void TakeLongSlices() {
   SchedulingAttributes attributes{};
-  if (syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) != 0) return Reason("sched_getattr");
-  if (attributes.policy != SCHED_OTHER) return std::nullopt;  // somebody has chosen another one
+  if (syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) != 0) return;
+  if (attributes.policy != SCHED_OTHER) return;  // somebody has chosen another one
   attributes.runtime = kSliceNanos;
-  if (syscall(SYS_sched_setattr, 0, &attributes, 0) != 0) return Reason("sched_setattr");
-  return std::nullopt;
+  syscall(SYS_sched_setattr, 0, &attributes, 0);
 }
 
 }  // namespace
@@ -68,7 +67,8 @@ std::optional<std::string> ConfineProcess() {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) != 0) return Reason("prctl PR_SET_PDEATHSIG");
   if (getpriority(PRIO_PROCESS, 0) < kNiceness && setpriority(PRIO_PROCESS, 0, kNiceness) != 0)
     return Reason("setpriority");
-  return TakeLongSlices();
+  TakeLongSlices();
+  return std::nullopt;
 }
 
 std::optional<std::string> LimitMemory(int64_t bytes) {

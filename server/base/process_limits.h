@@ -14,8 +14,8 @@ inline constexpr const char* kOneThreadVariables[] = {"OPENBLAS_NUM_THREADS=1", 
 // Starts this program again with those variables unless they are set. Returns the reason if that fails.
 std::optional<std::string> EnsureOneThread(char** argv);
 
-// No core dumps, no new privileges, death with the parent; and niceness 10 and time slices of 100 ms (where slices can
-// be asked for, Linux 6.12), so that programs that serve clients get a busy processor first and at once. Returns the
+// No core dumps, no new privileges, death with the parent; and niceness 10 and time slices of 100 ms (where Linux,
+// since 6.12, gives them), so that programs that serve clients get a busy processor first and at once. Returns the
 // reason if the kernel refuses.
 std::optional<std::string> ConfineProcess();
 
