@@ -7,22 +7,21 @@ namespace rollgait::client {
 namespace {
 
 // Options of a type that this program does not know are empty.
-const google::protobuf::EnumValueOptions& OptionsOf(const v1::Joint& joint) {
-  const google::protobuf::EnumValueDescriptor* const value =
-      v1::Joint::Type_descriptor()->FindValueByNumber(joint.type());
+const google::protobuf::EnumValueOptions& OptionsOf(v1::Joint::Type type) {
+  const google::protobuf::EnumValueDescriptor* const value = v1::Joint::Type_descriptor()->FindValueByNumber(type);
   return value == nullptr ? google::protobuf::EnumValueOptions::default_instance() : value->options();
 }
 
-bool Slides(const v1::Joint& joint) { return OptionsOf(joint).GetExtension(v1::joint_slides); }
+bool Slides(const v1::Joint& joint) { return OptionsOf(joint.type()).GetExtension(v1::joint_slides); }
 
 }  // namespace
 
 std::string JointWord(const v1::Joint& joint) {
-  const std::string& word = OptionsOf(joint).GetExtension(v1::joint_word);
+  const std::string& word = OptionsOf(joint.type()).GetExtension(v1::joint_word);
   return word.empty() ? "type " + std::to_string(joint.type()) : word;
 }
 
-bool Turns(const v1::Joint& joint) { return OptionsOf(joint).GetExtension(v1::joint_turns); }
+bool Turns(v1::Joint::Type type) { return OptionsOf(type).GetExtension(v1::joint_turns); }
 
 bool IsSlide(const v1::Joint& joint) { return Slides(joint) && !Turns(joint); }
 

@@ -15,7 +15,8 @@ std::string JointWord(const v1::Joint& joint);
 std::string JointText(const v1::Joint& joint);
 
 // True if positions are angles, rad, and efforts N m: the link turns about the axis.
-bool Turns(const v1::Joint& joint);
+bool Turns(v1::Joint::Type type);
+inline bool Turns(const v1::Joint& joint) { return Turns(joint.type()); }
 // True if positions are lengths, m, and efforts N: the link moves along the axis and does not turn.
 bool IsSlide(const v1::Joint& joint);
 // How far the link moves along the axis by unit of the position, m; 0 if it does not.

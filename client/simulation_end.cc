@@ -21,8 +21,7 @@ std::string SimulationEndText(v1::SimulationReport::End end) {
       return "ended early: friction leaves the motion undetermined; lower a coefficient or use fewer contacts";
     case v1::SimulationReport::END_ROLLING_IMPOSSIBLE:
       return "ended early: a contact would have to pull to go on rolling, and closes if it is let go; give it a "
-             "friction "
-             "coefficient and FRICTION_LOSS_SLIDE";
+             "friction coefficient and FRICTION_LOSS_SLIDE";
     case v1::SimulationReport::END_TOO_MANY_EVENTS:
       return "ended early: too many events; raise max_events";
     default:

@@ -181,7 +181,7 @@ ExitCode RunSceneTradeoff(const TradeoffOptions& options, const GlobalOptions& g
       const auto [run, cpu_time_s] = Measure(simulator, connection, SceneOfPoint(scene, points[i]), options.repeats);
       std::optional<SceneErrors> errors;
       if (IsCompleted(run.report().end())) errors = ErrorsAgainst(scene, reference, run);
-      table.rows.push_back(SceneRow(points[i], run.report(), cpu_time_s, errors, difference));
+      AddRow(table, SceneRow(points[i], run.report(), cpu_time_s, errors, difference));
       if (!options.output.empty()) {
         WriteFile((std::filesystem::path(options.output) / "tradeoff.json").string(),
                   TradeoffJson(table).dump(2) + "\n");

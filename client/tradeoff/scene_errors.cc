@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/failure.h"
+#include "client/joint_kinds.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -73,7 +74,7 @@ void Compare(const v1::SimulationScene& scene, const v1::SimulationSample& one, 
         Raise(errors.velocity_m_s, (a * VectorAt(v, at_v + 3) - b * VectorAt(u, at_v + 3)).norm());
       }
     } else {
-      const bool turns = joint.type() == v1::Joint::TYPE_REVOLUTE;
+      const bool turns = Turns(joint.type());
       const double scale = turns ? kDegrees : 1;
       Raise(turns ? errors.angle_deg : errors.position_m, (q[at_q] - p[at_q]) * scale);
       if (compares_velocities) {

@@ -104,7 +104,7 @@ TradeoffTable SolveTable(const std::string& name, const std::string& reference, 
                    {"estimated_objective_error", "estimated: %", 100, 4},
                    {"estimated_angle_error_deg", "angle °"},
                    {"estimated_torque_error_n_m", "torque N m"}};
-  for (const SolveRow& row : rows) table.rows.push_back(CellsOf(row));
+  for (const SolveRow& row : rows) AddRow(table, CellsOf(row));
   MarkFront(table);
   return table;
 }

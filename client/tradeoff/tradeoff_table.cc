@@ -1,6 +1,9 @@
 #include "client/tradeoff/tradeoff_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "client/formats/exact_number.h"
 #include "client/text.h"
@@ -36,6 +39,14 @@ bool HasWords(const TradeoffTable& table, const std::string& name) {
 }
 
 }  // namespace
+
+void AddRow(TradeoffTable& table, json row) {
+  for (auto cell = row.begin(); cell != row.end();) {
+    const bool known = !cell->is_number_float() || std::isfinite(cell->get<double>());
+    cell = known ? std::next(cell) : row.erase(cell);
+  }
+  table.rows.push_back(std::move(row));
+}
 
 void MarkFront(TradeoffTable& table) {
   const auto may_be = [&](const json& row) {

@@ -29,6 +29,9 @@ struct TradeoffTable {
   std::vector<nlohmann::json> rows;
 };
 
+// Adds a row without its cells that are no finite numbers: what is not known is missing, in every file alike.
+void AddRow(TradeoffTable& table, nlohmann::json row);
+
 // Sets on_front in every row: true in those that have found what the reference has and of which no other such row is
 // as fast and as accurate, and better in one.
 void MarkFront(TradeoffTable& table);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/base/check.h"
 #include "core/trajectory/sampling.h"
 #include "core/validation/body_overlap.h"
 #include "core/validation/residuals.h"
@@ -23,16 +24,10 @@ using Posture = std::vector<PosedBody>;
 PosedBody ShapeOf(const Surface& surface) {
   using Support = std::function<double(const Vector3&)>;
   PosedBody body;
-  if (const std::optional<WalkingShape> shape = surface.walking()) {
-    body.semi_axes = shape->semi_axes;
-    if (shape->support) body.norm = std::make_shared<const Support>(shape->support);
-    return body;
-  }
-  // No model that walks has another surface. It would be judged by its own support function.
-  for (int i = 0; i < 3; ++i) {
-    body.semi_axes[i] = std::max(surface.Support(Vector3::Unit(i)), surface.Support(-Vector3::Unit(i)));
-  }
-  body.norm = std::make_shared<const Support>([surface](const Vector3& nu) { return surface.Support(nu); });
+  const std::optional<WalkingShape> shape = surface.walking();
+  ROLLGAIT_CHECK(shape);  // no scene that walks has another surface: the checks of own models refuse it
+  body.semi_axes = shape->semi_axes;
+  if (shape->support) body.norm = std::make_shared<const Support>(shape->support);
   return body;
 }
 

@@ -1,21 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 
 #include "client/spec_flags.h"
+#include "tests/client/parse_spec.h"
 
 namespace rollgait::client {
 namespace {
-
-v1::SolveSpec Parse(const std::string& line) {
-  CLI::App app;
-  SpecFlags flags;
-  AddSpecFlags(app, flags);
-  app.parse(line);
-  return BuildSpec(flags);
-}
 
 TEST(MaxTimeTest, MayHaveAUnitAndAnotherName) {
   const std::map<std::string, double> good = {{"90", 90},  {"90s", 90},    {"0.5s", 0.5},

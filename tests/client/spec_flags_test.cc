@@ -4,7 +4,6 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -13,17 +12,10 @@
 #include "client/failure.h"
 #include "client/spec_words.h"
 #include "client/text.h"
+#include "tests/client/parse_spec.h"
 
 namespace rollgait::client {
 namespace {
-
-v1::SolveSpec Parse(const std::string& line) {
-  CLI::App app;
-  SpecFlags flags;
-  AddSpecFlags(app, flags);
-  app.parse(line);
-  return BuildSpec(flags);
-}
 
 // Each has its word in the proto, and from there in the flag, its help and its completion.
 TEST(SpecFlagsTest, EveryCostButTrackingHasAWord) {

@@ -125,6 +125,14 @@ TEST_F(SceneErrorsTest, LargestOfJointsOfEachKind) {
   EXPECT_NEAR(Errors().pose(), 0.1, 1e-12) << "the angle in rad is the larger one now";
 }
 
+// Whatever else a joint that turns does.
+TEST_F(SceneErrorsTest, PositionsOfAScrewAreAngles) {
+  scene_.mutable_joints(1)->set_type(v1::Joint::TYPE_SCREW);
+  other_.mutable_samples(2)->set_positions(1, 1.9);
+  EXPECT_NEAR(Errors().angle_deg, 0.1 * 180 / kPi, 1e-12);
+  EXPECT_EQ(Errors().position_m, 0);
+}
+
 TEST_F(SceneErrorsTest, OfAFreeJointTheRotationAndVelocitiesInOneFrame) {
   // Turned by 90 degrees about z, and the same velocity in the joint frame; q and -q are one orientation.
   v1::SimulationSample& sample = *other_.mutable_samples(0);
@@ -191,6 +199,10 @@ TEST(SceneRowTest, HasTheErrorsBesideWhatTheReportSays) {
               testing::ContainsRegex("\\* +1e-06 +1e-06 +none +duration +same +0.25 +12 +0 +0.002"));
   table.rows = {SceneRow(point, report, 0.25, errors, 0.0011)};
   EXPECT_THAT(TradeoffText(table), HasSubstr("?0.002"));
+  report.set_max_energy_error_j(std::nan(""));
+  AddRow(table, SceneRow(point, report, 0.25, errors, 0.0009));
+  EXPECT_FALSE(table.rows[1].contains("reported_energy_error_j")) << "in JSON it would be null, and 0 on the page";
+  EXPECT_THAT(TradeoffCsv(table), testing::EndsWith(",,0,0\n"));
   errors.same_motion = false;
   table.rows = {SceneRow(point, report, 0.25, errors, 0.0009)};
   MarkFront(table);
