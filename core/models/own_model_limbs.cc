@@ -71,14 +71,11 @@ void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
   const Vector3 origin = check->p_WL[index], expected = mirror * check->p_WL[other];
   if ((origin - expected).norm() > tolerance)
     differs("origin_m", origin.transpose(), expected.transpose(), " m (world)");
-  // A turn's axis is a pseudovector; along it the image of one that also moves advances the other way.
+  // A turn's axis is a pseudovector, and the image of a screw is one of the opposite hand.
   const Vector3 axis = R * joint.axis, flip = mirror * (R_image * image.axis) * joint.mirror_sign;
   const Vector3 wanted = joint.kind().turns ? Vector3(-flip) : flip;
   if ((axis - wanted).norm() > kMirrorTolerance) differs("axis", axis.transpose(), wanted.transpose(), " (world)");
-  const double advance = joint.kind().turns ? -image.Advance() : image.Advance();
-  if (std::abs(joint.Advance() - advance) > tolerance) {
-    differs("axis", joint.Advance(), advance, " m along it by unit of the position");
-  }
+  if (std::abs(joint.pitch + image.pitch) > tolerance) differs("pitch_m_rad", joint.pitch, -image.pitch, " m/rad");
   if (std::abs(joint.mass - image.mass) > kMirrorTolerance * joint.mass) {
     differs("mass_kg", joint.mass, image.mass, " kg");
   }

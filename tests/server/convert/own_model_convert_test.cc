@@ -78,8 +78,8 @@ TEST(OwnModelConvert, ScrewsOfOneHandOnBothSidesAreRefused) {
   }
   const Result<GaitSpec> checked = DecodeSpec(spec);
   ASSERT_FALSE(checked.ok());
-  EXPECT_NE(checked.violations()[0].message.find("m along it by unit of the position"), std::string::npos)
-      << checked.violations()[0].message;
+  EXPECT_EQ(checked.violations()[0].field.find("model.own.joints["), 0u);
+  EXPECT_NE(checked.violations()[0].field.find("].pitch_m_rad"), std::string::npos) << checked.violations()[0].field;
 }
 
 TEST(OwnModelConvert, RolesArriveUnderTheirNames) {
