@@ -7,6 +7,7 @@
 #include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "client/limit_use.h"
+#include "client/program_log.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -151,22 +152,15 @@ void AddFromLog(const std::vector<v1::Iteration>& log, Sentences* sentences) {
   }
 }
 
-Sentences HowTheIterationsWent(const v1::SolveResult& result, const std::vector<v1::Iteration>& log) {
+Sentences HowTheIterationsWent(const v1::Solve& solve, const std::vector<v1::Iteration>& log) {
+  const v1::SolveResult& result = solve.result();
   if (result.meshes().empty()) return {};
   int iterations = 0;
   for (const v1::MeshStatistics& mesh : result.meshes()) iterations += mesh.iterations();
-  Sentences sentences = {std::to_string(iterations) + " iterations on " + std::to_string(result.meshes_size()) +
-                         (result.meshes_size() == 1 ? " mesh" : " meshes") + " took " +
+  Sentences sentences = {std::to_string(iterations) + " iterations in " + std::to_string(result.meshes_size()) +
+                         (result.meshes_size() == 1 ? " program" : " programs") + " took " +
                          FormatDuration(result.wall_time_s()) + "."};
-  for (int i = 0; i < result.meshes_size(); ++i) {
-    const v1::MeshStatistics& mesh = result.meshes(i);
-    std::string intervals;
-    for (const int count : mesh.intervals()) intervals += (intervals.empty() ? "" : " + ") + std::to_string(count);
-    sentences.push_back("Mesh " + std::to_string(i + 1) + ", " + intervals +
-                        " intervals: " + std::to_string(mesh.iterations()) + " iterations to objective " +
-                        FormatNumber(mesh.objective(), 6) + ", KKT error " + FormatNumber(mesh.kkt_error(), 2) +
-                        ", slip " + FormatNumber(1e3 * mesh.max_slip_m_s(), 3) + " mm/s.");
-  }
+  for (std::string& sentence : ProgramSentences(solve)) sentences.push_back(std::move(sentence));
   AddFromLog(log, &sentences);
   return sentences;
 }
@@ -258,7 +252,7 @@ std::string Explain(const v1::Solve& solve, const std::vector<v1::Iteration>& it
   return solve.name() + "\n" + Heading("How it ended", HowItEnded(solve)) +
          Heading("What is not met", WhatIsNotMet(solve)) +
          Heading("Where it is on its limits", WhereItIsOnLimits(solve, uses)) +
-         Heading("How the iterations went", HowTheIterationsWent(solve.result(), iterations)) +
+         Heading("How the iterations went", HowTheIterationsWent(solve, iterations)) +
          Heading("What to change", WhatToChange(solve, uses));
 }
 

@@ -8,6 +8,7 @@
 #include "client/accuracy_table.h"
 #include "client/failure.h"
 #include "client/json.h"
+#include "client/program_log.h"
 #include "client/report/gait_events_data.h"
 #include "client/report/model_data.h"
 #include "client/report/rolling_path.h"
@@ -90,12 +91,15 @@ json CostTable(const v1::SolveResult& result) {
   return rows;
 }
 
-json MeshTable(const v1::SolveResult& result) {
+json MeshTable(const v1::Solve& solve) {
   json rows = json::array();
-  for (const v1::MeshStatistics& mesh : result.meshes()) {
+  for (const v1::MeshStatistics& mesh : solve.result().meshes()) {
     std::string intervals;
     for (const int n : mesh.intervals()) intervals += (intervals.empty() ? "" : " + ") + std::to_string(n);
-    rows.push_back({{"intervals", intervals},
+    const bool ended = mesh.termination() != v1::TERMINATION_UNSPECIFIED;
+    rows.push_back({{"program", ProgramWords(solve, mesh)},
+                    {"end", ended ? TerminationName(mesh.termination()) : ""},
+                    {"intervals", intervals},
                     {"unknowns", mesh.unknowns()},
                     {"constraints", mesh.constraints()},
                     {"jacobian", mesh.jacobian_nonzeros()},
@@ -231,7 +235,7 @@ json SolveData(const ReportedSolve& reported, const std::string& label) {
           {"scheme", SchemeName(result.trajectory().scheme())},
           {"costs", CostTable(result)},
           {"accuracy", result.has_accuracy() ? AccuracyTable(solve) : json::array()},
-          {"meshes", MeshTable(result)},
+          {"meshes", MeshTable(solve)},
           {"log", IterationTable(reported.iterations)},
           {"unmet", UnmetTable(result)},
           {"people", OwnComparison(result.normative())},

@@ -48,8 +48,16 @@ std::vector<UnmetConstraint> FindUnmet(CollocationNlp& nlp, const double* x, dou
 
 }  // namespace
 
-MeshStatistics Describe(const GaitSpec& spec, const CollocationNlp& nlp, const NlpResult& result) {
+MeshStatistics Describe(const GaitSpec& spec, StartOf start, const CollocationNlp& nlp, const NlpResult& result) {
   MeshStatistics statistics;
+  statistics.start = start;
+  statistics.slope = spec.slope;
+  statistics.kkt_tolerance = spec.kkt_tolerance;
+  statistics.cycle = spec.cycle;
+  statistics.has_sides_alike = spec.has_sides_alike;
+  statistics.has_added_rates = spec.has_added_rates;
+  statistics.termination = result.termination;
+  statistics.message = result.message;
   statistics.intervals = nlp.mesh().Intervals();
   statistics.unknowns = nlp.variables();
   statistics.constraints = nlp.constraints();

@@ -6,8 +6,8 @@
 
 namespace rollgait {
 
-// Size and effort of one NLP and its solve.
-MeshStatistics Describe(const GaitSpec& spec, const CollocationNlp& nlp, const NlpResult& result);
+// What one NLP of the spec was, how it ended, its size and effort.
+MeshStatistics Describe(const GaitSpec& spec, StartOf start, const CollocationNlp& nlp, const NlpResult& result);
 
 // Puts the solution of one NLP, judged, into `solution`; the judgement goes into its statistics too. The iterate must
 // be finite.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/gait/gait_spec.h"
+#include "core/gait/start_of.h"
 #include "core/nlp/result.h"
 #include "core/trajectory/trajectory.h"
 #include "core/validation/gait_events.h"
@@ -34,6 +35,14 @@ struct UnmetConstraint {
 };
 
 struct MeshStatistics {
+  // What the program is, beside its mesh and `smoothing`, and what it started from.
+  StartOf start = StartOf::kGuess;
+  double slope = 0, kkt_tolerance = 0;
+  Cycle cycle = Cycle::kFull;
+  bool has_sides_alike = false, has_added_rates = false;  // as in GaitSpec
+  // How it ended, and why in a sentence.
+  Termination termination = Termination::kNumericalDifficulty;
+  std::string message;
   std::vector<int> intervals;
   int unknowns = 0, constraints = 0, jacobian_nonzeros = 0, hessian_nonzeros = 0, iterations = 0;
   double wall_time = 0, evaluation_time = 0, objective = 0, kkt_error = 0, max_gap = 0, max_slip = 0;

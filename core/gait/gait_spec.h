@@ -54,6 +54,9 @@ struct GaitSpec {
   std::optional<MaxError> max_error;  // at least one is set
   // Its solution only starts another program: what it violates is left to that one (LeaveTheRest).
   bool is_only_a_start = false;
+  // What its program differs by from that of the request, for the log of programs.
+  bool has_sides_alike = false;  // the body lacks what makes its sides differ
+  bool has_added_rates = false;  // squared rates of torques were added to the costs
   NlpSolver nlp_solver;
   int max_iterations;
   double max_wall_time;

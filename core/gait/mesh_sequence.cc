@@ -14,6 +14,7 @@
 #include "core/gait/mesh_refinement.h"
 #include "core/gait/meshes.h"
 #include "core/gait/solver_settings.h"
+#include "core/nlp/termination.h"
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
@@ -31,14 +32,14 @@ struct Predecessor {
 };
 
 // Settings of a program that starts from a solution. One that does not end soon is lost.
-NlpOptions SettingsNear(StartOf start, const GaitSpec& spec) {
+ProgramSettings SettingsNear(StartOf start, const GaitSpec& spec) {
   constexpr int kMostIterations = 300;  // those that succeed take 5 to 200
-  NlpOptions options = SettingsFor(start, spec);
-  options.max_iterations = std::min(options.max_iterations, kMostIterations);
-  return options;
+  ProgramSettings settings = SettingsFor(start, spec);
+  settings.options.max_iterations = std::min(settings.options.max_iterations, kMostIterations);
+  return settings;
 }
 
-NlpOptions OptionsFor(const GaitSpec& spec, const MotionGuess& guess) {
+ProgramSettings SettingsAt(const GaitSpec& spec, const MotionGuess& guess) {
   return guess.near_solution ? SettingsNear(StartOf::kFinerMesh, spec) : SettingsFor(StartOf::kGuess, spec);
 }
 
@@ -117,10 +118,10 @@ Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& pro
 void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBudget* budget, GaitSolution* solution) {
   const WarmStart start{*solution->trajectory, solution->multipliers, solution->added};
   const Mesh mesh = MeshOf(start.trajectory);
-  const Predecessor finished =
-      SolveOneMesh(spec, problem, mesh, start.added, GuessFromTrajectory(start.trajectory),
-                   PredecessorOf(spec, problem, start, mesh), SettingsNear(StartOf::kSameMesh, spec), false, budget);
-  MeshStatistics statistics = Describe(spec, *finished.nlp, finished.result);
+  const ProgramSettings settings = SettingsNear(StartOf::kSameMesh, spec);
+  const Predecessor finished = SolveOneMesh(spec, problem, mesh, start.added, GuessFromTrajectory(start.trajectory),
+                                            PredecessorOf(spec, problem, start, mesh), settings.options, false, budget);
+  MeshStatistics statistics = Describe(spec, settings.start, *finished.nlp, finished.result);
   solution->termination = finished.result.termination;
   solution->message = finished.result.message;
   if (finished.result.x.size() > 0 && finished.result.x.allFinite()) {
@@ -130,7 +131,7 @@ void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBud
 }
 
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess,
-                       NlpOptions options, Predecessor previous, Mesh mesh, AddedConstraints added,
+                       ProgramSettings settings, Predecessor previous, Mesh mesh, AddedConstraints added,
                        SolveBudget* budget) {
   constexpr int kMostAdditions = 4;   // rounds that add constraints on the mesh as it is
   constexpr int kMostEdgeRounds = 3;  // the same for edges of friction pyramids, where nothing else is left to do
@@ -142,10 +143,10 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   while (true) {
     const bool can_refine = IsBounded(spec) && refinements < spec.max_refinements;
     Predecessor current =
-        SolveOneMesh(spec, problem, mesh, added, guess, std::move(previous), options, can_refine, budget);
+        SolveOneMesh(spec, problem, mesh, added, guess, std::move(previous), settings.options, can_refine, budget);
     CollocationNlp& nlp = *current.nlp;
     const NlpResult& result = current.result;
-    MeshStatistics statistics = Describe(spec, nlp, result);
+    MeshStatistics statistics = Describe(spec, settings.start, nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
     const bool keep_previous =
         !solution.meshes.empty() && !Converged(result.termination) && !IsArtefact(spec, solution);
@@ -179,7 +180,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       if (!has_new_edges || edge_rounds++ == kMostEdgeRounds) break;
       within = solution;
       guess = GuessFromTrajectory(*solution.trajectory);
-      options = SettingsNear(StartOf::kFinerMesh, spec);
+      settings = SettingsNear(StartOf::kFinerMesh, spec);
       previous = std::move(current);
       continue;
     }
@@ -188,7 +189,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       // Bodies that overlapped move a long way: on the same mesh first, and as from the solution of a neighbour.
       ++additions;
       guess = GuessFromTrajectory(*solution.trajectory);
-      options = SettingsNear(StartOf::kNeighbour, spec);
+      settings = SettingsNear(StartOf::kNeighbour, spec);
       previous = std::move(current);
       continue;
     }
@@ -217,7 +218,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     const bool hardly_grows = HardlyGrows(mesh, finer);
     mesh = finer;
     guess = GuessFromTrajectory(*solution.trajectory);
-    options = SettingsNear(hardly_grows ? StartOf::kHardlyFinerMesh : StartOf::kFinerMesh, spec);
+    settings = SettingsNear(hardly_grows ? StartOf::kHardlyFinerMesh : StartOf::kFinerMesh, spec);
     previous = std::move(current);
   }
   if (within && solution.verdict.kind == Verdict::Kind::kExceeded) {
@@ -227,7 +228,12 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     remark = " With more edges of the friction pyramids not every bound was met.";
     is_rough = false;
   }
-  if (is_rough) Finish(spec, problem, budget, &solution);
+  if (is_rough && budget->Left()) {
+    Finish(spec, problem, budget, &solution);
+  } else if (is_rough) {
+    solution.termination = budget->Cut().value_or(Termination::kIterationLimit);
+    solution.message = Explain(solution.termination);
+  }
   solution.message += remark;
   // Without bounds (draft) the request asks for the optimum of its mesh, whatever that is worth; the report tells.
   if (IsBounded(spec) && Converged(solution.termination) && IsArtefact(spec, solution)) {
@@ -265,10 +271,10 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
     Mesh finer = RefineMesh(mesh, spec, trajectory, *report, false);
     if (TotalIntervals(finer) <= kMostIntervals) mesh = std::move(finer);
   }
-  NlpOptions options = SettingsFor(start_of, spec);
-  options.max_iterations = max_iterations;
+  ProgramSettings settings = SettingsFor(start_of, spec);
+  settings.options.max_iterations = max_iterations;
   GaitSolution solution =
-      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), options, std::move(previous), std::move(mesh),
+      SolveFrom(spec, problem, GuessFromTrajectory(trajectory), settings, std::move(previous), std::move(mesh),
                 IsBounded(spec) ? ConstraintsAfter(*spec.warm_start) : EdgesOf(spec.warm_start->added), budget);
   solution.warm_started = true;
   solution.used_multipliers = used_multipliers;
@@ -279,7 +285,7 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
 
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess,
                            Mesh mesh, SolveBudget* budget) {
-  return SolveFrom(spec, problem, guess, OptionsFor(spec, guess), {}, std::move(mesh), UsualConstraints(spec), budget);
+  return SolveFrom(spec, problem, guess, SettingsAt(spec, guess), {}, std::move(mesh), UsualConstraints(spec), budget);
 }
 
 WarmStart StartFrom(const GaitSpec& spec, const GaitSolution& solution) {
@@ -291,9 +297,9 @@ WarmStart StartFrom(const GaitSpec& spec, const GaitSolution& solution) {
 GaitSolution SolveFromCoarser(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& coarser,
                               Mesh mesh, SolveBudget* budget) {
   const Mesh other = MeshOf(coarser.trajectory);
-  const NlpOptions options =
+  const ProgramSettings settings =
       SettingsFor(HasShorterIntervals(mesh, other) ? StartOf::kFinerMesh : StartOf::kSameMesh, spec);
-  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), options,
+  return SolveFrom(spec, problem, GuessFromTrajectory(coarser.trajectory), settings,
                    PredecessorOf(spec, problem, coarser, other), std::move(mesh), ConstraintsAfter(coarser), budget);
 }
 

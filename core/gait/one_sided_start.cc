@@ -39,7 +39,10 @@ MatrixX Rows(const MatrixX& of, const std::vector<int>& rows) {
 }  // namespace
 
 std::optional<GaitSpec> SymmetricStepOf(const GaitSpec& spec) {
-  return spec.symmetric ? HalfCycleOf(*spec.symmetric) : std::nullopt;
+  if (!spec.symmetric) return std::nullopt;
+  std::optional<GaitSpec> step = HalfCycleOf(*spec.symmetric);
+  if (step) step->has_sides_alike = true;
+  return step;
 }
 
 WarmStart OneSidedStart(const GaitSpec& spec, const GaitSolution& step) {

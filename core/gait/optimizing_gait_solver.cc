@@ -22,6 +22,7 @@
 #include "core/gait/solve_manoeuvre.h"
 #include "core/gait/solver_settings.h"
 #include "core/gait/walking_search.h"
+#include "core/nlp/termination.h"
 
 namespace rollgait {
 namespace {
@@ -140,8 +141,16 @@ GaitSolution SearchWithoutRates(const GaitSpec& spec, SolveBudget* budget) {
 
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget);
 
-// One step first, where the second may be its mirror image. Empty where that does not answer; `meshes` receives those
-// that came before the solution.
+// Of a search that ended before any program of the spec itself: on the way there nothing was left.
+GaitSolution WithoutAnyProgram(const SolveBudget& budget) {
+  GaitSolution solution;
+  solution.termination = budget.Cut().value_or(Termination::kIterationLimit);
+  solution.message = Explain(solution.termination);
+  return solution;
+}
+
+// One step first, where the second may be its mirror image. Empty where that does not answer and the search goes on;
+// `meshes` receives those that came before the solution.
 std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* budget,
                                            std::vector<MeshStatistics>* meshes) {
   const std::optional<GaitSpec> half = HalfCycleOf(spec);
@@ -153,14 +162,13 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
   both.warm_start = BothSteps(spec, step);
   const auto problem = BuildProblem(both);
   GaitSolution solution = SolveFromImage(both, *problem, MostIterations::kFromImage, budget);
-  if (!Answers(solution)) {
+  if (!Answers(solution) && budget->Left()) {
     // A symmetric gait may be a saddle point of the full cycle: unequal steps are cheaper, and the solver leaves the
     // image, which lies too close to its bounds to go anywhere from.
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
-    if (!budget->Left()) return std::nullopt;
     solution = SolveFromNeighbour(both, *problem, MostIterations::kFromWarmStart, budget);
   }
-  if (!Answers(solution)) {
+  if (!Answers(solution) && budget->Left()) {
     meshes->insert(meshes->end(), solution.meshes.begin(), solution.meshes.end());
     return std::nullopt;
   }
@@ -171,7 +179,7 @@ std::optional<GaitSolution> SearchByHalves(const GaitSpec& spec, SolveBudget* bu
 
 // From a step of the body whose sides are alike, and its mirror image; with smooth powers first, where powers cost.
 // Where the request asks for several starts the guesses are tried as well, and the cheaper gait is taken. Empty where
-// none answers; `meshes` as above.
+// none answers and the search goes on; `meshes` as above.
 std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudget* budget,
                                                 std::vector<MeshStatistics>* meshes) {
   // With both sides alike the body walks the cheaper, so another start saves about what the difference of the sides
@@ -193,6 +201,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
       SolveFromNeighbour(from_step, *BuildProblem(from_step), MostIterations::kFromSymmetric, budget);
   solution.warm_started = solution.used_multipliers = false;  // not from what the request named
   if (!Converged(solution.termination)) {
+    if (!budget->Left()) return solution;
     keep_meshes(&solution);
     return std::nullopt;
   }
@@ -215,7 +224,7 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   }
   for (GaitSolution& candidate : candidates) {
     if (NeedsSmoothing(spec)) candidate = Sharpen(spec, std::move(candidate), budget);
-    if (Answers(candidate)) return std::move(candidate);
+    if (Answers(candidate) || !budget->Left()) return std::move(candidate);
     keep_meshes(&candidate);
   }
   return std::nullopt;
@@ -224,7 +233,8 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   std::vector<MeshStatistics> meshes;
   std::optional<GaitSolution> solution = SearchByHalves(spec, budget, &meshes);
-  if (!solution) solution = SearchFromSymmetric(spec, budget, &meshes);
+  if (!solution && budget->Left()) solution = SearchFromSymmetric(spec, budget, &meshes);
+  if (!solution && !budget->Left()) solution = WithoutAnyProgram(*budget);
   if (!solution) {
     solution =
         LeavesRatesFree(spec) ? SearchWithoutRates(spec, budget) : SearchByMeshes(spec, Otherwise::kContinue, budget);

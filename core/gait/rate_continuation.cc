@@ -29,6 +29,7 @@ GaitSpec WithRatesAt(double rate_weight, GaitSpec spec) {
   GaitSpec::CostTerm& rate = spec.costs.emplace_back();
   rate.term = cost::SquaredTorqueRate{};
   rate.weight = weight;
+  spec.has_added_rates = true;
   return spec;
 }
 

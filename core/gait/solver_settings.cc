@@ -73,7 +73,7 @@ const int MostIterations::kFromImage = 30;
 const int MostIterations::kFromSymmetric = 200;
 const int MostIterations::kFromWarmStart = 200;  // cold starts take fewer
 
-NlpOptions SettingsFor(StartOf start, const GaitSpec& spec) {
+ProgramSettings SettingsFor(StartOf start, const GaitSpec& spec) {
   const Costs costs = LeastSmoothing(spec) ? Costs::kWithPowers : Costs::kWithoutPowers;
   for (const Settings& row : kTable) {
     if (row.start != start || (row.costs != Costs::kAny && row.costs != costs)) continue;
@@ -92,7 +92,7 @@ NlpOptions SettingsFor(StartOf start, const GaitSpec& spec) {
       options.estimate_multipliers = true;
       options.initial_barrier = BarrierParameter::Least(options.tolerance);
     }
-    return options;
+    return {start, options};
   }
   ROLLGAIT_CHECK(false);
 }

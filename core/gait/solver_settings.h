@@ -2,21 +2,10 @@
 #define ROLLGAIT_CORE_GAIT_SOLVER_SETTINGS_H_
 
 #include "core/gait/gait_spec.h"
+#include "core/gait/start_of.h"
 #include "core/nlp/nlp_options.h"
 
 namespace rollgait {
-
-// What a program starts from.
-enum class StartOf {
-  kGuess,            // a guess that knows nothing of the solution
-  kNeighbour,        // the solution of a problem that differs a little: smoother powers, pairs of bodies that were free
-  kSmoother,         // the solution of this problem with smoother powers, on a coarser mesh
-  kOtherRequest,     // the solution of another request
-  kFinerMesh,        // the solution of this problem on a coarser mesh
-  kHardlyFinerMesh,  // the same where the mesh has at most a twentieth of intervals more
-  kImage,            // the solution of half of this problem and its mirror image
-  kSameMesh,         // the solution of this problem on a mesh whose intervals are nowhere longer
-};
 
 // Tolerance of a program whose solution is only a start of the spec's: 1e-2, or the spec's, where that is looser.
 double ToleranceOfStart(const GaitSpec& spec);
@@ -30,8 +19,12 @@ struct MostIterations {
   static const int kFromWarmStart;  // that the request names
 };
 
-// Settings of the interior point method for a program of the spec that starts so.
-NlpOptions SettingsFor(StartOf start, const GaitSpec& spec);
+// Settings of the interior point method for a program that starts so.
+struct ProgramSettings {
+  StartOf start;
+  NlpOptions options;
+};
+ProgramSettings SettingsFor(StartOf start, const GaitSpec& spec);
 
 }  // namespace rollgait
 

@@ -133,7 +133,36 @@ void EncodeUnmet(const UnmetConstraint& unmet, v1::UnmetConstraint* encoded) {
   encoded->set_unit(unmet.unit);
 }
 
+v1::ProgramStart EncodeStart(StartOf start) {
+  switch (start) {
+    case StartOf::kGuess:
+      return v1::PROGRAM_START_GUESS;
+    case StartOf::kNeighbour:
+      return v1::PROGRAM_START_NEIGHBOUR;
+    case StartOf::kSmoother:
+      return v1::PROGRAM_START_SMOOTHER;
+    case StartOf::kOtherRequest:
+      return v1::PROGRAM_START_OTHER_REQUEST;
+    case StartOf::kFinerMesh:
+    case StartOf::kHardlyFinerMesh:
+      return v1::PROGRAM_START_COARSER_MESH;
+    case StartOf::kImage:
+      return v1::PROGRAM_START_MIRROR_IMAGE;
+    case StartOf::kSameMesh:
+      return v1::PROGRAM_START_SAME_MESH;
+  }
+  ROLLGAIT_CHECK(false);
+}
+
 void EncodeMesh(const MeshStatistics& mesh, v1::MeshStatistics* encoded) {
+  encoded->set_start(EncodeStart(mesh.start));
+  encoded->set_termination(EncodeTermination(mesh.termination));
+  encoded->set_message(mesh.message);
+  encoded->set_slope_rad(mesh.slope);
+  encoded->set_kkt_tolerance(mesh.kkt_tolerance);
+  encoded->set_half_cycle(mesh.cycle == Cycle::kHalf);
+  encoded->set_sides_alike(mesh.has_sides_alike);
+  encoded->set_added_torque_rates(mesh.has_added_rates);
   encoded->mutable_intervals()->Add(mesh.intervals.begin(), mesh.intervals.end());
   encoded->set_unknowns(mesh.unknowns);
   encoded->set_constraints(mesh.constraints);

@@ -100,7 +100,7 @@ TEST(ExplanationTest, AnOptimumSaysSoAndHowItWasReached) {
   EXPECT_THAT(text, HasSubstr("solves/s\n\nHow it ended\n  The solver found a local optimum"));
   EXPECT_THAT(text, HasSubstr("Active bounds: 1 of 2 unknowns of the last program"));
   EXPECT_THAT(text, HasSubstr("How the iterations went\n"));
-  EXPECT_THAT(text, HasSubstr("Mesh 1, "));
+  EXPECT_THAT(text, HasSubstr("Program 1, 8 + 16 intervals: 41 iterations"));
   EXPECT_THAT(text, Not(HasSubstr("What is not met")));
 }
 

@@ -74,12 +74,14 @@ function convergence() {
     ? table(
         [
           "Slope",
+          "Program",
           "Intervals",
           "Unknowns",
           "Constraints",
           "Jacobian",
           "Hessian",
           "Iterations",
+          "End",
           "Time",
           "Evaluation",
           "Objective",
@@ -90,12 +92,14 @@ function convergence() {
         meshed.flatMap((s) =>
           s.meshes.map((m, i) => [
             i ? "" : labelOf(s),
+            m.program,
             m.intervals,
             String(m.unknowns),
             String(m.constraints),
             String(m.jacobian),
             String(m.hessian),
             String(m.iterations),
+            m.end,
             m.wall,
             m.evaluation,
             fmt(m.objective, 6),
@@ -104,8 +108,8 @@ function convergence() {
             `${fmt(m.slip_mm_s, 3)} mm/s`,
           ]),
         ),
-        [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
-        "Meshes",
+        [3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14],
+        "Programs of the search",
       )
     : null;
   const fold = (title, content) =>
