@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "server/store/sqlite_connection.h"
 #include "tests/schedules/event_words.h"
+#include "tests/schedules/memory_files.h"
 #include "tests/schedules/store_bed.h"
 
 namespace rollgait::server {
@@ -16,6 +17,7 @@ constexpr char kEvents[] = "SELECT sequence, payload FROM events WHERE solve = ?
 class SqliteBed : public StoreBed, public StoreView {
  public:
   SqliteBed() {
+    KeepSqliteFilesInMemory();
     const std::filesystem::path shared = "/dev/shm";
     const bool in_memory = std::filesystem::is_directory(shared);
     std::string name = ((in_memory ? shared : std::filesystem::temp_directory_path()) / "rollgait-XXXXXX").string();
