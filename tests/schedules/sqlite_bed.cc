@@ -23,6 +23,9 @@ class SqliteBed : public StoreBed, public StoreView {
     std::string name = ((in_memory ? shared : std::filesystem::temp_directory_path()) / "rollgait-XXXXXX").string();
     ROLLGAIT_CHECK(mkdtemp(name.data()) != nullptr);
     directory_ = name;
+    // Rows are short, and pages are what a commit writes.
+    ROLLGAIT_CHECK(sqlite3_open(path().c_str(), &handle_) == SQLITE_OK);
+    Execute("PRAGMA page_size=1024; PRAGMA journal_mode=WAL;");
   }
   ~SqliteBed() override {
     for (sqlite3_stmt* statement : {solves_, events_}) sqlite3_finalize(statement);
@@ -83,8 +86,7 @@ class SqliteBed : public StoreBed, public StoreView {
 
   // The tables are there by now.
   void Open() {
-    if (handle_ != nullptr) return;
-    ROLLGAIT_CHECK(sqlite3_open(path().c_str(), &handle_) == SQLITE_OK);
+    if (solves_ != nullptr) return;
     ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kSelectSolves, -1, &solves_, nullptr) == SQLITE_OK);
     ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kEvents, -1, &events_, nullptr) == SQLITE_OK);
     Execute("PRAGMA foreign_keys=ON;");
