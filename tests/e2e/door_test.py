@@ -3,7 +3,7 @@ server learns who calls from the door alone.
 
   door_test.py [TEST...]    environment: ROLLGAITD, ROLLGAIT_GATEWAY, SLOW_SOLVER, ROLLGAIT_SOURCE; exit code 77: haproxy is missing
 
-Asserts answers and memory, not times; prints a row of docs/explanation/door.md's table for each attack.
+Asserts answers, memory and which alerts an attack raises, not times; prints a row of docs/explanation/door.md's table for each attack.
 """
 import contextlib
 import http.client
@@ -29,6 +29,8 @@ try:
 except ImportError:
     print("skipped: Python has no grpc here; scripts/install-packages installs it")
     sys.exit(77)
+
+import alert_rules
 
 SOURCE = os.environ["ROLLGAIT_SOURCE"]
 ATTACKS = SOURCE + "/tests/faults/attacks.py"
@@ -197,7 +199,9 @@ class DoorTest(unittest.TestCase):
         return json.loads(line)
 
     def test_good_calls_are_answered_during_every_attack(self):
-        server = self.serve("--behind-door", "--require-token", door={})
+        watched = f"127.0.0.1:{free_port()}", f"127.0.0.1:{free_port()}"
+        server = self.serve("--behind-door", "--require-token", "--metrics-listen", watched[0],
+                            door={"ROLLGAIT_DOOR_METRICS": watched[1]})
         hostile = server.token("hostile")
         with open(server.directory + "/token", "w", encoding="utf-8") as file:
             file.write(hostile)
@@ -209,23 +213,34 @@ class DoorTest(unittest.TestCase):
         attacks = ["continuation_flood", "rapid_reset", "hpack_varint", "hpack_bomb", "idle_connections",
                    "half_handshakes", "half_calls", "half_bodies", "compressed_bodies", "unread_refusals", "unread_answers",
                    "unread_results", "unread_watches"]
-        print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB |")
+        rules = alert_rules.rules(SOURCE + "/docker/observability/alerts.yml")
+        print("| attack | connections | streams | MB sent | good calls | p50 ms | p99 ms | rollgaitd MiB | door MiB | alerts |")
         try:
+            before = alert_rules.scrape(*watched)
+            time.sleep(SECONDS)
+            after = alert_rules.scrape(*watched)
+            self.assertEqual([name for name, rule in rules.items() if alert_rules.fires(rule, before, after, SECONDS)], [],
+                             "alerts without an attack")
             for number, name in enumerate(attacks):
                 legal = name.startswith("unread_") and name != "unread_refusals"
                 more = ("--token", server.directory + "/token", "--solve", solve) if legal else ()
                 caller.attack = name
                 caller.times.clear()
+                before = alert_rules.scrape(*watched)
                 made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
                                    *more)
                 peaks = memory(server.rollgaitd), memory(server.haproxy)
+                after = alert_rules.scrape(*watched)
+                alerts = [alert.removeprefix("Rollgait") for alert, rule in rules.items()
+                          if alert_rules.fires(rule, before, after, SECONDS)]
                 print(f"| {name} | {made['connections']} | {made['streams']} | {made['bytes'] / 1e6:.0f} "
-                      f"| {caller.row()} | {peaks[0]} | {peaks[1]} |", flush=True)
+                      f"| {caller.row()} | {peaks[0]} | {peaks[1]} | {', '.join(alerts)} |", flush=True)
                 self.assertGreater(made["connections"], 0, "the attack never reached the door")
                 self.assertIsNone(server.rollgaitd.poll(), "rollgaitd has ended")
                 self.assertIsNone(server.haproxy.poll(), "haproxy has ended")
                 self.assertLess(peaks[0], MOST_MIB, name)
                 self.assertLess(peaks[1], MOST_MIB, name)
+                self.assertNotEqual(alerts, [], f"nobody is told of {name}")
         finally:
             caller.stopping.set()
             caller.join()
@@ -337,7 +352,7 @@ class DoorTest(unittest.TestCase):
             gateway.stdout.close()
 
     def test_the_configuration_holds_no_warning(self):
-        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")}):
+        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt"), "ROLLGAIT_DOOR_METRICS": "127.0.0.1:9466"}):
             checked = subprocess.run(
                 ["haproxy", "-c", "-f", SOURCE + "/docker/door/haproxy.cfg"], capture_output=True, text=True, check=False,
                 env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin",

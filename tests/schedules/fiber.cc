@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <utility>
 
@@ -28,13 +29,13 @@ FiberStack::~FiberStack() { munmap(memory_, kBytes + PageBytes()); }
 void* FiberStack::bottom() const { return static_cast<char*>(memory_) + PageBytes(); }
 
 Fiber::Fiber(FiberStack& stack, std::function<void()> body) : body_(std::move(body)) {
-  ROLLGAIT_CHECK(getcontext(&inside_) == 0);
-  inside_.uc_stack.ss_sp = stack.bottom();
-  inside_.uc_stack.ss_size = FiberStack::kBytes;
-  inside_.uc_link = nullptr;
+  ROLLGAIT_CHECK(getcontext(&start_) == 0);
+  start_.uc_stack.ss_sp = stack.bottom();
+  start_.uc_stack.ss_size = FiberStack::kBytes;
+  start_.uc_link = nullptr;
   // makecontext hands over integers only.
   const auto address = reinterpret_cast<uintptr_t>(this);
-  makecontext(&inside_, reinterpret_cast<void (*)()>(&Fiber::Enter), 2, static_cast<unsigned>(address >> 32),
+  makecontext(&start_, reinterpret_cast<void (*)()>(&Fiber::Enter), 2, static_cast<unsigned>(address >> 32),
               static_cast<unsigned>(address & 0xffffffffu));
 }
 
@@ -47,13 +48,17 @@ void Fiber::Enter(unsigned high, unsigned low) {
 
 void Fiber::Resume() {
   ROLLGAIT_CHECK(!ended_);
-  ROLLGAIT_CHECK(swapcontext(&outside_, &inside_) == 0);
+  if (_setjmp(outside_) != 0) return;
+  if (started_) _longjmp(inside_, 1);
+  started_ = true;
+  setcontext(&start_);
+  std::abort();  // setcontext came back
 }
 
 void Fiber::Suspend() {
   // Exceptions that are being handled belong to the thread, not to the stack.
   ROLLGAIT_CHECK(std::current_exception() == nullptr && std::uncaught_exceptions() == 0);
-  ROLLGAIT_CHECK(swapcontext(&inside_, &outside_) == 0);
+  if (_setjmp(inside_) == 0) _longjmp(outside_, 1);
 }
 
 }  // namespace rollgait::server

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_TESTS_SCHEDULES_FIBER_H_
 #define ROLLGAIT_TESTS_SCHEDULES_FIBER_H_
 
+#include <setjmp.h>
 #include <ucontext.h>
 
 #include <cstddef>
@@ -42,8 +43,11 @@ class Fiber {
   static void Enter(unsigned high, unsigned low);
 
   const std::function<void()> body_;
-  ucontext_t inside_{}, outside_{};
-  bool ended_ = false;
+  // Where it goes on: makecontext starts a stack, and _longjmp changes stacks without asking the kernel for signals'
+  // masks.
+  ucontext_t start_{};
+  jmp_buf inside_, outside_;
+  bool started_ = false, ended_ = false;
 };
 
 }  // namespace rollgait::server

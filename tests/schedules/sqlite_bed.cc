@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "server/store/sqlite_connection.h"
 #include "tests/schedules/event_words.h"
+#include "tests/schedules/memory_files.h"
 #include "tests/schedules/store_bed.h"
 
 namespace rollgait::server {
@@ -16,11 +17,15 @@ constexpr char kEvents[] = "SELECT sequence, payload FROM events WHERE solve = ?
 class SqliteBed : public StoreBed, public StoreView {
  public:
   SqliteBed() {
+    KeepSqliteFilesInMemory();
     const std::filesystem::path shared = "/dev/shm";
     const bool in_memory = std::filesystem::is_directory(shared);
     std::string name = ((in_memory ? shared : std::filesystem::temp_directory_path()) / "rollgait-XXXXXX").string();
     ROLLGAIT_CHECK(mkdtemp(name.data()) != nullptr);
     directory_ = name;
+    // Rows are short, and pages are what a commit writes.
+    ROLLGAIT_CHECK(sqlite3_open(path().c_str(), &handle_) == SQLITE_OK);
+    Execute("PRAGMA page_size=1024; PRAGMA journal_mode=WAL;");
   }
   ~SqliteBed() override {
     for (sqlite3_stmt* statement : {solves_, events_}) sqlite3_finalize(statement);
@@ -81,8 +86,7 @@ class SqliteBed : public StoreBed, public StoreView {
 
   // The tables are there by now.
   void Open() {
-    if (handle_ != nullptr) return;
-    ROLLGAIT_CHECK(sqlite3_open(path().c_str(), &handle_) == SQLITE_OK);
+    if (solves_ != nullptr) return;
     ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kSelectSolves, -1, &solves_, nullptr) == SQLITE_OK);
     ROLLGAIT_CHECK(sqlite3_prepare_v2(handle_, kEvents, -1, &events_, nullptr) == SQLITE_OK);
     Execute("PRAGMA foreign_keys=ON;");
