@@ -1,18 +1,19 @@
 #include "client/import/side_proposal.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 
 #include "client/failure.h"
-#include "client/import/foot_fit.h"
+#include "client/import/foot_proposal.h"
+#include "client/import/leg_chains.h"
 #include "client/import/limb_roles.h"
 #include "client/import/mirror_average.h"
 #include "client/import/mirror_images.h"
 #include "client/import/mirror_names.h"
 #include "client/import/tree_model.h"
+#include "client/import/upright.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -33,14 +34,16 @@ class Proposer {
                                   "\": models have letters, digits, \"_\", \"-\" and \".\" in theirs");
     }
     LockJoints();
-    Place(0);
+    Place();
+    StandUpright();
     TurnToLeft();
+    StayInPlane();
     FindLegs();
     SetRoles();
     for (const auto& [side, chain] : legs_) AddFoot(side, chain);
     LockUnlimited();
     AddJoints();
-    AddFeetPair();
+    AddFeetPairs(&proposal_.side);
     CheckMirror();
     for (const v1::BodySide side : kSides) {
       if (legs_.count(side) == 0) {
@@ -54,8 +57,8 @@ class Proposer {
  private:
   const TreeJoint& Joint(int i) const { return tree_.joints[static_cast<size_t>(i)]; }
 
-  bool IsSideways(int i) const {
-    const double across = std::abs(upright_.axes[static_cast<size_t>(i)].y());
+  bool IsSideways(const TreePosture& posture, int i) const {
+    const double across = std::abs(posture.axes[static_cast<size_t>(i)].y());
     return Joint(i).type == TreeJoint::Type::kPrismatic ? across > 1e-6 : across < 1 - 1e-6;
   }
 
@@ -71,7 +74,7 @@ class Proposer {
       const bool planar = joint.type == TreeJoint::Type::kPlanar;
       if (!planar && !joint.Moves()) continue;
       // The base moves in the plane: so does everything else.
-      const bool sideways = tree_.base_in_plane && IsSideways(static_cast<int>(i));
+      const bool sideways = tree_.base_in_plane && IsSideways(upright_, static_cast<int>(i));
       locked_[i] = planar || !joint.mimics.empty() || moves_none[i] || sideways;
       if (locked_[i]) {
         proposal_.reasons.push_back("joint \"" + joint.name + "\" is locked: it " +
@@ -88,58 +91,49 @@ class Proposer {
     }
   }
 
-  void Place(double yaw) {
-    const Pose root{Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix(), Eigen::Vector3d::Zero()};
-    posture_ = PostureOf(tree_, root, positions_, locked_);
+  void Place() { posture_ = PostureOf(tree_, {turn_, Eigen::Vector3d::Zero()}, positions_, locked_); }
+
+  // Turns the root by one more rotation in the world.
+  void Turn(const Eigen::Matrix3d& rotation) {
+    turn_ = rotation * turn_;
+    const Eigen::Quaterniond q(turn_);
+    v1::Quaternion& to = *proposal_.side.mutable_base_orientation();
+    to.set_w(q.w());
+    to.set_x(q.x());
+    to.set_y(q.y());
+    to.set_z(q.z());
+    Place();
   }
 
-  // Of a joint: by its name, the name of its link, else by where its link is.
-  v1::BodySide SideOf(int joint) const {
-    const auto child = static_cast<size_t>(Joint(joint).child);
-    for (const std::string& name : {Joint(joint).name, tree_.links[child].name}) {
-      if (MirrorNameOf(name).side != v1::BODY_SIDE_UNSPECIFIED) return MirrorNameOf(name).side;
-    }
-    const double y = posture_.links[child].position.y();
-    return y > 0.01 ? v1::BODY_SIDE_LEFT : y < -0.01 ? v1::BODY_SIDE_RIGHT : v1::BODY_SIDE_UNSPECIFIED;
+  void StandUpright() {
+    const auto turn = TurnUpright(tree_, posture_);
+    if (!turn) return;
+    Turn(*turn);
+    const Eigen::AngleAxisd by(*turn);
+    proposal_.reasons.push_back("the root is turned by " + FormatNumber(by.angle() * 180 / kPi) + "° about (" +
+                                FormatNumber(by.axis().x()) + ", " + FormatNumber(by.axis().y()) +
+                                ", 0): the legs hang then along −z");
   }
 
-  double Lowest(int joint) const {
-    const std::vector<int> links = LinksMovedBy(posture_, joint);
-    if (const auto extent = ExtentOf(tree_, posture_, links)) return extent->least.z();
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const int link : links) lowest = std::min(lowest, posture_.links[static_cast<size_t>(link)].position.z());
-    return lowest;
-  }
-
-  // The last joint of the chain that reaches lowest; -1 if the side has none.
-  int LegEnd(v1::BodySide side) const {
-    int end = -1;
+  // A body without a joint that moves it sideways cannot keep its balance sideways.
+  void StayInPlane() {
+    if (tree_.base_in_plane) return;
+    bool moves = false;
     for (int i = 0; i < static_cast<int>(tree_.joints.size()); ++i) {
-      if (!Joint(i).Moves() || locked_[static_cast<size_t>(i)] || SideOf(i) != side) continue;
-      const bool is_last = std::none_of(tree_.joints.begin(), tree_.joints.end(), [&](const TreeJoint& other) {
-        const int index = static_cast<int>(&other - tree_.joints.data());
-        return other.Moves() && !locked_[static_cast<size_t>(index)] &&
-               posture_.behind[static_cast<size_t>(index)] == i;
-      });
-      if (is_last && (end < 0 || Lowest(i) < Lowest(end))) end = i;
+      if (!Joint(i).Moves() || locked_[static_cast<size_t>(i)]) continue;
+      if (IsSideways(posture_, i)) return;
+      moves = true;
     }
-    return end;
+    if (!moves) return;
+    proposal_.side.set_base(v1::ModelSideFile::BASE_PLANE);
+    proposal_.reasons.push_back("base BASE_PLANE: no joint moves out of the plane of x and z");
   }
 
-  // The chain to the end, without what also carries the other leg.
-  std::vector<int> LegTo(int end, int other) const {
-    const std::vector<int> shared = other < 0 ? std::vector<int>() : ChainTo(posture_, other);
-    std::vector<int> leg = ChainTo(posture_, end);
-    leg.erase(std::remove_if(leg.begin(), leg.end(),
-                             [&](int i) { return std::find(shared.begin(), shared.end(), i) != shared.end(); }),
-              leg.end());
-    return leg;
-  }
   void FindLegs() {
-    const int ends[] = {LegEnd(kSides[0]), LegEnd(kSides[1])};
+    const int ends[] = {LegEnd(tree_, posture_, locked_, kSides[0]), LegEnd(tree_, posture_, locked_, kSides[1])};
     for (const int k : {0, 1}) {
       if (ends[k] < 0) continue;
-      legs_.emplace(kSides[k], LegTo(ends[k], ends[1 - k]));
+      legs_.emplace(kSides[k], LegTo(posture_, ends[k], ends[1 - k]));
       // What carries both legs flexes no trunk above the base.
       for (const int i : ChainTo(posture_, ends[k])) carries_leg_[static_cast<size_t>(i)] = true;
     }
@@ -147,25 +141,25 @@ class Proposer {
 
   // Turns the root about z until the left leg is in +y of the right one.
   void TurnToLeft() {
-    const int left = LegEnd(v1::BODY_SIDE_LEFT), right = LegEnd(v1::BODY_SIDE_RIGHT);
+    const int left = LegEnd(tree_, posture_, locked_, v1::BODY_SIDE_LEFT),
+              right = LegEnd(tree_, posture_, locked_, v1::BODY_SIDE_RIGHT);
     if (left < 0 || right < 0) return;
     const auto hip = [&](int end, int other) {
-      return posture_.joints[static_cast<size_t>(LegTo(end, other).front())];
+      return posture_.joints[static_cast<size_t>(LegTo(posture_, end, other).front())];
     };
     Eigen::Vector3d to_left = hip(left, right) - hip(right, left);
     if (to_left.head<2>().norm() < 1e-3) {  // hips in one place: by the feet
       to_left = posture_.links[static_cast<size_t>(Joint(left).child)].position -
                 posture_.links[static_cast<size_t>(Joint(right).child)].position;
     }
+    if (to_left.head<2>().norm() < 1e-3)
+      to_left = LeftOfKnees(tree_, posture_, LegTo(posture_, left, right));  // drawn in a plane
     const double yaw = kPi / 2 - std::atan2(to_left.y(), to_left.x());
     if (to_left.head<2>().norm() < 1e-3 || std::abs(std::remainder(yaw, 2 * kPi)) < 1e-3) return;
     const double turn = std::remainder(yaw, 2 * kPi);
-    v1::Quaternion& q = *proposal_.side.mutable_base_orientation();
-    q.set_w(std::cos(turn / 2));
-    q.set_z(std::sin(turn / 2));
+    Turn(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix());
     proposal_.reasons.push_back("the root is turned by " + FormatNumber(turn * 180 / kPi) +
                                 "° about z: the left leg is then in +y, and x is forward");
-    Place(turn);
   }
 
   void SetRoles() {
@@ -191,55 +185,49 @@ class Proposer {
     return Joint(i).type == TreeJoint::Type::kPrismatic ? 0 : std::abs(posture_.axes[static_cast<size_t>(i)].y());
   }
 
-  void AddFoot(v1::BodySide side, const std::vector<int>& chain) {
-    const int link = Joint(chain.back()).child;
-    const std::string name = std::string(SideWord(side)) + "_foot",
-                      link_name = tree_.links[static_cast<size_t>(link)].name;
-    const auto extent = ExtentOf(tree_, posture_, LinksMovedBy(posture_, chain.back()));
-    if (!extent) {
-      proposal_.missing.push_back(
-          "contact \"" + name + "\": link \"" + link_name +
-          "\" has no box, sphere, cylinder, capsule or ellipsoid as shape; add an ellipsoid from heel to toe");
-      return;
-    }
-    const Pose& place = posture_.links[static_cast<size_t>(link)];
-    double leg = posture_.joints[static_cast<size_t>(chain.front())].z() - extent->least.z();
+  // From the hip to the lowest of what the leg's last joint moves, m.
+  double LegLength(const std::vector<int>& chain, const Extent& foot) const {
+    double leg = posture_.joints[static_cast<size_t>(chain.front())].z() - foot.least.z();
     for (const int i : chain) {
       const auto found = roles_.find(i);
       if (found == roles_.end() || found->second != v1::Joint::ROLE_HIP_FLEXION) continue;
-      leg = posture_.joints[static_cast<size_t>(i)].z() - extent->least.z();
+      leg = posture_.joints[static_cast<size_t>(i)].z() - foot.least.z();
     }
+    return leg;
+  }
+
+  const std::string& LinkOf(int joint) const { return tree_.links[static_cast<size_t>(Joint(joint).child)].name; }
+
+  void AddFoot(v1::BodySide side, const std::vector<int>& chain) {
+    const std::string foot = std::string(SideWord(side)) + "_foot", link = LinkOf(chain.back());
+    const auto extent = ExtentOf(tree_, posture_, LinksMovedBy(posture_, chain.back()));
+    if (!extent) {
+      proposal_.missing.push_back(
+          "contact \"" + foot + "\": link \"" + link +
+          "\" has no box, sphere, cylinder, capsule or ellipsoid as shape; add an ellipsoid from heel to toe");
+      return;
+    }
+    const double leg = LegLength(chain, *extent);
     if (!(leg > 0.01)) {
-      proposal_.missing.push_back("contact \"" + name + "\": link \"" + link_name +
+      proposal_.missing.push_back("contact \"" + foot + "\": link \"" + link +
                                   "\" is not below the hip; set the references");
       return;
     }
-    const FittedEllipsoid foot = FitFoot(*extent, leg);
-    v1::SideContact& contact = *proposal_.side.add_contacts();
-    contact.set_name(name);
-    contact.set_link(link_name);
-    contact.set_side(side);
-    contact.set_part(v1::ContactSurface::FOOT_PART_WHOLE);
-    SetVector(foot.semi_axes, contact.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m());
-    SetVector(place.rotation.transpose() * (foot.center - place.position), contact.mutable_center_m());
-    if (const Eigen::Matrix3d to_link = place.rotation.transpose(); !to_link.isIdentity(1e-12)) {
-      const Eigen::Quaterniond q(to_link);
-      v1::Quaternion& to = *contact.mutable_orientation();
-      to.set_w(q.w());
-      to.set_x(q.x());
-      to.set_y(q.y());
-      to.set_z(q.z());
+    for (const StandingPart& standing : StandingParts(tree_, posture_, chain, leg)) {
+      const std::string name = standing.part == v1::ContactSurface::FOOT_PART_WHOLE ? foot
+                               : standing.part == v1::ContactSurface::FOOT_PART_HEEL
+                                   ? SideWord(side) + std::string("_heel")
+                                   : SideWord(side) + std::string("_toes");
+      const FittedEllipsoid fitted = FitFoot(standing.extent, leg);
+      const auto child = static_cast<size_t>(Joint(standing.joint).child);
+      v1::SideContact& contact = *proposal_.side.add_contacts();
+      contact = ContactOf(name, tree_.links[child].name, posture_.links[child], fitted);
+      contact.set_side(side);
+      contact.set_part(standing.part);
+      const double radius = fitted.semi_axes.x() * fitted.semi_axes.x() / fitted.semi_axes.z();
+      proposal_.reasons.push_back("contact \"" + name + "\": an ellipsoid as long and broad as the shapes of \"" +
+                                  contact.link() + "\", sole radius " + FormatNumber(radius) + " m");
     }
-    proposal_.reasons.push_back("contact \"" + name + "\": an ellipsoid as long and broad as the shapes of \"" +
-                                link_name + "\", sole radius " +
-                                FormatNumber(foot.semi_axes.x() * foot.semi_axes.x() / foot.semi_axes.z()) + " m");
-  }
-
-  static void SetVector(const Eigen::Vector3d& from, v1::Vector3* to) {
-    const auto rounded = [](double value) { return std::round(value * 1e12) / 1e12 + 0.0; };
-    to->set_x(rounded(from.x()));
-    to->set_y(rounded(from.y()));
-    to->set_z(rounded(from.z()));
   }
 
   bool LacksLimits(const TreeJoint& joint) const {
@@ -283,28 +271,6 @@ class Proposer {
     }
   }
 
-  // Feet do not pass through each other.
-  void AddFeetPair() {
-    if (proposal_.side.contacts_size() != 2) return;
-    // Equal to the bit, as mirror images must be.
-    const Eigen::Vector3d first = ToVector(proposal_.side.contacts(0).surface().ellipsoid().semi_axes_m());
-    v1::Vector3& second =
-        *proposal_.side.mutable_contacts(1)->mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m();
-    if ((first - ToVector(second)).norm() < 1e-5) SetVector(first, &second);
-    for (const v1::SideContact& contact : proposal_.side.contacts()) {
-      v1::SideBody& body = *proposal_.side.add_bodies();
-      body.set_name(contact.name());
-      body.set_link(contact.link());
-      *body.mutable_surface() = contact.surface();
-      *body.mutable_center_m() = contact.center_m();
-      if (contact.has_orientation()) *body.mutable_orientation() = contact.orientation();
-    }
-    v1::BodyPair& pair = *proposal_.side.add_body_pairs();
-    pair.set_first(proposal_.side.contacts(0).name());
-    pair.set_second(proposal_.side.contacts(1).name());
-    pair.set_usual(true);
-  }
-
   void CheckMirror() {
     if (!proposal_.missing.empty() || legs_.size() != 2) return;
     v1::Model model;
@@ -333,8 +299,9 @@ class Proposer {
   const LinkTree& tree_;
   std::vector<bool> locked_, carries_leg_;
   std::map<std::string, double> positions_;
-  TreePosture posture_, upright_;                  // upright: every joint at zero, the root not turned
-  std::map<v1::BodySide, std::vector<int>> legs_;  // joints from the hip to the foot
+  TreePosture posture_, upright_;                       // upright: every joint at zero, the root not turned
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  // of the root
+  std::map<v1::BodySide, std::vector<int>> legs_;       // joints from the hip to the foot
   std::map<int, v1::Joint::Role> roles_;
   SideProposal proposal_;
 };
