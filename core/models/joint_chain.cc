@@ -1,5 +1,6 @@
 #include "core/models/joint_chain.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
