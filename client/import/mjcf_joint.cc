@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "client/text.h"
+
 namespace rollgait::client {
 namespace {
 
@@ -65,7 +67,9 @@ std::vector<TreeJoint> ReadMjcfBall(const MjcfElement& from, const std::string& 
     const std::vector<double> range = from.Numbers("range", 2, 2);
     if (range.empty()) from.Refuse("is limited, but has no range");
     most = from.compiler().Angle(range[1]);
-    if (!(most > 0)) from.Refuse("its range must end above 0: it is that of the angle by which a ball joint turns");
+    if (!(range[0] == 0 && most > 0)) {
+      from.Refuse("its range must begin at 0 and end above: it is that of the angle by which a ball joint turns");
+    }
   }
   std::vector<TreeJoint> turns;
   for (const int axis : kTurnOrder) {
@@ -78,11 +82,6 @@ std::vector<TreeJoint> ReadMjcfBall(const MjcfElement& from, const std::string& 
     turn.upper = reach;
     turn.stiffness = from.Number("stiffness", 0);
     turn.damping = from.Number("damping", 0);
-  }
-  if (most > kMostMiddleTurn) {
-    left_out->Add(from.xml(),
-                  "turns about x of its body beyond ±80°: it is read as turns about y, x and z, which lose a "
-                  "direction where the second is ±90°");
   }
   if (turns[0].stiffness != 0 || turns[0].damping != 0) {
     left_out->Add(

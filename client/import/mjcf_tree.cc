@@ -263,7 +263,11 @@ class MjcfReader {
     }
     actuated_joints_.balls.insert(name);
     const ForceRange range = ReadForceRange(from, "actuatorfrclimited", "actuatorfrcrange");
-    for (TreeJoint& turn : ReadMjcfBall(from, name, &left_out_)) {
+    std::vector<TreeJoint> turns = ReadMjcfBall(from, name, &left_out_);
+    if (!body->chain.from_world && turns[1].upper != turns[0].upper) {
+      left_out_.Add(from.xml(), "turns about x of its body beyond ±80°: at ±90° three turns lose a direction");
+    }
+    for (TreeJoint& turn : turns) {
       const Eigen::Vector3d anchor = frame.position + frame.rotation * from.Vector("pos", Eigen::Vector3d::Zero());
       turn.origin.position = anchor - body->anchor;
       body->anchor = anchor;

@@ -2,6 +2,7 @@
 // makes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -154,9 +155,9 @@ TEST(MjcfImportTest, TheHumanoidOfMujocoWeighsAndMovesAlike) {
 TEST(MjcfImportTest, BallJointsMoveAlike) {
   const std::string text = R"(<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint name="root"/>
     <geom type="box" size="0.1 0.15 0.3" mass="8"/>
-    <body name="left" pos="0 0.1 -0.3" euler="10 20 30"><joint name="hip_l" type="ball" pos="0.01 0.02 0.05" range="0 100"/>
+    <body name="left" pos="0 0.1 -0.3" euler="10 20 30"><joint name="hip_l" type="ball" pos="0.01 0.02 0.05" limited="true" range="0 100"/>
       <geom type="capsule" fromto="0 0 0 0.05 0 -0.4" size="0.05" mass="3"/>
-      <body name="shank_l" pos="0.05 0 -0.4"><joint name="knee_l" axis="0 1 0" range="0 120"/><joint name="k" type="ball"/>
+      <body name="shank_l" pos="0.05 0 -0.4"><joint name="knee_l" axis="0 1 0" limited="true" range="0 120"/><joint name="k" type="ball"/>
         <geom type="box" size="0.04 0.05 0.2" pos="0 0.01 -0.2" mass="1.5"/></body></body>
     <body name="right" pos="0 -0.1 -0.3"><joint name="hip_r" type="ball" stiffness="3" damping="1"/>
       <geom type="capsule" fromto="0 0 0 0.05 0 -0.4" size="0.05" mass="3"/></body>

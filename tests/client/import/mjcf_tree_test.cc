@@ -176,9 +176,9 @@ TEST(MjcfTreeTest, EverythingThatIsNotReadIsToldWithFileElementAndReason) {
   text = Replaced(text, "<actuator>",
                   "<sensor><gyro/></sensor><tendon/><contact/><equality><weld body1=\"a\" body2=\"b\"/>"
                   "</equality><actuator><muscle joint=\"j\"/>");
-  text =
-      Replaced(text, "<geom name=\"c\"",
-               "<joint name=\"k\" type=\"ball\"/><geom mass=\"0\" type=\"mesh\" mesh=\"/dev/zero\"/><geom name=\"c\"");
+  text = Replaced(text, "<geom name=\"c\"",
+                  "<joint name=\"k\" type=\"ball\" range=\"0 170\"/><geom mass=\"0\" type=\"mesh\" "
+                  "mesh=\"/dev/zero\"/><geom name=\"c\"");
   const LinkTree tree = ReadLinkTreeText("x.xml", text);
   for (const char* const line :
        {"<light name=\"l\"> and 1 more: looks are no part of a model", "<body name=\"box\">: it is fixed to the world",
@@ -221,10 +221,12 @@ TEST(MjcfTreeTest, BallsAreThreeTurns) {
     if (i > 0) EXPECT_EQ(joint.parent, turn(tree, names[i - 1]).child);
     if (i > 0) EXPECT_EQ(joint.origin.position, Eigen::Vector3d::Zero());
   }
-  const LinkTree endless = ReadLinkTreeText("x.xml", Replaced(ball, "range=\"0 40\"", ""));
+  const LinkTree endless = ReadLinkTreeText("x.xml", Replaced(ball, "range=\"0 40\"", "limited=\"false\""));
   EXPECT_EQ(turn(endless, "k_y").type, TreeJoint::Type::kContinuous);
   EXPECT_NEAR(turn(endless, "k_x").upper, 80 * kPi / 180, 1e-15);
-  EXPECT_THROW(ReadLinkTreeText("x.xml", Replaced(ball, "0 40", "0 -1")), Failure);
+  for (const char* const range : {"0 -1", "-40 40"}) {
+    EXPECT_THROW(ReadLinkTreeText("x.xml", Replaced(ball, "0 40", range)), Failure) << range;
+  }
 
   // A motor about one of its axes is that of the turn; another must be said.
   const LinkTree driven = ReadLinkTreeText(
