@@ -218,8 +218,9 @@ TEST(MjcfTreeTest, BallsAreThreeTurns) {
     EXPECT_NEAR(joint.upper, 40 * kPi / 180, 1e-15);
     EXPECT_EQ(joint.lower, -joint.upper);
     EXPECT_FALSE(joint.driven);
-    if (i > 0) EXPECT_EQ(joint.parent, turn(tree, names[i - 1]).child);
-    if (i > 0) EXPECT_EQ(joint.origin.position, Eigen::Vector3d::Zero());
+    if (i == 0) continue;
+    EXPECT_EQ(joint.parent, turn(tree, names[i - 1]).child);
+    EXPECT_EQ(joint.origin.position, Eigen::Vector3d::Zero());
   }
   const LinkTree endless = ReadLinkTreeText("x.xml", Replaced(ball, "range=\"0 40\"", "limited=\"false\""));
   EXPECT_EQ(turn(endless, "k_y").type, TreeJoint::Type::kContinuous);
