@@ -35,6 +35,30 @@ std::string JointText(const v1::Joint& joint) {
   return JointWord(joint) + " " + FormatNumber(1e3 * Advance(joint)) + " mm/rad";
 }
 
+std::vector<v1::Joint> TurnsOf(const v1::Joint& joint) {
+  if (joint.coordinates_size() == 0) return {joint};
+  std::vector<v1::Joint> turns;
+  for (const v1::JointCoordinate& from : joint.coordinates()) {
+    v1::Joint& to = turns.emplace_back();
+    to.set_type(v1::Joint::TYPE_REVOLUTE);
+    to.set_name(from.name());
+    *to.mutable_axis() = from.axis();
+    to.set_position_min(from.position_min());
+    to.set_position_max(from.position_max());
+    to.set_velocity_max(from.velocity_max());
+    to.set_actuated(from.actuated());
+    to.set_effort_min(from.effort_min());
+    to.set_effort_max(from.effort_max());
+    to.set_stiffness(from.stiffness());
+    to.set_rest_position(from.rest_position());
+    to.set_damping(from.damping());
+    to.set_mirror_sign(from.mirror_sign());
+    to.set_role(from.role());
+    to.set_passive(from.passive());
+  }
+  return turns;
+}
+
 void RequireTurnOrSlide(const v1::Joint& joint, int index) {
   if (Turns(joint) != Slides(joint)) return;
   std::string names;

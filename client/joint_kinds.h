@@ -3,6 +3,7 @@
 #define ROLLGAIT_CLIENT_JOINT_KINDS_H_
 
 #include <string>
+#include <vector>
 
 #include "rollgait/v1/model.pb.h"
 
@@ -21,6 +22,10 @@ inline bool Turns(const v1::Joint& joint) { return Turns(joint.type()); }
 bool IsSlide(const v1::Joint& joint);
 // How far the link moves along the axis by unit of the position, m; 0 if it does not.
 double Advance(const v1::Joint& joint);
+
+// The degrees of freedom of a joint as joints: of a universal or ball joint each coordinate as a revolute one with what
+// JointCoordinate says, else the joint itself.
+std::vector<v1::Joint> TurnsOf(const v1::Joint& joint);
 
 // For formats whose joints turn or slide. Throws Failure(kUsage) that names model.joints[index].type of any other.
 void RequireTurnOrSlide(const v1::Joint& joint, int index);

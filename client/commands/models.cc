@@ -50,14 +50,16 @@ std::string EffortRange(const v1::Joint& joint) {
 // Springs and dampers of joints; empty without any.
 Rows SpringRows(const v1::Model& model) {
   Rows rows;
-  for (const v1::Joint& joint : model.joints()) {
-    if (joint.stiffness() == 0 && joint.damping() == 0) continue;
-    if (rows.empty()) rows = {{"SPRING AT", "STIFFNESS", "AT REST", "DAMPING"}};
-    const bool slides = IsSlide(joint);
-    rows.push_back({joint.name(), FormatNumber(joint.stiffness()) + (slides ? " N/m" : " N m/rad"),
-                    slides ? FormatNumber(joint.rest_position()) + " m"
-                           : FormatVisible(joint.rest_position() * 180 / kPi, 1e-9) + "°",
-                    FormatNumber(joint.damping()) + (slides ? " N s/m" : " N m s/rad")});
+  for (const v1::Joint& whole : model.joints()) {
+    for (const v1::Joint& joint : TurnsOf(whole)) {
+      if (joint.stiffness() == 0 && joint.damping() == 0) continue;
+      if (rows.empty()) rows = {{"SPRING AT", "STIFFNESS", "AT REST", "DAMPING"}};
+      const bool slides = IsSlide(joint);
+      rows.push_back({joint.name(), FormatNumber(joint.stiffness()) + (slides ? " N/m" : " N m/rad"),
+                      slides ? FormatNumber(joint.rest_position()) + " m"
+                             : FormatVisible(joint.rest_position() * 180 / kPi, 1e-9) + "°",
+                      FormatNumber(joint.damping()) + (slides ? " N s/m" : " N m s/rad")});
+    }
   }
   return rows;
 }
@@ -111,10 +113,17 @@ std::string ModelText(const v1::Model& model) {
                   "CENTRE OF MASS m", "IYY kg m²"}};
   for (const v1::Joint& joint : model.joints()) {
     const bool known_parent = joint.parent() >= 0 && joint.parent() < model.joints_size();
+    const bool turns = joint.coordinates_size() > 0;  // each told of in a row of its own
     joints.push_back({joint.name(), JointText(joint), known_parent ? model.joints(joint.parent()).name() : "world",
-                      Vector(joint.origin_m()), Vector(joint.axis()), PositionRange(joint), EffortRange(joint),
-                      joint.link_name(), FormatNumber(joint.mass_kg()), Vector(joint.center_of_mass_m()),
+                      Vector(joint.origin_m()), turns ? "-" : Vector(joint.axis()), turns ? "-" : PositionRange(joint),
+                      turns ? "-" : EffortRange(joint), joint.link_name(), FormatNumber(joint.mass_kg()),
+                      Vector(joint.center_of_mass_m()),
                       joint.inertia_kg_m2_size() == 6 ? FormatNumber(joint.inertia_kg_m2(1)) : "-"});
+    if (!turns) continue;
+    for (const v1::Joint& turn : TurnsOf(joint)) {
+      joints.push_back({turn.name(), "coordinate", joint.name(), "-", Vector(turn.axis()), PositionRange(turn),
+                        EffortRange(turn), "-", "-", "-", "-"});
+    }
   }
   text += "\n" + FormatTable(joints, "");
   Rows contacts = {{"CONTACT", "LINK", "SEMI-AXES m", "SHAPE", "CENTRE m", "MIRROR IMAGE"}};
@@ -180,6 +189,7 @@ ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, co
     grpc::ClientContext context;
     connection.SetDeadline(context);
     v1::GetModelRequest request;
+    request.set_joint_chains(!options.format.empty());  // formats have joints that turn or slide
     const std::string explanation = ApplyBodyFlags(flags, *request.mutable_model());
     if (!global.quiet) terminal.err << explanation << std::flush;
     v1::Model model;

@@ -115,6 +115,7 @@ std::string NewestName(Connection& connection) {
 v1::Model ModelOf(Connection& connection, const v1::Solve& solve) {
   v1::GetModelRequest request;
   *request.mutable_model() = solve.spec().model();
+  request.set_joint_chains(true);  // as iterates have them
   grpc::ClientContext context;
   connection.SetDeadline(context);
   v1::Model model;

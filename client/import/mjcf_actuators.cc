@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "client/import/mjcf_joint.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -48,7 +49,7 @@ ForceRange ReadForceRange(const MjcfElement& element, const char* limited, const
   return {ends[0], ends[1]};
 }
 
-bool AddMjcfActuator(const MjcfElement& actuator, const ActuatedJoints& joints, LinkTree* tree, LeftOut* left_out) {
+bool AddMjcfActuator(const MjcfElement& actuator, ActuatedJoints* joints, LinkTree* tree, LeftOut* left_out) {
   const tinyxml2::XMLElement& xml = actuator.xml();
   const std::string kind = xml.Name();
   const char* const attribute = xml.Attribute("joint") != nullptr ? "joint" : "jointinparent";
@@ -56,8 +57,24 @@ bool AddMjcfActuator(const MjcfElement& actuator, const ActuatedJoints& joints, 
     left_out->Add(xml, "a model is driven by efforts of joints; give effortMin and effortMax in the side file");
     return false;
   }
-  const std::string joint_name = actuator.source().Name(xml, attribute);
-  if (joints.base.count(joint_name) != 0) {
+  std::string joint_name = actuator.source().Name(xml, attribute);
+  std::vector<double> gear = actuator.Overlaid("gear", 6);
+  if (gear.empty()) gear = {1};
+  gear.resize(3, 0);
+  int along = 0;  // component of gear
+  if (joints->balls.count(joint_name) != 0) {
+    const auto is_zero = [](double value) { return value == 0; };
+    if (std::count_if(gear.begin(), gear.begin() + 3, is_zero) != 2) {
+      for (const int axis : {0, 1, 2}) joints->driven.insert(MjcfTurnName(joint_name, axis));
+      left_out->Add(xml,
+                    "it drives a ball joint about an oblique axis; give effortMin and effortMax of the joint's "
+                    "turns in the side file");
+      return true;
+    }
+    while (gear[static_cast<size_t>(along)] == 0) ++along;
+    joint_name = MjcfTurnName(joint_name, along);
+  }
+  if (joints->base.count(joint_name) != 0) {
     left_out->Add(xml, "it drives the base, which floats");
     return true;
   }
@@ -65,15 +82,15 @@ bool AddMjcfActuator(const MjcfElement& actuator, const ActuatedJoints& joints, 
   if (index < 0) actuator.Refuse("drives the joint \"" + joint_name + "\", which the file does not have");
   TreeJoint& joint = tree->joints[static_cast<size_t>(index)];
   joint.driven = true;
+  joints->driven.insert(joint_name);
   double gain = 1;
   ForceRange force = ReadForceRange(actuator, "forcelimited", "forcerange");
   if (IsProportional(actuator, &gain)) {
     force = Common(force, Scaled(ReadForceRange(actuator, "ctrllimited", "ctrlrange"), gain));
   }
-  const std::vector<double> gear = actuator.Overlaid("gear", 6);
-  force = Scaled(force, gear.empty() ? 1 : gear[0]);
-  const auto limit = joints.ranges.find(joint_name);
-  const ForceRange most = limit == joints.ranges.end() ? ForceRange() : limit->second;
+  force = Scaled(force, gear[static_cast<size_t>(along)]);
+  const auto limit = joints->ranges.find(joint_name);
+  const ForceRange most = limit == joints->ranges.end() ? ForceRange() : limit->second;
   force = Common(force, most);
   if (!std::isfinite(force.most - force.least)) {
     left_out->Add(xml, "no range limits its force; give effortMin and effortMax in the side file");

@@ -23,12 +23,15 @@ ForceRange ReadForceRange(const MjcfElement& element, const char* limited, const
 struct ActuatedJoints {
   std::set<std::string> base;                // those that the floating base stands for
   std::map<std::string, ForceRange> ranges;  // actuatorfrcrange, which no sum of actuators exceeds
+  std::set<std::string> balls;               // which the tree has as turns (MjcfTurnName)
+  std::set<std::string> driven;              // of the tree, those that an actuator drives; filled by AddMjcfActuator
 };
 
 // Adds the effort of one actuator to the joint that it drives: gear times control range, and no more than force
-// range and the range of the joint. Returns whether it is of a joint of the tree, else says in
-// `left_out` what it is. Throws Failure(kUsage) for a joint that the file does not have and for empty ranges.
-bool AddMjcfActuator(const MjcfElement& actuator, const ActuatedJoints& joints, LinkTree* tree, LeftOut* left_out);
+// range and the range of the joint; of a ball joint to the turn about the one axis that gear has. Returns whether it is
+// of a joint of the tree, else says in `left_out` what it is. Throws Failure(kUsage) for a joint that the file does not
+// have and for empty ranges.
+bool AddMjcfActuator(const MjcfElement& actuator, ActuatedJoints* joints, LinkTree* tree, LeftOut* left_out);
 
 }  // namespace rollgait::client
 

@@ -1,7 +1,11 @@
 #include "client/import/mjcf_joint.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "client/text.h"
 
 namespace rollgait::client {
 namespace {
@@ -15,6 +19,9 @@ void Omit(const MjcfElement& joint, LeftOut* left_out) {
   }
   if (joint.Has("springdamper")) left_out->Add(joint.xml(), "springdamper: give stiffness and damping");
 }
+
+constexpr int kTurnOrder[] = {1, 0, 2};
+constexpr double kMostMiddleTurn = 80 * kPi / 180;
 
 }  // namespace
 
@@ -50,6 +57,40 @@ TreeJoint ReadMjcfJoint(const MjcfElement& from, LeftOut* left_out) {
   joint.damping = from.Number("damping", 0);
   Omit(from, left_out);
   return joint;
+}
+
+std::string MjcfTurnName(const std::string& ball, int axis) { return ball + "_" + "xyz"[axis]; }
+
+std::vector<TreeJoint> ReadMjcfBall(const MjcfElement& from, const std::string& name, LeftOut* left_out) {
+  double most = std::numeric_limits<double>::infinity();
+  if (from.IsLimited("limited", "range")) {
+    const std::vector<double> range = from.Numbers("range", 2, 2);
+    if (range.empty()) from.Refuse("is limited, but has no range");
+    most = from.compiler().Angle(range[1]);
+    if (!(range[0] == 0 && most > 0)) {
+      from.Refuse("its range must begin at 0 and end above: it is that of the angle by which a ball joint turns");
+    }
+  }
+  std::vector<TreeJoint> turns;
+  for (const int axis : kTurnOrder) {
+    TreeJoint& turn = turns.emplace_back();
+    const double reach = turns.size() == 2 ? std::min(most, kMostMiddleTurn) : most;
+    turn.name = MjcfTurnName(name, axis);
+    turn.type = std::isinf(reach) ? TreeJoint::Type::kContinuous : TreeJoint::Type::kRevolute;
+    turn.axis = Eigen::Vector3d::Unit(axis);
+    turn.lower = -reach;
+    turn.upper = reach;
+    turn.stiffness = from.Number("stiffness", 0);
+    turn.damping = from.Number("damping", 0);
+  }
+  if (turns[0].stiffness != 0 || turns[0].damping != 0) {
+    left_out->Add(
+        from.xml(),
+        "spring and damper of a ball joint act on the angles of its three turns, which for large ones differs "
+        "from MuJoCo's");
+  }
+  Omit(from, left_out);
+  return turns;
 }
 
 }  // namespace rollgait::client

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 
 #include "client/import/lumped_links.h"
 #include "client/import/mjcf_actuators.h"
@@ -70,7 +69,7 @@ class MjcfReader {
     SetTotalMass();
     ForEach(root, [&](const XMLElement& part) { ReadPart(part); });
     if (actuated_ && all_of_joints_) {
-      for (TreeJoint& joint : tree_.joints) joint.driven = driven_.count(joint.name) != 0;
+      for (TreeJoint& joint : tree_.joints) joint.driven = actuated_joints_.driven.count(joint.name) != 0;
     }
     tree_.left_out = left_out_.Lines();
     return std::move(tree_);
@@ -244,20 +243,37 @@ class MjcfReader {
     const std::string type = MjcfJointType(from);
     if (body->link == 0) source_.Refuse(part, "is a joint of the world, which does not move");
     if (type == "free") return SetFree(part, body);
-    if (type == "ball") {
-      left_out_.Add(part,
-                    "a joint of a model has one degree of freedom: fixed in the posture of the file; three hinges "
-                    "in its place would move");
-      return;
-    }
+    const std::string name = NameOf(part, *body);
+    if (type == "ball") return AddBall(from, name, frame, body);
     TreeJoint joint = ReadMjcfJoint(from, &left_out_);
-    joint.name = NameOf(part, *body);
+    joint.name = name;
     const Eigen::Vector3d anchor = frame.position + frame.rotation * joint.origin.position;
     joint.origin.position = anchor - body->anchor;
     joint.axis = frame.rotation * joint.axis;
     body->anchor = anchor;
     actuated_joints_.ranges[joint.name] = ReadForceRange(from, "actuatorfrclimited", "actuatorfrcrange");
     body->chain.joints.push_back(joint);
+  }
+
+  void AddBall(const MjcfElement& from, const std::string& name, const Pose& frame, Body* body) {
+    // Behind three slides it is a part of the floating base.
+    if (body->chain.from_world && body->chain.joints.size() != 3) {
+      actuated_joints_.base.insert(name);
+      return left_out_.Add(from.xml(), "it holds the base, which floats: fixed in the posture of the file");
+    }
+    actuated_joints_.balls.insert(name);
+    const ForceRange range = ReadForceRange(from, "actuatorfrclimited", "actuatorfrcrange");
+    std::vector<TreeJoint> turns = ReadMjcfBall(from, name, &left_out_);
+    if (!body->chain.from_world && turns[1].upper != turns[0].upper) {
+      left_out_.Add(from.xml(), "turns about x of its body beyond ±80°: at ±90° three turns lose a direction");
+    }
+    for (TreeJoint& turn : turns) {
+      const Eigen::Vector3d anchor = frame.position + frame.rotation * from.Vector("pos", Eigen::Vector3d::Zero());
+      turn.origin.position = anchor - body->anchor;
+      body->anchor = anchor;
+      actuated_joints_.ranges[turn.name] = range;
+      body->chain.joints.push_back(turn);
+    }
   }
 
   std::string NameOf(const XMLElement& joint, const Body& body) const {
@@ -291,13 +307,7 @@ class MjcfReader {
   void ReadActuator(const XMLElement& part) {
     const MjcfElement actuator = Element(part, "", "motor");
     actuated_ = true;
-    if (AddMjcfActuator(actuator, actuated_joints_, &tree_, &left_out_)) {
-      for (const char* attribute : {"joint", "jointinparent"}) {
-        if (part.Attribute(attribute) != nullptr) driven_.insert(part.Attribute(attribute));
-      }
-    } else {
-      all_of_joints_ = false;
-    }
+    if (!AddMjcfActuator(actuator, &actuated_joints_, &tree_, &left_out_)) all_of_joints_ = false;
   }
 
   void ReadEquality(const XMLElement& part) {
@@ -324,7 +334,6 @@ class MjcfReader {
   MjcfDefaults defaults_;
   LinkTree tree_;
   ActuatedJoints actuated_joints_;
-  std::set<std::string> driven_;  // names of joints
   bool actuated_ = false, all_of_joints_ = true;
 };
 

@@ -26,7 +26,11 @@ std::vector<Side> JointSides(const v1::Model& model) {
 
 bool IsOneSided(const v1::Model& model) {
   for (int i = 0; i < model.joints_size(); ++i) {
-    if (model.joints(i).mirror_joint() != i || model.joints(i).mirror_sign() < 0) return false;
+    const v1::Joint& joint = model.joints(i);
+    if (joint.mirror_joint() != i || joint.mirror_sign() < 0) return false;
+    for (const v1::JointCoordinate& coordinate : joint.coordinates()) {
+      if (coordinate.mirror_sign() < 0) return false;
+    }
   }
   return model.joints_size() > 0;
 }

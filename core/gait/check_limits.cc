@@ -2,6 +2,7 @@
 
 #include "core/gait/presets.h"
 #include "core/gait/request_check.h"
+#include "core/models/joint_chain.h"
 #include "core/models/joint_limits.h"
 
 namespace rollgait {
@@ -24,6 +25,10 @@ std::vector<Joint> CheckLimits(const GaitRequest& request, const Scene* scene, c
         check.Add(field, "the range " + FormatNumber(range.min) + " to " + FormatNumber(range.max) +
                              " leaves that of the chart of the floating base, " + FormatNumber(-kMost) + " to " +
                              FormatNumber(kMost) + "; stay within it");
+      }
+      if (const std::string problem = RangeProblem(scene->chains, joints, joint, range.min, range.max);
+          !problem.empty()) {
+        check.Add(field, problem);
       }
       joints[joint].position_min = range.min;
       joints[joint].position_max = range.max;

@@ -9,19 +9,17 @@
 namespace rollgait {
 namespace {
 
-// How Model::Create names a field, as rollgait.v1.Joint does.
+// How Model::Create names a field of a joint, as rollgait.v1.Joint does.
 std::string WireField(const std::string& field) {
   constexpr std::pair<const char*, const char*> kNames[] = {{"p_PJ", "origin_m"},
                                                             {"R_PJ", "orientation"},
                                                             {"center_of_mass", "center_of_mass_m"},
                                                             {"inertia", "inertia_kg_m2"}};
-  const size_t dot = field.rfind('.');
   for (const auto& [ours, wire] : kNames) {
-    if (dot != std::string::npos && field.substr(dot + 1) == ours) return field.substr(0, dot + 1) + wire;
+    if (field == ours) return wire;
   }
   for (const JointNumber& number : kJointNumbers) {
-    if (dot != std::string::npos && field.substr(dot + 1) == number.name)
-      return field.substr(0, dot + 1) + number.field;
+    if (field == number.name) return number.field;
   }
   return field;
 }
@@ -30,12 +28,15 @@ std::string WireField(const std::string& field) {
 Violations OfModel(const Violations& violations, const OwnModel& own) {
   Violations named;
   for (const Violation& violation : violations) {
-    std::string who;
-    if (const size_t bracket = violation.field.find('['); bracket != std::string::npos) {
-      const Joint& joint = own.joints[std::stoul(violation.field.substr(bracket + 1))];
-      who = "of joint \"" + joint.name + "\", link \"" + joint.link + "\": ";
+    const size_t bracket = violation.field.find('['), dot = violation.field.rfind('.');
+    if (bracket == std::string::npos) {
+      named.push_back(violation);
+      continue;
     }
-    named.push_back({WireField(violation.field), who + violation.message});
+    const int index = std::stoi(violation.field.substr(bracket + 1));
+    const Joint& joint = own.joints[index];
+    named.push_back({JointPath(own.chains, index, WireField(violation.field.substr(dot + 1))),
+                     "of joint \"" + joint.name + "\", link \"" + joint.link + "\": " + violation.message});
   }
   return named;
 }
@@ -92,6 +93,7 @@ Result<Scene> OwnScene(const OwnModel& own) {
   CheckOwnUnits(measured, &check);
   if (!check.ok()) return check.Take();
   CheckOwnJoints(&check);
+  CheckOwnChains(&check);
   CheckOwnFeet(measured, &check);
   CheckOwnMirror(measured, &check);
   if (own.leg_length && !(*own.leg_length >= measured / 2 && *own.leg_length <= 2 * measured)) {
@@ -116,7 +118,8 @@ Result<Scene> OwnScene(const OwnModel& own) {
               .sources = own.sources,
               .symmetric = symmetric,
               .bodies = own.bodies,
-              .pairs = own.pairs};
+              .pairs = own.pairs,
+              .chains = own.chains};
   for (int i = 0; i < static_cast<int>(scene.pairs.size()); ++i) scene.pairs[i].mirror_pair = MirrorPair(own, i);
   return scene;
 }

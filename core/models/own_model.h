@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/contact/body_surface.h"
 #include "core/contact/contact_surface.h"
+#include "core/models/joint_chain.h"
 #include "core/models/scene.h"
 #include "core/multibody/model.h"
 
@@ -27,6 +28,10 @@ struct OwnModel {
   std::optional<double> total_mass;  // kg; if given, must be the sum
   std::optional<double> leg_length;  // m; default: from hip to sole at position zero
   std::vector<std::string> sources;
+  // Joints of the message that are several of `joints`, ascending: revolute, each the parent of the next, the ones
+  // after the first in the frame of the link before. Contract: none is out of range. Violations name them as the
+  // message does.
+  std::vector<JointChain> chains = {};
 };
 
 // The scene of a walker given as data, its numbers unchanged to the bit. Refuses what a solver could not make walk and
@@ -34,6 +39,7 @@ struct OwnModel {
 //   sizes and names             more than the numbers above; names are 1 to 64 letters, digits, "_", "-" or "."
 //   tree                        what Model::Create refuses; a base that is not the chain of base roles; other roots
 //   units                       total mass and leg length out of range, radii of gyration longer than twice the leg
+//   universal and ball joints   axes that are parallel, a second of three turns whose range the joint would lock in
 //   joints                      a missing or infinite range, velocity or effort of a joint that is not of the base
 //   roles                       no hip; an axis across the role; a passive torque of people on another joint
 //   feet                        no contact on a side, surfaces without a WalkingShape,

@@ -16,14 +16,6 @@ constexpr double kMinMass = 0.5, kMaxMass = 1000;  // kg
 constexpr double kMinLeg = 0.05, kMaxLeg = 3;      // m
 constexpr double kLargestNumber = 1e6;
 
-bool IsName(const std::string& name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  };
-  return !name.empty() && name.size() <= kMaxName && std::all_of(name.begin(), name.end(), allowed);
-}
-
 bool IsText(const std::string& text) {
   return text.size() <= kMaxText &&
          std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
@@ -35,7 +27,7 @@ void CheckNames(const char* list, const std::vector<Named>& parts, OwnModelCheck
   std::set<std::string> seen;
   for (size_t i = 0; i < parts.size(); ++i) {
     const int index = static_cast<int>(i);
-    if (!IsName(parts[i].name)) {
+    if (!IsOwnName(parts[i].name)) {
       check->Refuse(list, index, "name", "is not 1 to ", kMaxName, " letters, digits, \"_\", \"-\" or \".\"");
     } else if (!seen.insert(parts[i].name).second) {
       check->Refuse(list, index, "name", "\"", parts[i].name, "\" is used twice; give each a name of its own");
@@ -144,6 +136,14 @@ void CheckBaseJoint(int index, OwnModelCheck* check) {
 
 }  // namespace
 
+bool IsOwnName(const std::string& name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  };
+  return !name.empty() && name.size() <= kMaxName && std::all_of(name.begin(), name.end(), allowed);
+}
+
 void OwnModelCheck::PlaceLinks() {
   for (const Joint& joint : own.joints) {
     const Matrix3 R_WP = joint.parent < 0 ? Matrix3(Matrix3::Identity()) : R_WL[joint.parent];
@@ -162,7 +162,7 @@ double OwnModelCheck::Lowest(const ContactSurface& contact) const {
 
 void CheckOwnSizes(OwnModelCheck* check) {
   const OwnModel& own = check->own;
-  if (!IsName(own.name)) {
+  if (!IsOwnName(own.name)) {
     check->RefuseModel("summary.name", "is not 1 to ", kMaxName, " letters, digits, \"_\", \"-\" or \".\"");
   }
   if (!IsText(own.description)) {
@@ -182,7 +182,7 @@ void CheckOwnSizes(OwnModelCheck* check) {
   CheckNames("bodies", own.bodies, check);
   for (int i = 0; i < static_cast<int>(own.joints.size()); ++i) {
     const Joint& joint = own.joints[i];
-    if (!joint.link.empty() && !IsName(joint.link)) {
+    if (!joint.link.empty() && !IsOwnName(joint.link)) {
       check->Refuse("joints", i, "link_name", "is not 1 to ", kMaxName, " letters, digits, \"_\", \"-\" or \".\"");
     }
     if (joint.kind().is_free()) {
@@ -255,8 +255,8 @@ void CheckOwnBase(OwnModelCheck* check) {
   for (int i = 0; i < static_cast<int>(joints.size()); ++i) {
     if (BaseAxis(joints[i].role) < 0) continue;
     if (joints[i].parent != last) {
-      check->Refuse("joints", i, "parent", "of joint \"", joints[i].name, "\" is ", joints[i].parent,
-                    "; joints of the base are one chain from the world, so it must be ", last);
+      check->Refuse("joints", i, "parent", "of joint \"", joints[i].name, "\" is ", check->Named(joints[i].parent),
+                    "; joints of the base are one chain from the world, so it must be ", check->Named(last));
     }
     if (IsTranslation(joints[i].role) && !turns.empty()) {
       check->Refuse("joints", i, "role", "of joint \"", joints[i].name, "\" is ", RoleName(joints[i].role),
@@ -285,8 +285,8 @@ void CheckOwnBase(OwnModelCheck* check) {
   for (int i = 0; i < static_cast<int>(joints.size()); ++i) {
     if (BaseAxis(joints[i].role) >= 0) continue;
     if (joints[i].parent < 0 || (joints[i].parent != last && BaseAxis(joints[joints[i].parent].role) >= 0)) {
-      check->Refuse("joints", i, "parent", "of joint \"", joints[i].name, "\" is ", joints[i].parent,
-                    "; everything hangs on the last joint of the base, ", last);
+      check->Refuse("joints", i, "parent", "of joint \"", joints[i].name, "\" is ", check->Named(joints[i].parent),
+                    "; everything hangs on the last joint of the base, ", check->Named(last));
     }
     const double sideways = std::abs((check->R_WL[i] * joints[i].axis).y());
     const bool turns_out = joints[i].kind().turns && sideways < 1 - kStraight;

@@ -17,7 +17,8 @@ class OwnModelCheck {
   // "joints[3].mass_kg" for ("joints", 3, "mass_kg").
   template <typename... Parts>
   void Refuse(const std::string& list, int index, const std::string& field, const Parts&... parts) {
-    Add(list + "[" + std::to_string(index) + "]." + field, Text(parts...));
+    Add(list == "joints" ? JointPath(own.chains, index, field) : list + "[" + std::to_string(index) + "]." + field,
+        Text(parts...));
   }
   template <typename... Parts>
   void RefuseModel(const std::string& field, const Parts&... parts) {
@@ -25,6 +26,9 @@ class OwnModelCheck {
   }
   bool ok() const { return violations_.empty(); }
   Violations Take() { return std::move(violations_); }
+
+  // The index that the message has of a joint; -1 for the world.
+  int Named(int joint) const { return joint < 0 ? joint : MessageIndex(own.chains, joint); }
 
   // Link frames at position zero: axes and origin (m) in the world. Contract: every parent precedes its joint.
   void PlaceLinks();
@@ -46,11 +50,15 @@ class OwnModelCheck {
   Violations violations_;
 };
 
+// 1 to 64 letters, digits, "_", "-" or ".".
+bool IsOwnName(const std::string& name);
+
 // The parts, in the order in which they are asked: each may rely on those before it having found nothing.
 void CheckOwnSizes(OwnModelCheck* check);                      // sizes, names, indices
 void CheckOwnBase(OwnModelCheck* check);                       // floating base
 void CheckOwnUnits(double leg_length, OwnModelCheck* check);   // masses, lengths, inertias
 void CheckOwnJoints(OwnModelCheck* check);                     // limits and roles
+void CheckOwnChains(OwnModelCheck* check);                     // universal and ball joints
 void CheckOwnFeet(double leg_length, OwnModelCheck* check);    // contacts
 void CheckOwnMirror(double leg_length, OwnModelCheck* check);  // left and right
 

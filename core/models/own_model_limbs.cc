@@ -119,6 +119,35 @@ void CheckOwnJoints(OwnModelCheck* check) {
   if (!is_driven) check->RefuseModel("joints", "have no actuated one; a walker needs at least one");
 }
 
+void CheckOwnChains(OwnModelCheck* check) {
+  const std::vector<Joint>& joints = check->own.joints;
+  for (const JointChain& chain : check->own.chains) {
+    const std::string path = "joints[" + std::to_string(check->Named(chain.first)) + "].name";
+    const auto is_same = [&](const auto& other) { return &other.name != &chain.name && other.name == chain.name; };
+    if (!IsOwnName(chain.name)) {
+      check->RefuseModel(path, "is not 1 to 64 letters, digits, \"_\", \"-\" or \".\"");
+      continue;
+    }
+    if (std::any_of(joints.begin(), joints.end(), is_same) ||
+        std::any_of(check->own.chains.begin(), check->own.chains.end(), is_same)) {
+      check->RefuseModel(path, "\"", chain.name,
+                         "\" is also the name of another joint or coordinate; give each its own");
+    }
+    int joint = chain.first;
+    if (const std::string problem = AxesProblem(chain, joints, &joint); !problem.empty()) {
+      check->Refuse("joints", joint, "axis", "of \"", joints[joint].name, "\", a coordinate of joint \"", chain.name,
+                    "\", ", problem);
+      continue;
+    }
+    for (int i = chain.first; i <= chain.last(); ++i) {
+      const std::string problem =
+          RangeProblem(check->own.chains, joints, i, joints[i].position_min, joints[i].position_max);
+      if (problem.empty()) continue;
+      check->Refuse("joints", i, "position_min", "to position_max of \"", joints[i].name, "\" ", problem);
+    }
+  }
+}
+
 void CheckOwnFeet(double leg_length, OwnModelCheck* check) {
   const OwnModel& own = check->own;
   double left = kInfinity, right = kInfinity;

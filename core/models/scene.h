@@ -7,6 +7,7 @@
 #include "core/contact/body_surface.h"
 #include "core/contact/contact_surface.h"
 #include "core/models/body_selection.h"
+#include "core/models/joint_chain.h"
 #include "core/multibody/model.h"
 
 namespace rollgait {
@@ -24,6 +25,7 @@ struct Scene {
   bool symmetric = true;                 // its left/right mirror image is itself; if not, it has no half cycle
   std::vector<BodySurface> bodies = {};  // the parts with a thickness
   std::vector<BodyPair> pairs = {};      // those that can meet
+  std::vector<JointChain> chains = {};   // joints of the model that are one joint of a message
 
   // Index of a contact by name, -1 if there is none.
   int FindContact(const std::string& contact_name) const;

@@ -151,8 +151,8 @@ class JointChecker {
     if (joint().role == JointRole::kNone) return;
     for (int i = 0; i < index_; ++i) {
       if (joints_[i].role != joint().role || joints_[i].side != joint().side) continue;
-      Refuse("role", "is also the role of joints[" + std::to_string(i) +
-                         "] on the same side; give each role to one joint a side");
+      Refuse("role", "is also the role of joint \"" + joints_[i].name +
+                         "\" on the same side; give each role to one joint a side");
     }
   }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/models/joint_chain.h"
 #include "core/multibody/joint_number.h"
 #include "server/convert/field_decoding.h"
 
@@ -23,10 +24,13 @@ v1::Joint::Type EncodeJointType(JointType type) {
 
 const JointKind* DecodeJointType(v1::Joint::Type type) { return FindJointKind(v1::Joint::Type_Name(type)); }
 
-std::string JointTypeNames(bool with_free) {
+std::string JointTypeNames(JointsOf of) {
   std::vector<std::string> names;
   for (const JointKind& kind : kJointKinds) {
-    if (with_free || !kind.is_free()) names.push_back(kind.name);
+    if (of == JointsOf::kScene || !kind.is_free()) names.push_back(kind.name);
+  }
+  for (const ChainKind& kind : kChainKinds) {
+    if (of == JointsOf::kWalker) names.push_back(kind.name);
   }
   std::string list = names.front();
   for (size_t i = 1; i < names.size(); ++i) list += (i + 1 < names.size() ? ", " : " or ") + names[i];

@@ -13,8 +13,9 @@ namespace rollgait::server {
 v1::Joint::Type EncodeJointType(JointType type);
 // Null of a value that says no type.
 const JointKind* DecodeJointType(v1::Joint::Type type);
-// "TYPE_REVOLUTE or TYPE_PRISMATIC"; with those of more than one degree of freedom, if they are accepted.
-std::string JointTypeNames(bool with_free);
+// "TYPE_REVOLUTE, TYPE_PRISMATIC or …", as a message may say: of a scene or of a walker.
+enum class JointsOf { kScene, kWalker };
+std::string JointTypeNames(JointsOf of);
 
 // The numbers of core/multibody/joint_number.h; to and from the message without change. Contract of reading: the
 // joint's type is read.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/check.h"
+#include "server/convert/joint_chains.h"
 #include "server/convert/joint_convert.h"
 #include "server/convert/surface_convert.h"
 
@@ -140,7 +141,7 @@ v1::ModelSummary EncodeSummary(const CatalogEntry& entry) {
   return summary;
 }
 
-v1::Model EncodeModel(const Scene& scene, double gravity) {
+v1::Model EncodeModel(const Scene& scene, double gravity, JointForm form) {
   v1::Model model;
   CatalogEntry entry{
       scene.name, scene.description, scene.model.size(), static_cast<int>(scene.model.actuated().size()), {}};
@@ -162,6 +163,7 @@ v1::Model EncodeModel(const Scene& scene, double gravity) {
   if (!scene.selection.rolling_body && !own) model.set_stature_m(scene.selection.stature);
   model.set_leg_length_m(scene.leg_length);
   for (const std::string& source : scene.sources) model.add_sources(source);
+  if (form == JointForm::kAsGiven) return FoldJointChains(model, scene.chains);
   return model;
 }
 

@@ -8,8 +8,11 @@ namespace rollgait::server {
 
 v1::ModelSummary EncodeSummary(const CatalogEntry& entry);
 
+// How universal and ball joints are written: as the model has them, or as results do, each coordinate a joint.
+enum class JointForm { kAsGiven, kChains };
+
 // The whole scene. `gravity` is its magnitude in m/s².
-v1::Model EncodeModel(const Scene& scene, double gravity);
+v1::Model EncodeModel(const Scene& scene, double gravity, JointForm form = JointForm::kAsGiven);
 
 }  // namespace rollgait::server
 

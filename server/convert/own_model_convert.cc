@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "server/convert/joint_chains.h"
 #include "server/convert/joint_convert.h"
 #include "server/convert/surface_convert.h"
 
@@ -13,12 +14,12 @@ namespace {
 
 class Decoder {
  public:
-  Decoder(std::string prefix, const v1::Model& model, Violations* violations)
-      : prefix_(std::move(prefix)), model_(model), violations_(violations) {}
+  Decoder(std::string prefix, const UnfoldedModel& unfolded, Violations* violations)
+      : prefix_(std::move(prefix)), model_(unfolded.model), chains_(unfolded.chains), violations_(violations) {}
 
   OwnModel Decode() {
     OwnModel own;
-    if (!CheckCounts()) return own;
+    own.chains = chains_;
     own.name = model_.summary().name();
     own.description = model_.summary().description();
     for (int i = 0; i < model_.contacts_size(); ++i) contacts_.emplace(model_.contacts(i).name(), i);
@@ -42,23 +43,6 @@ class Decoder {
   static std::string At(const char* list, int index) { return list + ("[" + std::to_string(index) + "]."); }
   void Refuse(const std::string& field, const std::string& message) {
     violations_->push_back({prefix_ + field, message});
-  }
-
-  bool CheckCounts() {
-    bool good = true;
-    const std::pair<const char*, std::pair<int, int>> counts[] = {
-        {"joints", {model_.joints_size(), kMaxOwnJoints}},
-        {"contacts", {model_.contacts_size(), kMaxOwnContacts}},
-        {"bodies", {model_.bodies_size(), kMaxOwnBodies}},
-        {"body_pairs", {model_.body_pairs_size(), kMaxOwnPairs}},
-        {"sources", {model_.sources_size(), kMaxOwnSources}}};
-    for (const auto& [list, count] : counts) {
-      if (count.first <= count.second) continue;
-      Refuse(list,
-             "are " + std::to_string(count.first) + "; at most " + std::to_string(count.second) + " are accepted");
-      good = false;
-    }
-    return good;
   }
 
   template <typename Ours, typename Wire>
@@ -101,20 +85,21 @@ class Decoder {
 
   Joint DecodeJoint(int i) {
     const v1::Joint& encoded = model_.joints(i);
-    const std::string path = At("joints", i);
+    const auto at = [&](const char* field) { return JointPath(chains_, i, field); };
     Joint joint;
     joint.name = encoded.name();
     joint.link = encoded.link_name();
     const JointKind* const kind = DecodeJointType(encoded.type());
     if (kind == nullptr || kind->is_free()) {
-      Refuse(path + "type", "must be " + JointTypeNames(false) + "; a floating base is a chain of such joints");
+      Refuse(at("type"),
+             "must be " + JointTypeNames(JointsOf::kWalker) + "; a floating base is a chain of such joints");
     } else {
       joint.type = kind->type;
     }
     DecodeJointNumbers(encoded, &joint);
     joint.parent = encoded.parent();
     joint.p_PJ = Vector(encoded.origin_m());
-    joint.R_PJ = Rotation(path + "orientation", encoded.has_orientation(), encoded.orientation());
+    joint.R_PJ = Rotation(at("orientation"), encoded.has_orientation(), encoded.orientation());
     joint.axis = Vector(encoded.axis());
     joint.actuated = encoded.actuated();
     joint.center_of_mass = Vector(encoded.center_of_mass_m());
@@ -122,16 +107,16 @@ class Decoder {
       const auto& e = encoded.inertia_kg_m2();
       joint.inertia << e[0], e[3], e[4], e[3], e[1], e[5], e[4], e[5], e[2];
     } else if (encoded.inertia_kg_m2_size() != 0) {
-      Refuse(path + "inertia_kg_m2", "has " + std::to_string(encoded.inertia_kg_m2_size()) +
-                                         " entries; must have 6 (xx, yy, zz, xy, xz, yz), or none without mass");
+      Refuse(at("inertia_kg_m2"), "has " + std::to_string(encoded.inertia_kg_m2_size()) +
+                                      " entries; must have 6 (xx, yy, zz, xy, xz, yz), or none without mass");
     }
     const bool mirrored = encoded.mirror_sign() != 0;
     joint.mirror_joint = mirrored ? encoded.mirror_joint() : i;
     joint.mirror_sign = mirrored ? encoded.mirror_sign() : 1;
-    joint.role = DecodeEnum<JointRole>(path + "role", encoded.role(), v1::Joint::Role_IsValid(encoded.role()));
-    joint.side = DecodeSide(path + "side", encoded.side());
+    joint.role = DecodeEnum<JointRole>(at("role"), encoded.role(), v1::Joint::Role_IsValid(encoded.role()));
+    joint.side = DecodeSide(at("side"), encoded.side());
     joint.passive =
-        DecodeEnum<PassiveKind>(path + "passive", encoded.passive(), v1::Joint::Passive_IsValid(encoded.passive()));
+        DecodeEnum<PassiveKind>(at("passive"), encoded.passive(), v1::Joint::Passive_IsValid(encoded.passive()));
     return joint;
   }
 
@@ -173,15 +158,42 @@ class Decoder {
 
   const std::string prefix_;
   const v1::Model& model_;
+  const std::vector<JointChain>& chains_;
   Violations* violations_;
   std::map<std::string, int> contacts_, bodies_;
 };
+
+// Of a message, before anything else is read of it; `joints` are those that it stands for.
+bool CheckCounts(const std::string& prefix, const v1::Model& model, int joints, Violations* violations) {
+  bool good = true;
+  const std::pair<const char*, std::pair<int, int>> counts[] = {{"joints", {joints, kMaxOwnJoints}},
+                                                                {"contacts", {model.contacts_size(), kMaxOwnContacts}},
+                                                                {"bodies", {model.bodies_size(), kMaxOwnBodies}},
+                                                                {"body_pairs", {model.body_pairs_size(), kMaxOwnPairs}},
+                                                                {"sources", {model.sources_size(), kMaxOwnSources}}};
+  for (const auto& [list, count] : counts) {
+    if (count.first <= count.second) continue;
+    violations->push_back(
+        {prefix + list,
+         "are " + std::to_string(count.first) +
+             (joints != model.joints_size() && count.second == kMaxOwnJoints ? " with coordinates" : "") +
+             "; at most " + std::to_string(count.second) + " are accepted"});
+    good = false;
+  }
+  return good;
+}
 
 }  // namespace
 
 std::shared_ptr<const OwnModel> DecodeOwnModel(const std::string& prefix, const v1::Model& model,
                                                Violations* violations) {
-  return std::make_shared<const OwnModel>(Decoder(prefix, model, violations).Decode());
+  const size_t before = violations->size();
+  if (!CheckCounts(prefix, model, model.joints_size(), violations)) return std::make_shared<const OwnModel>();
+  const UnfoldedModel unfolded = UnfoldJointChains(prefix, model, violations);
+  if (violations->size() != before || !CheckCounts(prefix, model, unfolded.model.joints_size(), violations)) {
+    return std::make_shared<const OwnModel>();
+  }
+  return std::make_shared<const OwnModel>(Decoder(prefix, unfolded, violations).Decode());
 }
 
 }  // namespace rollgait::server

@@ -292,7 +292,7 @@ v1::SolveResult EncodeResult(const GaitSolution& solution, const GaitSpec& spec)
   result.set_speed_m_s(solution.speed);
   result.set_step_length_m(solution.step_length);
   result.set_wall_time_s(solution.wall_time);
-  *result.mutable_model() = EncodeModel(scene, spec.gravity.norm());
+  *result.mutable_model() = EncodeModel(scene, spec.gravity.norm(), JointForm::kChains);
   return result;
 }
 

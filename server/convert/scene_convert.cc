@@ -76,8 +76,8 @@ class SceneDecoder {
     joint.name = joint.link = encoded.name();
     const JointKind* const kind = DecodeJointType(encoded.type());
     if (kind == nullptr) {
-      decoding_.Refuse(path + "type",
-                       "enum value " + std::to_string(encoded.type()) + "; must be " + JointTypeNames(true));
+      decoding_.Refuse(path + "type", "enum value " + std::to_string(encoded.type()) + "; must be " +
+                                          JointTypeNames(JointsOf::kScene));
     } else {
       joint.type = kind->type;
     }

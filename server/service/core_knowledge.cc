@@ -1,6 +1,7 @@
 #include "server/service/core_knowledge.h"
 
 #include "server/convert/gait_request_convert.h"
+#include "server/convert/joint_chains.h"
 #include "server/convert/model_convert.h"
 #include "server/convert/spell_out.h"
 #include "server/convert/warm_start_convert.h"
@@ -38,8 +39,15 @@ Result<v1::Model> GetModel(const v1::ModelSelection& selection) {
   return EncodeModel(scene.value(), kStandardGravity);
 }
 
+v1::Model WithJointChains(const v1::Model& model) {
+  Violations none;
+  return UnfoldJointChains("", model, &none).model;
+}
+
 }  // namespace
 
-GaitKnowledge MakeCoreKnowledge() { return {CheckSpec, CheckWarmStart, ListModels, GetModel, SpellOut}; }
+GaitKnowledge MakeCoreKnowledge() {
+  return {CheckSpec, CheckWarmStart, ListModels, GetModel, SpellOut, WithJointChains};
+}
 
 }  // namespace rollgait::server

@@ -100,6 +100,10 @@ Outcome<v1::Model> ModelService::GetStored(const Caller& caller, const v1::Model
   return ToModel(record.value());
 }
 
+v1::Model ModelService::Written(const v1::Model& model, const v1::GetModelRequest& request) const {
+  return request.joint_chains() ? knowledge_.with_joint_chains(model) : model;
+}
+
 Outcome<v1::ListModelsResponse> ModelService::ListModels(const Caller& caller, const v1::ListModelsRequest& request) {
   Violations violations = CheckRequest(request);
   const int page_size = CheckPageSize(request.page_size(), &violations);
@@ -130,7 +134,7 @@ Outcome<v1::Model> ModelService::GetModel(const Caller& caller, const v1::GetMod
     selection.clear_name();
     *selection.mutable_own() = stored.value();
     const Result<v1::Model> checked = knowledge_.get_model(selection);
-    if (checked.ok()) return stored;
+    if (checked.ok()) return Written(stored.value(), request);
     violations = checked.violations();
     AddPrefix("model.", violations);
     return InvalidArgument(std::move(violations));
@@ -147,7 +151,7 @@ Outcome<v1::Model> ModelService::GetModel(const Caller& caller, const v1::GetMod
                                            "\"; there are: " + names + ", and stored ones as models/{id}"};
   }
   const Result<v1::Model> model = knowledge_.get_model(request.model());
-  if (model.ok()) return model.value();
+  if (model.ok()) return Written(model.value(), request);
   violations = model.violations();
   AddPrefix("model.", violations);
   return InvalidArgument(std::move(violations));

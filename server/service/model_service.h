@@ -36,6 +36,8 @@ class ModelService {
 
  private:
   Outcome<v1::Model> GetStored(const Caller& caller, const v1::ModelSelection& selection);
+  // A good model as the request wants it written.
+  v1::Model Written(const v1::Model& model, const v1::GetModelRequest& request) const;
 
   ModelStore& store_;
   const GaitKnowledge& knowledge_;

@@ -15,6 +15,7 @@
 #include "client/formats/urdf.h"
 #include "client/formats/urdf_side.h"
 #include "client/report/kinematics.h"
+#include "core/models/joint_chain.h"
 #include "core/multibody/body_dynamics.h"
 #include "server/convert/joint_convert.h"
 #include "server/convert/model_convert.h"
@@ -165,9 +166,14 @@ INSTANTIATE_TEST_SUITE_P(Types, ClientJointKindsTest, ::testing::ValuesIn(testin
 
 TEST(ClientJointKinds, EveryTypeOfTheWireHasARow) {
   const google::protobuf::EnumDescriptor& types = *v1::Joint::Type_descriptor();
-  EXPECT_EQ(static_cast<size_t>(types.value_count()), std::size(kJointKinds) + 1);
+  EXPECT_EQ(static_cast<size_t>(types.value_count()), std::size(kJointKinds) + std::size(kChainKinds) + 1);
   for (int i = 1; i < types.value_count(); ++i) {
     const auto type = static_cast<v1::Joint::Type>(types.value(i)->number());
+    if (FindChainKind(types.value(i)->name()) != nullptr) {
+      EXPECT_EQ(server::DecodeJointType(type), nullptr) << "the tree has its turns";
+      EXPECT_NE(types.value(i)->options().GetExtension(v1::joint_word), "");
+      continue;
+    }
     const JointKind* const kind = server::DecodeJointType(type);
     ASSERT_NE(kind, nullptr) << types.value(i)->name();
     EXPECT_EQ(server::EncodeJointType(kind->type), type);
@@ -176,6 +182,41 @@ TEST(ClientJointKinds, EveryTypeOfTheWireHasARow) {
     EXPECT_EQ(JointWord(joint), kind->word);
   }
   EXPECT_EQ(server::DecodeJointType(v1::Joint::TYPE_UNSPECIFIED), nullptr);
+}
+
+// Every field of a coordinate arrives.
+TEST(ClientJointKinds, TurnsOfABallAreItsCoordinates) {
+  v1::Joint ball;
+  ball.set_type(v1::Joint::TYPE_BALL);
+  for (int k = 0; k < 3; ++k) {
+    v1::JointCoordinate& coordinate = *ball.add_coordinates();
+    const auto& reflection = *coordinate.GetReflection();
+    for (int i = 0; i < v1::JointCoordinate::descriptor()->field_count(); ++i) {
+      const FieldDescriptor* const field = v1::JointCoordinate::descriptor()->field(i);
+      if (field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) reflection.SetDouble(&coordinate, field, i + 0.1 * k);
+      if (field->cpp_type() == FieldDescriptor::CPPTYPE_ENUM) reflection.SetEnumValue(&coordinate, field, k + 1);
+    }
+    coordinate.set_name("turn");
+    coordinate.mutable_axis()->set_y(k);
+    coordinate.set_actuated(true);
+  }
+  const std::vector<v1::Joint> turns = TurnsOf(ball);
+  ASSERT_EQ(turns.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(turns[static_cast<size_t>(k)].type(), v1::Joint::TYPE_REVOLUTE);
+    // The same fields have the same text, whatever their numbers.
+    v1::Joint rest = turns[static_cast<size_t>(k)];
+    rest.clear_type();
+    std::set<std::string> lines, expected;
+    for (const auto& [text, into] :
+         {std::pair(rest.DebugString(), &lines), {ball.coordinates(k).DebugString(), &expected}}) {
+      for (size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+        into->insert(text.substr(at, text.find('\n', at) - at));
+    }
+    EXPECT_EQ(lines, expected);
+  }
+  ball.clear_coordinates();
+  EXPECT_EQ(TurnsOf(ball).size(), 1u);
 }
 
 TEST(ClientJointKinds, AnUnknownTypeIsSaidByItsNumber) {

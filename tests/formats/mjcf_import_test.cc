@@ -2,6 +2,7 @@
 // makes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -52,6 +53,17 @@ struct Compared {
   double scale = 0;       // largest entry
 };
 
+// MuJoCo's velocities of a ball joint, in the body, of the rates of its turns about y, x and z.
+Eigen::Matrix3d OfBall(const Eigen::Vector3d& turns) {
+  const Eigen::Matrix3d x = Eigen::AngleAxisd(turns(1), Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Matrix3d z = Eigen::AngleAxisd(turns(2), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d map;
+  map.col(0) = z.transpose() * x.transpose() * Eigen::Vector3d::UnitY();
+  map.col(1) = z.transpose() * Eigen::Vector3d::UnitX();
+  map.col(2) = Eigen::Vector3d::UnitZ();
+  return map;
+}
+
 // `fixed`: positions of joints that are no joints of the model; `upright`: of the body on the free joint in the file.
 Compared CompareInertia(const std::string& name, const std::string& text, const v1::ModelSideFile& side,
                         const std::map<std::string, double>& fixed, const Eigen::Matrix3d& upright) {
@@ -88,11 +100,22 @@ Compared CompareInertia(const std::string& name, const std::string& text, const 
     MatrixX map = MatrixX::Zero(mujoco.model().nv, n);  // MuJoCo's velocities of the model's
     map.topLeftCorner(6, 6) = OfFreeJoint(q(4), q(5), upright);
     for (int i = 6; i < n; ++i) {
-      const int dof = mujoco.Dof(model.joints(i).name());
-      mq(dof + 1) = q(i);
-      map(dof, i) = 1;
+      const std::string& name = model.joints(i).name();
+      const std::string ball = name.substr(0, name.size() - std::min<size_t>(2, name.size()));
+      const int id = mj_name2id(&mujoco.model(), mjOBJ_JOINT, ball.c_str());
+      if (id >= 0 && mujoco.model().jnt_type[id] == mjJNT_BALL) {
+        const Eigen::Quaterniond turned = Eigen::AngleAxisd(q(i), Eigen::Vector3d::UnitY()) *
+                                          Eigen::AngleAxisd(q(i + 1), Eigen::Vector3d::UnitX()) *
+                                          Eigen::AngleAxisd(q(i + 2), Eigen::Vector3d::UnitZ());
+        mq.segment(mujoco.model().jnt_qposadr[id], 4) << turned.w(), turned.x(), turned.y(), turned.z();
+        map.block(mujoco.model().jnt_dofadr[id], i, 3, 3) = OfBall(q.segment(i, 3));
+        i += 2;
+        continue;
+      }
+      mq(mujoco.Q(name)) = q(i);
+      map(mujoco.Dof(name), i) = 1;
     }
-    for (const auto& [joint, position] : fixed) mq(mujoco.Dof(joint) + 1) = position;
+    for (const auto& [joint, position] : fixed) mq(mujoco.Q(joint)) = position;
     const VectorX zero = VectorX::Zero(mujoco.model().nv);
     mujoco.Set(mq, zero, zero);
     MatrixX found = MatrixX::Zero(mujoco.model().nv, mujoco.model().nv), expected = MatrixX::Zero(n, n);
@@ -126,6 +149,26 @@ TEST(MjcfImportTest, TheHumanoidOfMujocoWeighsAndMovesAlike) {
   const std::string path = MUJOCO_HUMANOID;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "libmujoco-samples is not installed: " << path;
   ExpectSameInertia("humanoid.xml", ReadModelBytes(path));
+}
+
+// Hips and shoulders of a robot that are balls, with other joints before and behind them and anchors aside.
+TEST(MjcfImportTest, BallJointsMoveAlike) {
+  const std::string text = R"(<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint name="root"/>
+    <geom type="box" size="0.1 0.15 0.3" mass="8"/>
+    <body name="left" pos="0 0.1 -0.3" euler="10 20 30"><joint name="hip_l" type="ball" pos="0.01 0.02 0.05" limited="true" range="0 100"/>
+      <geom type="capsule" fromto="0 0 0 0.05 0 -0.4" size="0.05" mass="3"/>
+      <body name="shank_l" pos="0.05 0 -0.4"><joint name="knee_l" axis="0 1 0" limited="true" range="0 120"/><joint name="k" type="ball"/>
+        <geom type="box" size="0.04 0.05 0.2" pos="0 0.01 -0.2" mass="1.5"/></body></body>
+    <body name="right" pos="0 -0.1 -0.3"><joint name="hip_r" type="ball" stiffness="3" damping="1"/>
+      <geom type="capsule" fromto="0 0 0 0.05 0 -0.4" size="0.05" mass="3"/></body>
+    </body></worldbody></mujoco>)";
+  v1::ModelSideFile side = BareSide();
+  for (const char* const joint :
+       {"hip_l_y", "hip_l_x", "hip_l_z", "hip_r_y", "hip_r_x", "hip_r_z", "knee_l", "k_y", "k_x", "k_z"}) {
+    side.add_joints()->set_name(joint);
+    side.mutable_joints(side.joints_size() - 1)->set_actuated(false);
+  }
+  ExpectSameInertia("balls.xml", text, side);
 }
 
 TEST(MjcfImportTest, EveryFormOfOrientationSizeAndUnitIsReadAlike) {

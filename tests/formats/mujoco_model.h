@@ -21,8 +21,10 @@ class MujocoModel {
 
   // Throws std::runtime_error if there is none of that name.
   int Find(mjtObj kind, const std::string& name) const;
-  // Index in q and v of a joint.
+  // Index in v of a joint, and in q.
   int Dof(const std::string& joint) const { return model_->jnt_dofadr[Find(mjOBJ_JOINT, joint)]; }
+
+  int Q(const std::string& joint) const { return model_->jnt_qposadr[Find(mjOBJ_JOINT, joint)]; }
 
   // Sets the state; kinematics are those of it.
   void Set(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a);

@@ -176,15 +176,15 @@ TEST(MjcfTreeTest, EverythingThatIsNotReadIsToldWithFileElementAndReason) {
   text = Replaced(text, "<actuator>",
                   "<sensor><gyro/></sensor><tendon/><contact/><equality><weld body1=\"a\" body2=\"b\"/>"
                   "</equality><actuator><muscle joint=\"j\"/>");
-  text =
-      Replaced(text, "<geom name=\"c\"",
-               "<joint name=\"k\" type=\"ball\"/><geom mass=\"0\" type=\"mesh\" mesh=\"/dev/zero\"/><geom name=\"c\"");
+  text = Replaced(text, "<geom name=\"c\"",
+                  "<joint name=\"k\" type=\"ball\" range=\"0 170\"/><geom mass=\"0\" type=\"mesh\" "
+                  "mesh=\"/dev/zero\"/><geom name=\"c\"");
   const LinkTree tree = ReadLinkTreeText("x.xml", text);
   for (const char* const line :
        {"<light name=\"l\"> and 1 more: looks are no part of a model", "<body name=\"box\">: it is fixed to the world",
         "<sensor>: a model has no sensors", "<tendon>: a model has no tendons",
         "<weld>: a model is a tree without constraints", "<muscle>: a model is driven by efforts",
-        "<joint name=\"k\">: a joint of a model has one degree of freedom", "no file is opened"}) {
+        "<joint name=\"k\">: turns about x of its body beyond ±80°", "no file is opened"}) {
     EXPECT_THAT(tree.left_out, Contains(testing::AllOf(HasSubstr("x.xml:"), HasSubstr(line)))) << line;
   }
   EXPECT_EQ(tree.FindLink("box"), -1);
@@ -200,6 +200,59 @@ TEST(MjcfTreeTest, JointsWithoutActuatorAreNotDrivenAndCoupledOnesMimic) {
   const LinkTree coupled = ReadLinkTreeText(
       "x.xml", Replaced(two, "<actuator>", "<equality><joint joint1=\"k\" joint2=\"j\"/></equality><actuator>"));
   EXPECT_EQ(coupled.joints[static_cast<size_t>(coupled.FindJoint("k"))].mimics, "j");
+}
+
+TEST(MjcfTreeTest, BallsAreThreeTurns) {
+  const std::string ball =
+      WithMjcf("<geom name=\"c\"", "<joint name=\"k\" type=\"ball\" pos=\"0 0 0.1\" range=\"0 40\"/><geom name=\"c\"");
+  const LinkTree tree = ReadLinkTreeText("x.xml", ball);
+  const auto turn = [](const LinkTree& of, const char* name) {
+    return of.joints[static_cast<size_t>(of.FindJoint(name))];
+  };
+  const Eigen::Vector3d axes[] = {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()};
+  const char* const names[] = {"k_y", "k_x", "k_z"};
+  for (int i = 0; i < 3; ++i) {
+    const TreeJoint joint = turn(tree, names[i]);
+    EXPECT_EQ(joint.type, TreeJoint::Type::kRevolute);
+    EXPECT_EQ(joint.axis, axes[i]);
+    EXPECT_NEAR(joint.upper, 40 * kPi / 180, 1e-15);
+    EXPECT_EQ(joint.lower, -joint.upper);
+    EXPECT_FALSE(joint.driven);
+    if (i == 0) continue;
+    EXPECT_EQ(joint.parent, turn(tree, names[i - 1]).child);
+    EXPECT_EQ(joint.origin.position, Eigen::Vector3d::Zero());
+  }
+  const LinkTree endless = ReadLinkTreeText("x.xml", Replaced(ball, "range=\"0 40\"", "limited=\"false\""));
+  EXPECT_EQ(turn(endless, "k_y").type, TreeJoint::Type::kContinuous);
+  EXPECT_NEAR(turn(endless, "k_x").upper, 80 * kPi / 180, 1e-15);
+  for (const char* const range : {"0 -1", "-40 40"}) {
+    EXPECT_THROW(ReadLinkTreeText("x.xml", Replaced(ball, "0 40", range)), Failure) << range;
+  }
+
+  // A motor about one of its axes is that of the turn; another must be said.
+  const LinkTree driven = ReadLinkTreeText(
+      "x.xml", Replaced(ball, "<actuator>", "<actuator><motor joint=\"k\" gear=\"0 0 20\" ctrlrange=\"-1 2\"/>"));
+  EXPECT_EQ(turn(driven, "k_z").effort_min, -20);
+  EXPECT_EQ(turn(driven, "k_z").effort_max, 40);
+  EXPECT_TRUE(turn(driven, "k_z").driven);
+  EXPECT_FALSE(turn(driven, "k_x").driven);
+  const LinkTree oblique = ReadLinkTreeText(
+      "x.xml", Replaced(ball, "<actuator>", "<actuator><motor joint=\"k\" gear=\"0 1 20\" ctrlrange=\"-1 2\"/>"));
+  EXPECT_TRUE(turn(oblique, "k_x").driven);
+  EXPECT_THAT(oblique.left_out, Contains(HasSubstr("about an oblique axis")));
+}
+
+TEST(MjcfTreeTest, ABallAtTheBaseIsAPartOfItOrFixed) {
+  const std::string slides =
+      "<joint name=\"x\" type=\"slide\" axis=\"1 0 0\"/><joint name=\"y\" type=\"slide\" axis=\"0 1 0\"/>"
+      "<joint name=\"z\" type=\"slide\" axis=\"0 0 1\"/>";
+  const std::string ball = "<joint name=\"k\" type=\"ball\"/>";
+  const LinkTree floats = ReadLinkTreeText("x.xml", WithMjcf("<freejoint name=\"root\"/>", slides + ball));
+  EXPECT_EQ(floats.joints[0].type, TreeJoint::Type::kFloating);
+  EXPECT_EQ(floats.FindJoint("k_y"), -1);
+  const LinkTree fixed = ReadLinkTreeText("x.xml", WithMjcf("<freejoint name=\"root\"/>", ball));
+  EXPECT_EQ(fixed.joints[0].type, TreeJoint::Type::kFixed);
+  EXPECT_THAT(fixed.left_out, Contains(HasSubstr("<joint name=\"k\">: it holds the base")));
 }
 
 TEST(MjcfTreeTest, SlidesAndATurnInThePlaneAreTheBase) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/ball_joints.h"
+
 namespace rollgait::server {
 namespace {
 
@@ -26,6 +28,23 @@ TEST(CoreKnowledgeTest, EveryListedModelCanBeHadAndMoves) {
       spec.mutable_manoeuvre()->mutable_end()->set_y_m(0);
     }
     EXPECT_TRUE(knowledge.check_spec(spec).ok()) << summary.name();
+  }
+}
+
+TEST(CoreKnowledgeTest, BallsAreWrittenAsGivenOrAsTheirChains) {
+  const GaitKnowledge knowledge = MakeCoreKnowledge();
+  v1::ModelSelection selection;
+  selection.set_name("human29");
+  const v1::Model human = knowledge.get_model(selection).value();
+  selection.Clear();
+  *selection.mutable_own() = rollgait::testing::WithBalls(human, rollgait::testing::HumanBalls());
+  const Result<v1::Model> balls = knowledge.get_model(selection);
+  ASSERT_TRUE(balls.ok());
+  EXPECT_EQ(balls.value().joints_size(), selection.own().joints_size());
+  const v1::Model chains = knowledge.with_joint_chains(balls.value());
+  ASSERT_EQ(chains.joints_size(), human.joints_size());
+  for (int i = 0; i < human.joints_size(); ++i) {
+    EXPECT_EQ(chains.joints(i).SerializeAsString(), human.joints(i).SerializeAsString()) << human.joints(i).name();
   }
 }
 
