@@ -91,7 +91,7 @@ Result<Scene> OwnScene(const OwnModel& own) {
   const double measured = LegLength(check, model);
   CheckOwnUnits(measured, &check);
   if (!check.ok()) return check.Take();
-  CheckOwnJoints(&check);
+  CheckOwnJoints(measured, &check);
   CheckOwnFeet(measured, &check);
   CheckOwnMirror(measured, &check);
   if (own.leg_length && !(*own.leg_length >= measured / 2 && *own.leg_length <= 2 * measured)) {
