@@ -19,14 +19,16 @@ struct SideProposal {
 // For a robot that stands upright with straight legs where the file's joints are zero (or at the end of their range
 // that is nearest to zero), its legs being the chains that reach lowest on each side:
 //   name       that of the file, if a model can have it; else with "_" in place of what it must not have
-//   base       turned so that the legs hang along −z (upright.h), then about z so that the left leg is in +y; of a robot
+//   base       turned so that the legs hang along −z (upright.h), then about z so that the left leg is in +y; of a
+//   robot
 //              drawn in a plane so that its knees bend backwards. BASE_PLANE if no joint moves out of the plane of x, z
 //   locked     joints that mimic another, planar joints, joints that move no mass, joints without limits that are in no
 //              leg and have no role
 //   roles      of each leg's joints that turn within 60° of y: by "hip", "knee" and "ankle" in their names, else by
 //              order; trunk, shoulder and elbow by name
 //   contacts   one ellipsoid a foot (foot_fit.h), of feet with toes one each for both parts (foot_proposal.h)
-//   mirror     by names and places; averaged if links that should be mirror images are not quite (mirror_average.h), none if they
+//   mirror     by names and places; averaged if links that should be mirror images are not quite (mirror_average.h),
+//   none if they
 //              are not at all
 SideProposal ProposeSideFile(const LinkTree& tree);
 

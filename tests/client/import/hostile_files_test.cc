@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -91,7 +92,7 @@ std::vector<HostileFile> HostileFiles() {
             "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>"),
        "read"},
       {"XInclude", ".urdf", Urdf("<include href=\"file:///etc/passwd\"/>"), "read"},
-      {"Include", ".xml", Mjcf("<include file=\"/etc/passwd\"/>"), "no other file is opened"},
+      {"Include", ".xml", Mjcf("<include file=\"/etc/passwd\"/>"), "is content of another file"},
       {"Replicate", ".xml", Mjcf("<replicate count=\"1000000000\"><geom size=\"1\"/></replicate>"), "<replicate>"},
       {"MeshMass", ".xml", Mjcf("<geom type=\"mesh\" mesh=\"/dev/zero\"/>"), "no file is opened"},
       {"GeometryFile", ".osim",
@@ -104,7 +105,7 @@ std::vector<HostileFile> HostileFiles() {
       {"DeepJson", ".side.json", Repeat("{\"joints\":[", 100000), "not a proto3 JSON"},
       {"LargeJson", ".side.json", "{\"name\": \"" + Repeat("x", 65 << 20) + "\"}", "has more than 64 MiB"},
       {"ManySideJoints", ".side.json", "{\"joints\": [" + Repeat("{},", 300000) + "{}]}", "joints are 300001"},
-      {"NanInSide", ".side.json", "{\"legLengthM\": \"NaN\"}", "legLengthM"},
+      {"NanInSide", ".side.json", "{\"contacts\": [{}, {}], \"legLengthM\": \"NaN\"}", "legLengthM"},
       {"PathInSide", ".side.json", "{\"name\": \"../../etc/passwd\"}", "name must be 1 to 64 letters"},
       {"DeepModel", ".json", Repeat("[", 1000000), "not a proto3 JSON"},
       {"ForeignModel", ".json", "{\"@type\": \"http://127.0.0.1:1/x\", \"joints\": 7}", "not a proto3 JSON"},
