@@ -35,6 +35,33 @@ std::string ImageName(const std::string& field, const std::string& given, const 
   return given;
 }
 
+// The joint on the other side of the plane of x and z that is where the mirror image of joint `i` would be, hangs on
+// the image of its parent, moves along or about the mirrored axis and carries as much; `i` itself if there is none or
+// more than one. For joints whose names tell no side; images of parents are known.
+int ImageByPlace(const v1::Model& model, const std::vector<Pose>& poses, int i) {
+  constexpr double kPlace = 1e-3, kAxis = 1e-3, kMass = 0.01;  // m, rad, as a share: rounded drawings
+  const Eigen::Vector3d mirror(1, -1, 1);
+  const auto place = [&](int k) -> const Eigen::Vector3d& { return poses[static_cast<size_t>(k)].position; };
+  const auto axis = [&](int k) {
+    return Eigen::Vector3d(poses[static_cast<size_t>(k)].rotation * ToVector(model.joints(k).axis()));
+  };
+  const v1::Joint& joint = model.joints(i);
+  if (joint.parent() < 0 || std::abs(place(i).y()) < kPlace) return i;
+  int image = i;
+  for (int k = 0; k < model.joints_size(); ++k) {
+    const v1::Joint& other = model.joints(k);
+    const int parent = joint.parent() < i ? model.joints(joint.parent()).mirror_joint() : -1;
+    if (k == i || other.type() != joint.type() || other.parent() != parent) continue;
+    if (MirrorNameOf(other.name()).side != v1::BODY_SIDE_UNSPECIFIED) continue;
+    if ((place(k) - mirror.cwiseProduct(place(i))).norm() > kPlace) continue;
+    if (std::abs(axis(k).dot(mirror.cwiseProduct(axis(i)))) < 1 - kAxis) continue;
+    if (std::abs(other.mass_kg() - joint.mass_kg()) > kMass * joint.mass_kg()) continue;
+    if (image != i) return i;
+    image = k;
+  }
+  return image;
+}
+
 }  // namespace
 
 double MirrorSign(const v1::Model& model, int joint, int image) {
@@ -54,6 +81,8 @@ std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1:
   std::map<std::string, const v1::SideJoint*> given;
   for (const v1::SideJoint& joint : side.joints()) given.emplace(joint.name(), &joint);
   const auto joints = IndexByName(model->joints());
+  const std::vector<Pose> poses =
+      LinkPoses(*model, std::vector<double>(static_cast<size_t>(model->joints_size()), 0.0));
   std::string proposed;
   for (int i = 0; i < model->joints_size(); ++i) {
     v1::Joint& joint = *model->mutable_joints(i);
@@ -63,8 +92,10 @@ std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1:
     const auto found = given.find(joint.name());
     const v1::SideJoint unsaid;
     const v1::SideJoint& said = found == given.end() ? unsaid : *found->second;
-    const int image =
+    int image =
         joints.at(ImageName(side_path + ": mirrorJoint", said.mirror_joint(), joint.name(), joints, joint.name()));
+    const bool is_named = !said.mirror_joint().empty() || MirrorNameOf(joint.name()).side != v1::BODY_SIDE_UNSPECIFIED;
+    if (!is_named) image = ImageByPlace(*model, poses, i);
     joint.set_mirror_joint(image);
     joint.set_mirror_sign(said.mirror_sign() != 0 ? said.mirror_sign() : MirrorSign(*model, i, image));
     const bool is_base = joint.role() >= v1::Joint::ROLE_BASE_FORWARD && joint.role() <= v1::Joint::ROLE_BASE_PITCH;
@@ -90,7 +121,7 @@ std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1:
       [](auto* part, const std::string& name) { part->set_mirror_body(name); }, true);
   if (none) return {"no mirror images: left and right differ, the body walks in full cycles (--cycle full)"};
   if (proposed.empty()) return {};
-  return {"mirror images proposed from names and axes: " + proposed};
+  return {"mirror images proposed from names, places and axes: " + proposed};
 }
 
 std::string MirrorDifference(const v1::Model& model) {

@@ -14,7 +14,8 @@ namespace rollgait::client {
 // the axes at position zero allow it. Contract: parents first.
 double MirrorSign(const v1::Model& model, int joint, int image);
 
-// Sets mirror_joint, mirror_sign, mirror_contact and mirror_body of every part, as ModelSideFile.mirror says. Returns
+// Sets mirror_joint, mirror_sign, mirror_contact and mirror_body of every part, as ModelSideFile.mirror says: by names,
+// and joints whose names tell no side by places (1 mm), axes (3°) and masses (1 %) at position zero. Returns
 // what was proposed, a sentence each. Throws Failure(kUsage) for a mirror image that is no part of the model.
 std::vector<std::string> SetMirrorImages(const std::string& side_path, const v1::ModelSideFile& side, v1::Model* model);
 

@@ -27,7 +27,7 @@ struct SideProposal {
 //   roles      of each leg's joints that turn within 60° of y: by "hip", "knee" and "ankle" in their names, else by
 //              order; trunk, shoulder and elbow by name
 //   contacts   one ellipsoid a foot (foot_fit.h), of feet with toes one each for both parts (foot_proposal.h)
-//   mirror     by names; averaged if links that should be mirror images are not quite (mirror_average.h),
+//   mirror     by names and places; averaged if links that should be mirror images are not quite (mirror_average.h),
 //   none if they
 //              are not at all
 SideProposal ProposeSideFile(const LinkTree& tree);

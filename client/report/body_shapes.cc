@@ -47,7 +47,8 @@ class Drawing {
     for (const BodyShape& shape : shapes_) {
       // A surface beside the middle, like a forearm that moves with the trunk, does not show the trunk.
       const bool in_middle = std::abs(shape.pose.position.y()) <= shape.semi_axes.minCoeff();
-      if (sides_[shape.joint] != Side::kMiddle || (model_.stature_m() <= 0 && in_middle)) covered.insert(shape.joint);
+      const bool covers = sides_[shape.joint] == Side::kMiddle ? model_.stature_m() <= 0 && in_middle : !IsFar(shape);
+      if (covers) covered.insert(shape.joint);
     }
     for (int i = 0; i < model_.joints_size(); ++i) {
       if (model_.joints(i).mass_kg() > 0 && covered.count(i) == 0) AddLink(i);
@@ -76,6 +77,17 @@ class Drawing {
   // An ellipsoid with axes along those of the link.
   void Draw(const std::string& part, int joint, const Vector3d& center, const Vector3d& semi_axes, Side side) {
     shapes_.push_back({part, joint, Pose{Eigen::Matrix3d::Identity(), center}, semi_axes, side, ShapeKind::kDrawn, {}});
+  }
+
+  // A surface far from the joint of its limb, like the point on which a shank without a foot stands, does not show the
+  // limb.
+  static bool IsFar(const BodyShape& shape) { return shape.pose.position.norm() > 4 * shape.semi_axes.maxCoeff(); }
+
+  // The far surface of a limb that carries one; nullptr if none does.
+  const BodyShape* FarEnd(int link) const {
+    const auto end = std::find_if(shapes_.begin(), shapes_.end(),
+                                  [&](const BodyShape& shape) { return shape.joint == link && IsFar(shape); });
+    return end == shapes_.end() ? nullptr : &*end;
   }
 
   // The next links with mass beyond a link.
@@ -153,8 +165,10 @@ class Drawing {
   void AddLimb(int link, const std::vector<int>& children) {
     const std::string part = Words(WithoutSide(model_.joints(link).link_name()));
     const std::string name = (sides_[link] == Side::kRight ? "right " : "left ") + part;
-    const Vector3d end = children.empty() ? Vector3d(2 * ToVector(model_.joints(link).center_of_mass_m()))
-                                          : Place(children.front(), link);
+    const BodyShape* const far_end = FarEnd(link);
+    const Vector3d end = !children.empty()    ? Place(children.front(), link)
+                         : far_end != nullptr ? far_end->pose.position
+                                              : Vector3d(2 * ToVector(model_.joints(link).center_of_mass_m()));
     const double length = end.norm();
     if (length < 1e-3) return;
     const double radius = 0.16 * length;

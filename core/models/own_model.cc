@@ -92,7 +92,7 @@ Result<Scene> OwnScene(const OwnModel& own) {
   const double measured = LegLength(check, model);
   CheckOwnUnits(measured, &check);
   if (!check.ok()) return check.Take();
-  CheckOwnJoints(&check);
+  CheckOwnJoints(measured, &check);
   CheckOwnChains(&check);
   CheckOwnFeet(measured, &check);
   CheckOwnMirror(measured, &check);

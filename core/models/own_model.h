@@ -41,7 +41,9 @@ struct OwnModel {
 //   units                       total mass and leg length out of range, radii of gyration longer than twice the leg
 //   universal and ball joints   axes that are parallel, a second of three turns whose range the joint would lock in
 //   joints                      a missing or infinite range, velocity or effort of a joint that is not of the base
-//   roles                       no hip; an axis across the role; a passive torque of people on another joint
+//   roles                       no hip; an axis across the role; a role in front of the one that moves it (a knee above
+//                               the hip); a left hip to the right of the right one; a passive torque of people on
+//                               another joint
 //   feet                        no contact on a side, surfaces without a WalkingShape,
 //                               soles above the hip, beside each other by more than a fifth of the leg, or above the
 //                               centre of mass of a link

@@ -57,7 +57,7 @@ bool IsOwnName(const std::string& name);
 void CheckOwnSizes(OwnModelCheck* check);                      // sizes, names, indices
 void CheckOwnBase(OwnModelCheck* check);                       // floating base
 void CheckOwnUnits(double leg_length, OwnModelCheck* check);   // masses, lengths, inertias
-void CheckOwnJoints(OwnModelCheck* check);                     // limits and roles
+void CheckOwnJoints(double leg_length, OwnModelCheck* check);  // limits and roles
 void CheckOwnChains(OwnModelCheck* check);                     // universal and ball joints
 void CheckOwnFeet(double leg_length, OwnModelCheck* check);    // contacts
 void CheckOwnMirror(double leg_length, OwnModelCheck* check);  // left and right

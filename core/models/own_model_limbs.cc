@@ -56,6 +56,42 @@ void CheckRole(int index, OwnModelCheck* check) {
   needs(PassiveKind::kHumanAnkle, JointRole::kAnkleDorsiflexion, -1);
 }
 
+int FindRole(const OwnModel& own, JointRole role, BodySide side) {
+  for (size_t i = 0; i < own.joints.size(); ++i) {
+    if (own.joints[i].role == role && own.joints[i].side == side) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+// A joint that bends a limb moves what lies behind it, so roles stand in this order from the base on; a start whose
+// knee moves the hip along walks nowhere.
+void CheckRoleOrder(JointRole first, JointRole second, OwnModelCheck* check) {
+  const std::vector<Joint>& joints = check->own.joints;
+  for (const BodySide side : {BodySide::kLeft, BodySide::kRight}) {
+    const int near = FindRole(check->own, first, side), far = FindRole(check->own, second, side);
+    if (near < 0 || far < 0) continue;
+    int at = joints[far].parent;
+    while (at >= 0 && at != near) at = joints[at].parent;
+    if (at == near) continue;
+    check->Refuse("joints", far, "role", "of joint \"", joints[far].name, "\" is that of a joint behind joint \"",
+                  joints[near].name,
+                  "\", which moves it: roles stand in the order hip, knee, ankle and shoulder, elbow, ",
+                  "from the base on. Exchange the two roles, or leave one out");
+  }
+}
+
+// The left hip is in +y of the right one, or in its place.
+void CheckLeftIsLeft(double leg_length, OwnModelCheck* check) {
+  const int left = FindRole(check->own, JointRole::kHipFlexion, BodySide::kLeft);
+  const int right = FindRole(check->own, JointRole::kHipFlexion, BodySide::kRight);
+  if (left < 0 || right < 0) return;
+  const double apart = check->p_WL[left].y() - check->p_WL[right].y();
+  if (apart >= -kMirrorTolerance * leg_length) return;
+  check->Refuse("joints", left, "side", "of joint \"", check->own.joints[left].name, "\" is left, but it lies ", -apart,
+                " m to the right of joint \"", check->own.joints[right].name,
+                "\" where the body faces x; exchange the sides, or turn the base by 180° about z");
+}
+
 void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
   const Joint& joint = check->own.joints[index];
   const int other = joint.mirror_joint < 0 ? index : joint.mirror_joint;
@@ -107,7 +143,7 @@ void CheckMirrorJoint(int index, double tolerance, OwnModelCheck* check) {
 
 }  // namespace
 
-void CheckOwnJoints(OwnModelCheck* check) {
+void CheckOwnJoints(double leg_length, OwnModelCheck* check) {
   bool is_driven = false;
   for (int i = 0; i < static_cast<int>(check->own.joints.size()); ++i) {
     const Joint& joint = check->own.joints[i];
@@ -117,6 +153,11 @@ void CheckOwnJoints(OwnModelCheck* check) {
     CheckRole(i, check);
   }
   if (!is_driven) check->RefuseModel("joints", "have no actuated one; a walker needs at least one");
+  CheckRoleOrder(JointRole::kHipFlexion, JointRole::kKneeFlexion, check);
+  CheckRoleOrder(JointRole::kHipFlexion, JointRole::kAnkleDorsiflexion, check);
+  CheckRoleOrder(JointRole::kKneeFlexion, JointRole::kAnkleDorsiflexion, check);
+  CheckRoleOrder(JointRole::kShoulderFlexion, JointRole::kElbowFlexion, check);
+  CheckLeftIsLeft(leg_length, check);
 }
 
 void CheckOwnChains(OwnModelCheck* check) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <google/protobuf/stubs/logging.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -114,6 +115,8 @@ int main(int argc, char** argv) {
   app.add_option("--runs", runs, "Changed inputs")->capture_default_str();
   app.add_option("--seed", seed, "Of the changes")->capture_default_str();
   app.add_option("--seconds", seconds_at_most, "End after so many seconds with fewer of them");
+  double most_memory = std::numeric_limits<double>::infinity();
+  app.add_option("--most-memory", most_memory, "MiB; a process that took more has broken a promise");
   CLI11_PARSE(app, argc, argv);
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) ::signal(signal, KeepInput);
   google::protobuf::SetLogHandler(nullptr);  // it reports every text that is not UTF-8
@@ -142,7 +145,12 @@ int main(int argc, char** argv) {
     RunOne(input.data(), input.size());
   }
   const double seconds = passed();
-  std::printf("%zu seeds and %lld changed inputs in %.1f s (%.0f/s): no promise broken\n", seeds.size(),
-              static_cast<long long>(done), seconds, static_cast<double>(done) / seconds);
-  return 0;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double memory = static_cast<double>(usage.ru_maxrss) / 1024;
+  const bool small = memory <= most_memory;
+  std::printf("%zu seeds and %lld changed inputs in %.1f s (%.0f/s), %.0f MiB: %s\n", seeds.size(),
+              static_cast<long long>(done), seconds, static_cast<double>(done) / seconds, memory,
+              small ? "no promise broken" : "too much memory");
+  return small ? 0 : 1;
 }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <string>
 
 #include "client/failure.h"
@@ -33,6 +34,7 @@ inline void ExpectRefused(const std::string& path, const BrokenFile& broken) {
     EXPECT_THAT(failure.what(), testing::StartsWith(path));
     EXPECT_THAT(failure.what(), testing::HasSubstr(broken.says));
     EXPECT_LT(std::string(failure.what()).size(), 1000u) << "repeats what it was given";
+    std::printf("%s\n", failure.what());
   }
 }
 

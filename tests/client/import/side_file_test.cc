@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -43,7 +44,7 @@ v1::ModelSideFile GoodSide() {
   return side;
 }
 
-TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
+TEST(BrokenSideFileTest, IsRefusedByFieldAndValue) {
   const LinkTree tree = TwoLegs();
   EXPECT_NO_THROW(CheckSideFile("s.json", GoodSide(), tree));
   const struct {
@@ -112,6 +113,7 @@ TEST(SideFileTest, RefusalsNameTheFieldAndTheValue) {
       EXPECT_EQ(failure.code(), ExitCode::kUsage);
       EXPECT_THAT(failure.what(), StartsWith("s.json: "));
       EXPECT_THAT(failure.what(), HasSubstr(says));
+      std::printf("%s\n", failure.what());
     }
   }
 }

@@ -150,6 +150,134 @@ TEST(SideProposalTest, ARobotThatFacesElsewhereIsTurned) {
   for (size_t i = 6; i < found.size(); ++i) EXPECT_LT((found[i].position - expected[i].position).norm(), 1e-12) << i;
 }
 
+// Links of the models of two descriptions of one robot are in the same places.
+void ExpectSamePlaces(const std::string& urdf) {
+  const auto model_of = [](const LinkTree& tree) {
+    return ModelOfTree(tree, "s.json", ProposeSideFile(tree).side).model;
+  };
+  const v1::Model model = model_of(ReadLinkTreeText("x.urdf", urdf)), straight = model_of(ReadLinkTree(kBiped));
+  const std::vector<double> zeros(static_cast<size_t>(model.joints_size()), 0.0);
+  const std::vector<Pose> found = LinkPoses(model, zeros), expected = LinkPoses(straight, zeros);
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 6; i < found.size(); ++i) EXPECT_LT((found[i].position - expected[i].position).norm(), 1e-12) << i;
+}
+
+// The robot within a root link whose axes point elsewhere.
+std::string BipedTurned(const std::string& rpy) {
+  return BipedWith("<robot name=\"biped\">",
+                   "<robot name=\"biped\"><link name=\"root\"/><joint name=\"turn\" type=\"fixed\"><parent "
+                   "link=\"root\"/><child link=\"pelvis\"/><origin xyz=\"0 0 0\" rpy=\"" +
+                       rpy + "\"/></joint>");
+}
+
+TEST(SideProposalTest, WhateverAxisIsUpTheRobotStands) {
+  for (const char* const rpy : {"-1.5707963267948966 0 0", "1.5707963267948966 0 0", "0 1.5707963267948966 0",
+                                "3.141592653589793 0 0", "-1.5707963267948966 0 -1.5707963267948966"}) {
+    SCOPED_TRACE(rpy);
+    const SideProposal proposal = ProposeSideFile(ReadLinkTreeText("x.urdf", BipedTurned(rpy)));
+    EXPECT_THAT(proposal.reasons, Contains(HasSubstr("the legs hang then along −z")));
+    ExpectSamePlaces(BipedTurned(rpy));
+  }
+}
+
+TEST(SideProposalTest, NamesWithoutSidesAreMirroredByPlaces) {
+  const std::string left = BipedWith("left_", "one");
+  std::string text = left;
+  for (size_t at = text.find("right_"); at != std::string::npos; at = text.find("right_", at))
+    text.replace(at, 6, "two");
+  const LinkTree tree = ReadLinkTreeText("x.urdf", text);
+  const SideProposal proposal = ProposeSideFile(tree);
+  EXPECT_THAT(proposal.missing, IsEmpty());
+  EXPECT_EQ(proposal.side.mirror(), v1::ModelSideFile::MIRROR_UNSPECIFIED);
+  const v1::Model model = ModelOfTree(tree, "s.json", proposal.side).model;
+  int pairs = 0;
+  for (const v1::Joint& joint : model.joints()) {
+    if (joint.name().rfind("one", 0) != 0) continue;
+    EXPECT_EQ(model.joints(joint.mirror_joint()).name(), "two" + joint.name().substr(3));
+    ++pairs;
+  }
+  EXPECT_EQ(pairs, 6);
+}
+
+TEST(SideProposalTest, ARobotWithoutSidewaysJointsWalksInThePlane) {
+  std::string text = ReadModelBytes(kBiped);
+  for (const char* const axis : {"xyz=\"1 0 0\"", "xyz=\"0 0 1\""}) {
+    for (size_t at = text.find(axis); at != std::string::npos; at = text.find(axis, at))
+      text.replace(at, 11, "xyz=\"0 1 0\"");
+  }
+  const SideProposal proposal = ProposeSideFile(ReadLinkTreeText("x.urdf", text));
+  EXPECT_EQ(proposal.side.base(), v1::ModelSideFile::BASE_PLANE);
+  EXPECT_THAT(proposal.reasons, Contains(HasSubstr("no joint moves out of the plane")));
+  EXPECT_EQ(proposal.side.bodies_size(), 0) << "legs pass each other";
+  EXPECT_EQ(ProposeSideFile(ReadLinkTree(kBiped)).side.base(), v1::ModelSideFile::BASE_UNSPECIFIED);
+}
+
+// Hips and feet in one place: the knees tell where the left is.
+TEST(SideProposalTest, ARobotDrawnInAPlaneFacesWhereItsKneesDoNotBend) {
+  const auto planar = [](const std::string& axis, const std::string& range) {
+    std::string text = "<robot name=\"r\"><link name=\"body\"/>";
+    for (const std::string side : {"left", "right"}) {
+      const std::string mass =
+          "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" "
+          "ixz=\"0\" iyz=\"0\"/></inertial>";
+      text += "<link name=\"" + side + "_thigh\">" + mass + "</link><link name=\"" + side + "_shank\">" + mass +
+              "<collision><origin xyz=\"0 0 -0.4\"/><geometry><sphere radius=\"0.02\"/></geometry></collision></link>"
+              "<joint name=\"" +
+              side + "_hip\" type=\"revolute\"><parent link=\"body\"/><child link=\"" + side +
+              "_thigh\"/><axis xyz=\"" + axis +
+              "\"/><limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"9\"/>"
+              "</joint><joint name=\"" +
+              side + "_knee\" type=\"revolute\"><parent link=\"" + side + "_thigh\"/><child link=\"" + side +
+              "_shank\"/><origin xyz=\"0 0 -0.4\"/><axis xyz=\"" + axis + "\"/><limit " + range +
+              " effort=\"9\" velocity=\"9\"/></joint>";
+    }
+    return ReadLinkTreeText("x.urdf", text + "</robot>");
+  };
+  const std::string bends = "lower=\"0\" upper=\"2\"", bends_back = "lower=\"-2\" upper=\"0\"";
+  EXPECT_FALSE(ProposeSideFile(planar("0 1 0", bends)).side.has_base_orientation());
+  EXPECT_THAT(ProposeSideFile(planar("1 0 0", bends)).reasons, Contains(HasSubstr("turned by 90° about z")));
+  EXPECT_THAT(ProposeSideFile(planar("1 0 0", bends_back)).reasons, Contains(HasSubstr("turned by -90° about z")));
+  EXPECT_THAT(ProposeSideFile(planar("0 1 0", bends_back)).reasons, Contains(HasSubstr("turned by 180° about z")));
+}
+
+// Each foot a link with toes behind a joint of their own.
+std::string BipedWithToes(double height) {
+  std::string text = ReadModelBytes(kBiped), toes;
+  for (const std::string side : {"left", "right"}) {
+    toes += "<link name=\"" + side +
+            "_toes\"><inertial><mass value=\"0.2\"/><inertia ixx=\"1e-3\" iyy=\"1e-3\" "
+            "izz=\"1e-3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial><collision><origin xyz=\"0.03 0 " +
+            std::to_string(height) +
+            "\"/><geometry><box size=\"0.06 0.1 0.06\"/></geometry></collision></link>"
+            "<joint name=\"" +
+            side + "_toe\" type=\"revolute\"><parent link=\"" + side + "_foot\"/><child link=\"" + side +
+            "_toes\"/><origin xyz=\"0.15 0 -0.04\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" "
+            "effort=\"10\" velocity=\"9\"/></joint>";
+  }
+  return text.insert(text.rfind("</robot>"), toes);
+}
+
+TEST(SideProposalTest, FeetWithToesStandOnBothParts) {
+  const LinkTree tree = ReadLinkTreeText("x.urdf", BipedWithToes(0));
+  const SideProposal proposal = ProposeSideFile(tree);
+  EXPECT_THAT(proposal.missing, IsEmpty());
+  ASSERT_EQ(proposal.side.contacts_size(), 4);
+  EXPECT_EQ(proposal.side.contacts(0).name(), "left_heel");
+  EXPECT_EQ(proposal.side.contacts(0).link(), "left_foot");
+  EXPECT_EQ(proposal.side.contacts(0).part(), v1::ContactSurface::FOOT_PART_HEEL);
+  EXPECT_EQ(proposal.side.contacts(1).name(), "left_toes");
+  EXPECT_EQ(proposal.side.contacts(1).link(), "left_toes");
+  EXPECT_EQ(proposal.side.contacts(1).part(), v1::ContactSurface::FOOT_PART_TOE);
+  EXPECT_EQ(proposal.side.body_pairs_size(), 4);
+  const v1::Model model = ModelOfTree(tree, "s.json", proposal.side).model;
+  EXPECT_EQ(model.contacts(1).mirror_contact(), "right_toes");
+
+  const SideProposal raised = ProposeSideFile(ReadLinkTreeText("x.urdf", BipedWithToes(0.05)));
+  ASSERT_EQ(raised.side.contacts_size(), 2) << "toes above the ground";
+  EXPECT_EQ(raised.side.contacts(0).link(), "left_foot");
+  EXPECT_EQ(raised.side.contacts(0).part(), v1::ContactSurface::FOOT_PART_WHOLE);
+}
+
 TEST(SideProposalTest, SaysWhatDiffersAndWhatIsMissing) {
   const std::string heavy = "<mass value=\"2.6\"/>";
   std::string text = ReadModelBytes(kBiped);

@@ -93,6 +93,25 @@ TEST(BodyShapesTest, DrawsTheMiddleOfABodyOfUnknownStature) {
   EXPECT_THAT(ByPart(model), testing::Not(Contains(Key(part)))) << "what the model says is drawn in its place";
 }
 
+// Shanks that stand on points: the point does not show the shank.
+TEST(BodyShapesTest, DrawsALimbWhoseOnlySurfaceIsAtItsEnd) {
+  v1::Model model = SampleModel();
+  const int shank = 4;
+  v1::ContactSurface& foot = *model.mutable_contacts(0);
+  foot.set_joint(shank);
+  for (const auto set : {&v1::Vector3::set_x, &v1::Vector3::set_y, &v1::Vector3::set_z}) {
+    (foot.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->*set)(0.02);
+  }
+  foot.mutable_center_m()->set_x(0);
+  foot.mutable_center_m()->set_z(-0.4);
+  model.mutable_joints()->DeleteSubrange(5, model.joints_size() - 5);  // no foot, no other leg
+  model.mutable_contacts()->DeleteSubrange(1, model.contacts_size() - 1);
+  const BodyShape drawn = ByPart(model).at("left shank");
+  EXPECT_EQ(drawn.kind, ShapeKind::kDrawn);
+  EXPECT_NEAR(drawn.pose.position.z(), -0.2, 1e-12) << "from the knee to the point";
+  EXPECT_GE(drawn.semi_axes.z(), 0.2);
+}
+
 TEST(BodyShapesTest, RefusesASurfaceOnNoJoint) {
   v1::Model model = SampleModel();
   model.mutable_contacts(0)->set_joint(9);

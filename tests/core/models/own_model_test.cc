@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "core/models/catalog.h"
 
@@ -129,6 +131,7 @@ TEST_P(BrokenModelTest, IsRefusedByFieldValueAndReason) {
                       violation.message.find(GetParam().message) != std::string::npos);
   }
   EXPECT_TRUE(found) << said;
+  std::printf("%s", said.c_str());
 }
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -176,6 +179,22 @@ INSTANTIATE_TEST_SUITE_P(
                ".effort_max", "min < 0 < max"},
         Broken{"RoleAcross", [](OwnModel* m) { At(m, "trunk_flexion").axis = Vector3::UnitX(); }, ".axis",
                "within 60°"},
+        Broken{"KneeAboveTheHip",
+               [](OwnModel* m) { std::swap(At(m, "hip_l").role, At(m, "knee_l").role); }, ".role",
+               "is that of a joint behind joint \"knee_l\""},
+        Broken{"ElbowAboveTheShoulder",
+               [](OwnModel* m) { std::swap(At(m, "shoulder_r").role, At(m, "elbow_r").role); }, ".role",
+               "hip, knee, ankle and shoulder, elbow"},
+        Broken{"FacesBackwards",
+               [](OwnModel* m) {
+                 for (Joint& joint : m->joints) {
+                   if (joint.side != BodySide::kMidline)
+                     joint.side = joint.side == BodySide::kLeft ? BodySide::kRight : BodySide::kLeft;
+                 }
+                 for (ContactSurface& contact : m->contacts)
+                   contact.side = contact.side == BodySide::kLeft ? BodySide::kRight : BodySide::kLeft;
+               },
+               ".side", "to the right of joint \"hip_l\""},
         Broken{"OtherPassive", [](OwnModel* m) { At(m, "elbow_l").passive = PassiveKind::kHumanKnee; }, ".passive",
                "people"},
         Broken{"NoFootOnTheLeft",
