@@ -107,8 +107,11 @@ std::string BodyXml(const Body& body, const std::string& end, double side) {
 }
 
 std::string CoordinateXml(const std::string& name, double least, double most) {
+  // The toes are locked: with toes of 0.2 kg free, a gait still exceeded a bound on its third mesh.
+  const bool locked = name.rfind("mtp_angle", 0) == 0;
   return "<Coordinate name=\"" + name + "\"><default_value>0</default_value><range>" + FormatNumber(least, 8) + " " +
-         FormatNumber(most, 8) + "</range><clamped>false</clamped><locked>false</locked></Coordinate>";
+         FormatNumber(most, 8) + "</range><clamped>false</clamped><locked>" + (locked ? "true" : "false") +
+         "</locked></Coordinate>";
 }
 
 std::string AxisXml(const std::string& name, const std::string& coordinate, const std::string& axis,

@@ -100,8 +100,8 @@ Compared CompareInertia(const std::string& name, const std::string& text, const 
     MatrixX map = MatrixX::Zero(mujoco.model().nv, n);  // MuJoCo's velocities of the model's
     map.topLeftCorner(6, 6) = OfFreeJoint(q(4), q(5), upright);
     for (int i = 6; i < n; ++i) {
-      const std::string& name = model.joints(i).name();
-      const std::string ball = name.substr(0, name.size() - std::min<size_t>(2, name.size()));
+      const std::string& joint = model.joints(i).name();
+      const std::string ball = joint.substr(0, joint.size() - std::min<size_t>(2, joint.size()));
       const int id = mj_name2id(&mujoco.model(), mjOBJ_JOINT, ball.c_str());
       if (id >= 0 && mujoco.model().jnt_type[id] == mjJNT_BALL) {
         const Eigen::Quaterniond turned = Eigen::AngleAxisd(q(i), Eigen::Vector3d::UnitY()) *
@@ -112,8 +112,8 @@ Compared CompareInertia(const std::string& name, const std::string& text, const 
         i += 2;
         continue;
       }
-      mq(mujoco.Q(name)) = q(i);
-      map(mujoco.Dof(name), i) = 1;
+      mq(mujoco.Q(joint)) = q(i);
+      map(mujoco.Dof(joint), i) = 1;
     }
     for (const auto& [joint, position] : fixed) mq(mujoco.Q(joint)) = position;
     const VectorX zero = VectorX::Zero(mujoco.model().nv);

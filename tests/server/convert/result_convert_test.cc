@@ -121,7 +121,27 @@ GaitSolution Solution() {
   solution.objective = 15;
   solution.costs = {{"time", 16, 17, "s", 18, 35}};
   solution.unmet_constraints = {{"speed", 1, 19, 20, "m/s"}};
-  solution.meshes = {{{8, 16}, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 36}};
+  solution.meshes = {{.start = StartOf::kImage,
+                      .slope = 37,
+                      .kkt_tolerance = 38,
+                      .cycle = Cycle::kHalf,
+                      .has_sides_alike = true,
+                      .has_added_rates = true,
+                      .termination = Termination::kTimeLimit,
+                      .message = "why",
+                      .intervals = {8, 16},
+                      .unknowns = 21,
+                      .constraints = 22,
+                      .jacobian_nonzeros = 23,
+                      .hessian_nonzeros = 24,
+                      .iterations = 25,
+                      .wall_time = 26,
+                      .evaluation_time = 27,
+                      .objective = 28,
+                      .kkt_error = 29,
+                      .max_gap = 30,
+                      .max_slip = 31,
+                      .smoothing = 36}};
   solution.speed = 32;
   solution.step_length = 33;
   solution.wall_time = 34;
@@ -268,6 +288,12 @@ TEST(EncodeResult, MeshStatisticsArrive) {
   const v1::SolveResult result = EncodeResult(Solution(), Planar());
   ASSERT_EQ(result.meshes_size(), 1);
   const v1::MeshStatistics& mesh = result.meshes(0);
+  EXPECT_EQ(mesh.start(), v1::PROGRAM_START_MIRROR_IMAGE);
+  EXPECT_EQ(mesh.slope_rad(), 37);
+  EXPECT_EQ(mesh.kkt_tolerance(), 38);
+  EXPECT_TRUE(mesh.half_cycle() && mesh.sides_alike() && mesh.added_torque_rates());
+  EXPECT_EQ(mesh.termination(), v1::TERMINATION_TIME_LIMIT);
+  EXPECT_EQ(mesh.message(), "why");
   EXPECT_EQ(mesh.intervals(1), 16);
   EXPECT_EQ(mesh.unknowns(), 21);
   EXPECT_EQ(mesh.constraints(), 22);
