@@ -3,11 +3,14 @@
 #include <google/protobuf/util/json_util.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "client/failure.h"
 
@@ -23,31 +26,41 @@ std::string Print(const google::protobuf::Message& message, bool indented) {
   return text;
 }
 
+// Each run of spaces and line feeds as one space.
+std::string OneLine(const std::string& text) {
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 }  // namespace
 
 std::string ToJsonLine(const google::protobuf::Message& message) { return Print(message, false); }
 
 std::string ToJsonText(const google::protobuf::Message& message) { return Print(message, true); }
 
-void ReadJsonFile(const std::string& given, google::protobuf::Message& message) {
+void ReadJsonFile(const std::string& given, google::protobuf::Message& message, const FileLimit& limit) {
   const bool is_input = given == "-";
   const std::string path = is_input ? "standard input" : given;
   std::ifstream file(is_input ? "/dev/stdin" : given, std::ios::binary);
-  // Larger than any message that a server takes, and small beside the memory of a machine.
-  constexpr size_t kMostBytes = size_t{64} << 20;
+  const size_t most = static_cast<size_t>(limit.mebibytes) << 20;
   std::string text(1 << 16, '\0');
   size_t size = 0;
   while (file.read(text.data() + size, static_cast<std::streamsize>(text.size() - size)).gcount() > 0) {
     size += static_cast<size_t>(file.gcount());
-    if (size > kMostBytes) throw Failure(ExitCode::kUsage, path + ": has more than 64 MiB, which no request has");
-    text.resize(2 * size);
+    if (size > most) {
+      throw Failure(ExitCode::kUsage,
+                    path + ": has more than " + std::to_string(limit.mebibytes) + " MiB, " + limit.reason);
+    }
+    if (size == text.size()) text.resize(std::min(2 * size, most + 1));
   }
   if (!file.eof()) throw Failure(ExitCode::kUsage, path + ": cannot be read: " + std::strerror(errno));
   text.resize(size);
   const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
   if (!status.ok()) {
     throw Failure(ExitCode::kUsage, path + ": not a proto3 JSON " + message.GetDescriptor()->full_name() + ": " +
-                                        std::string(status.message()));
+                                        OneLine(std::string(status.message())));
   }
 }
 

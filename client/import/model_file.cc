@@ -31,7 +31,7 @@ ModelFile ReadModelFile(const std::string& path, const std::string& side_path) {
     if (!side_path.empty())
       throw Failure(ExitCode::kUsage, "--side: belongs to a model in a " + TreeFileEndings() + " file, not to " + path);
     ModelFile file;
-    ReadJsonFile(path, file.model);
+    ReadJsonFile(path, file.model, kModelFile);
     return file;
   }
   if (side_path.empty()) {

@@ -208,7 +208,7 @@ void CheckSideFile(const std::string& path, const v1::ModelSideFile& side, const
 
 v1::ModelSideFile ReadSideFile(const std::string& path, const LinkTree& tree) {
   v1::ModelSideFile side;
-  ReadJsonFile(path, side);
+  ReadJsonFile(path, side, kModelFile);
   CheckSideFile(path, side, tree);
   return side;
 }

@@ -119,7 +119,7 @@ TEST_F(CommandLineTest, ASpelledOutPresetIsSolvedLikeThePreset) {
   EXPECT_EQ(Run("list --model human29").out, "");
   const Ended explained = Run("explain " + flags.name());
   EXPECT_THAT(explained.out, HasSubstr("The solver found a local optimum"));
-  EXPECT_THAT(explained.out, HasSubstr("iterations on "));
+  EXPECT_THAT(explained.out, HasSubstr("iterations in "));
 }
 
 // Gaits are told as they converge, the newest can be had from a solve that runs, and from one that was cancelled.
@@ -184,7 +184,7 @@ TEST_F(CommandLineTest, AModelInAFileWalksLikeTheOneOfThatName) {
   std::ofstream(file) << "{\"joints\": 3}";
   EXPECT_THAT(Run("models " + file).err, HasSubstr("not a proto3 JSON rollgait.v1.Model"));
   EXPECT_EQ(std::system(("truncate -s 65M " + file).c_str()), 0);
-  EXPECT_THAT(Run("models " + file).err, HasSubstr("has more than 64 MiB"));
+  EXPECT_THAT(Run("models " + file).err, HasSubstr("has more than 4 MiB"));
 }
 
 // A model that was written as URDF and side file gives the gait of its name, and a robot from elsewhere walks with the

@@ -74,14 +74,12 @@ function convergence() {
     ? table(
         [
           "Slope",
-          "Program",
           "Intervals",
           "Unknowns",
           "Constraints",
           "Jacobian",
           "Hessian",
           "Iterations",
-          "End",
           "Time",
           "Evaluation",
           "Objective",
@@ -92,14 +90,12 @@ function convergence() {
         meshed.flatMap((s) =>
           s.meshes.map((m, i) => [
             i ? "" : labelOf(s),
-            m.program,
             m.intervals,
             String(m.unknowns),
             String(m.constraints),
             String(m.jacobian),
             String(m.hessian),
             String(m.iterations),
-            m.end,
             m.wall,
             m.evaluation,
             fmt(m.objective, 6),
@@ -108,7 +104,16 @@ function convergence() {
             `${fmt(m.slip_mm_s, 3)} mm/s`,
           ]),
         ),
-        [3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14],
+        [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+        "Meshes",
+      )
+    : null;
+  const told = meshed.filter((s) => s.meshes.some((m) => m.program));
+  const programTable = told.length
+    ? table(
+        ["Slope", "Program", "Iterations", "End"],
+        told.flatMap((s) => s.meshes.map((m, i) => [i ? "" : labelOf(s), m.program, String(m.iterations), m.end])),
+        [2],
         "Programs of the search",
       )
     : null;
@@ -126,7 +131,8 @@ function convergence() {
         "normalisation",
       costTable,
     ),
-    fold("Meshes: intervals of each phase; Jacobian and Hessian are counts of nonzeros", meshTable),
+    fold("Programs of the search, in the order in which they were solved: what each was, and how it ended", programTable),
+    fold("Meshes of these programs: intervals of each phase; Jacobian and Hessian are counts of nonzeros", meshTable),
   );
 }
 

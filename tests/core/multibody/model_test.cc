@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
                   (*j)[2].role = (*j)[3].role = JointRole::kKneeFlexion;
                   (*j)[2].side = (*j)[3].side = BodySide::kLeft;
                 },
-                "joints[3].role", "joints[2]"},
+                "joints[3].role", "joint \"left\""},
         Refusal{"MirrorSignSize", [](Joints j) { (*j)[1].mirror_sign = 0.5; }, "joints[1].mirror_sign", "1 or -1"}),
     [](const ::testing::TestParamInfo<Refusal>& refusal) { return std::string(refusal.param.name); });
 
