@@ -1,24 +1,13 @@
 #include "server/base/executor.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <utility>
-
-#include "server/base/time_slice.h"
 
 namespace rollgait::server {
 namespace {
 
 // For so long after tasks of two lanes came one after the other, lanes are taken to share the threads.
 constexpr std::chrono::seconds kShared{1};
-
-// Of this thread, until now.
-std::chrono::nanoseconds ProcessorTime() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
 
 }  // namespace
 
@@ -38,19 +27,16 @@ Executor::Blocked::~Blocked() {
   current_.executor = executor_;
 }
 
-Executor::Executor(int threads, size_t capacity, LaneLoad load)
-    : capacity_(capacity), thread_count_(static_cast<size_t>(threads)), load_(std::move(load)) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { Work(false); });
-  for (int i = 0; i < (threads + 1) / 2; ++i) threads_.emplace_back([this] { Work(true); });
+Executor::Executor(int threads, size_t capacity) : capacity_(capacity), thread_count_(static_cast<size_t>(threads)) {
+  for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { Work(); });
 }
 
 Executor::~Executor() { Stop(); }
 
-bool Executor::LanesShare() const { return std::chrono::steady_clock::now() - lanes_differed_ < kShared; }
-
 bool Executor::MayHaveThread(const std::string& name, const Lane& lane) const {
   if (name.empty()) return lane.held < thread_count_;
-  if (!LanesShare()) return lane.held < std::max<size_t>(1, thread_count_ * 3 / 4);
+  const bool shared = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
+  if (!shared) return lane.held < std::max<size_t>(1, thread_count_ * 3 / 4);
   const size_t most_working = std::min<size_t>(thread_count_ / 4, std::thread::hardware_concurrency() / 2);
   return lane.held - lane.blocked < std::max<size_t>(1, most_working) &&
          lane.held < std::max<size_t>(1, thread_count_ / 2);
@@ -60,9 +46,8 @@ void Executor::Offer(Lanes::iterator lane) {
   Lane& of = lane->second;
   if (of.has_turn || of.tasks.empty() || !MayHaveThread(lane->first, of)) return;
   of.has_turn = true;
-  const bool is_busy = !lane->first.empty() && LanesShare() && load_.IsBusy(lane->first, LaneLoad::Clock::now());
-  (is_busy ? busy_turns_ : turns_).push_back(lane);
-  (is_busy ? wake_busy_ : wake_).notify_one();
+  turns_.push_back(lane);
+  wake_.notify_one();
 }
 
 void Executor::Add(const std::string& lane, std::function<void()> task) {
@@ -101,29 +86,19 @@ void Executor::Stop() {
     stopping_ = true;
     threads.swap(threads_);
     wake_.notify_all();
-    wake_busy_.notify_all();
   }
   for (std::thread& thread : threads) thread.join();
   const std::lock_guard<std::mutex> lock(mutex_);
   stopped_ = true;
 }
 
-const std::string& Executor::CurrentLane() {
-  static const std::string none;
-  return current_.of == nullptr ? none : *current_.of;
-}
-
-void Executor::Work(bool of_busy) {
-  if (of_busy) TakeSlices(kLongerSlice);
-  std::deque<Lanes::iterator>& turns = of_busy ? busy_turns_ : turns_;
+void Executor::Work() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    (of_busy ? wake_busy_ : wake_).wait(lock, [&] {
-      return !turns.empty() || (stopping_ && active_ == 0 && waiting_ == 0);
-    });
-    if (turns.empty()) return;
-    const Lanes::iterator lane = turns.front();
-    turns.pop_front();
+    wake_.wait(lock, [this] { return !turns_.empty() || (stopping_ && active_ == 0); });
+    if (turns_.empty()) return;
+    const Lanes::iterator lane = turns_.front();
+    turns_.pop_front();
     lane->second.has_turn = false;
     std::function<void()> task = std::move(lane->second.tasks.front());
     lane->second.tasks.pop_front();
@@ -132,22 +107,16 @@ void Executor::Work(bool of_busy) {
     ++lane->second.held;
     Offer(lane);  // behind the others
     lock.unlock();
-    current_ = {this, lane, &lane->first};
-    const std::chrono::nanoseconds before = ProcessorTime();
+    current_ = {this, lane};
     task();
     task = nullptr;  // what it holds is released here, not under the lock
-    const std::chrono::nanoseconds took = ProcessorTime() - before;
     current_ = {};
     lock.lock();
     --active_;
     --lane->second.held;
-    if (!lane->first.empty()) load_.Add(lane->first, took, LaneLoad::Clock::now());
     Offer(lane);
     if (lane->second.held == 0 && lane->second.tasks.empty()) lanes_.erase(lane);
-    if (stopping_) {
-      wake_.notify_all();
-      wake_busy_.notify_all();
-    }
+    if (stopping_) wake_.notify_all();
     if (active_ == 0 && waiting_ == 0) idle_.notify_all();
   }
 }

@@ -13,16 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "server/base/lane_load.h"
-
 namespace rollgait::server {
 
 // A few threads that run tasks. For work that may block, which a gRPC reaction may not. Tasks of one lane start in the
 // order they came; lanes that wait take turns. A lane with a name has at most three quarters of the threads (while
 // tasks of several lanes come a quarter, and no more than half as many as there are cores, at least one; with those
 // whose tasks are Blocked a half) and half of the places to wait, so that whoever fills it leaves the rest to others.
-// Meanwhile lanes that take much of the processor (LaneLoad::IsBusy) run on threads of their own, half as many, with
-// longer time slices (time_slice.h): a task of another lane displaces theirs as soon as it comes.
 class Executor {
  public:
   // While it exists, the task that made it does not need the processor: another one of its lane may start. Nothing in
@@ -38,11 +34,8 @@ class Executor {
     Executor* const executor_;  // nullptr: nothing
   };
 
-  // The lane of the calling thread's task; empty: none, or one without a name.
-  static const std::string& CurrentLane();
-
-  // `capacity` bounds the tasks that TryPost lets wait; `load` is what lanes have taken before.
-  Executor(int threads, size_t capacity, LaneLoad load = {});
+  // `capacity` bounds the tasks that TryPost lets wait.
+  Executor(int threads, size_t capacity);
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
   // Runs what waits, then joins.
@@ -64,21 +57,18 @@ class Executor {
     std::deque<std::function<void()>> tasks;
     size_t held = 0;        // threads
     size_t blocked = 0;     // of them
-    bool has_turn = false;  // it is in turns_ or busy_turns_
+    bool has_turn = false;  // it is in turns_
   };
   using Lanes = std::map<std::string, Lane>;
   // The task of this thread.
   struct Current {
-    Executor* executor = nullptr;  // nullptr: none, or it is Blocked
+    Executor* executor = nullptr;
     Lanes::iterator lane = {};
-    const std::string* of = nullptr;  // the lane's name; nullptr: none
   };
 
-  // Of a thread for all lanes, or for those that take much.
-  void Work(bool of_busy);
+  void Work();
   // These need the lock.
   void Add(const std::string& lane, std::function<void()> task);
-  bool LanesShare() const;
   bool MayHaveThread(const std::string& name, const Lane& lane) const;
   // Gives the lane a turn if it has none, has tasks and may have one more thread.
   void Offer(Lanes::iterator lane);
@@ -87,10 +77,9 @@ class Executor {
 
   const size_t capacity_, thread_count_;
   std::mutex mutex_;
-  std::condition_variable wake_, wake_busy_, idle_;
+  std::condition_variable wake_, idle_;
   Lanes lanes_;  // that have tasks, waiting or running
-  std::deque<Lanes::iterator> turns_, busy_turns_;
-  LaneLoad load_;
+  std::deque<Lanes::iterator> turns_;
   size_t waiting_ = 0;
   std::string newest_lane_;
   std::chrono::steady_clock::time_point lanes_differed_{};  // when a task came of another lane than the one before

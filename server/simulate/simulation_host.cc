@@ -13,7 +13,6 @@
 
 #include "server/agent/solver_process.h"
 #include "server/base/supervisor.h"
-#include "server/base/time_slice.h"
 
 namespace rollgait::server {
 namespace {
@@ -152,7 +151,6 @@ Outcome<std::shared_ptr<SimulationCancel>> SimulationHost::Start(Job job) {
   running.cancel = std::make_shared<SimulationCancel>();
   running.done = std::make_shared<std::atomic<bool>>(false);
   running.thread = std::thread([job = std::move(job), cancel = running.cancel, done = running.done] {
-    TakeSlices(kLongerSlice);  // it passes on as much as the client reads, beside calls that are short
     const std::function<void()> finish = job(*cancel);
     done->store(true);
     finish();

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <iterator>
-#include <map>
 #include <random>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -21,11 +18,6 @@ using Kind = SqlFailure::Kind;
 constexpr int kConflicts = 30;  // in a row, before a call gives up
 constexpr int kLosses = 2;
 constexpr std::chrono::seconds kWaitForConnection(10);
-// Of the statements of a group that has a write of each lane; about what its commit takes on a fast disk, so that
-// waiting for a group of others at most doubles the time of a write.
-constexpr std::chrono::milliseconds kGroupTime(1);
-// For so long after writes of two lanes came one after the other, lanes are taken to share the writer.
-constexpr std::chrono::seconds kShared(1);
 
 // Those that were in each other's way do not meet again at the same moment.
 void PauseAfterConflict(int conflicts) {
@@ -148,38 +140,22 @@ void Database::Alone(SqlConnection::Access access, Waiting& write) {
   if (lost) DropIdle();
 }
 
-// Each lane's oldest, then each lane's second, and so on: who writes much waits behind who writes little.
-std::vector<Database::Waiting*> Database::TakeGroup() {
-  std::map<std::string, size_t> of_lane;
-  std::vector<std::pair<size_t, Waiting*>> ranked;
-  for (Waiting* write : std::exchange(waiting_, {})) ranked.emplace_back(of_lane[write->lane]++, write);
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Waiting*> group;
-  for (const auto& [rank, write] : ranked) group.push_back(write);
-  return group;
-}
-
-// In one transaction, while lanes share the writer as many as the time allows, each undone by itself if it does not
-// want to commit. Returns how many; 0: something failed, nothing was written.
-size_t Database::TryTogether(const std::vector<Waiting*>& group, bool lanes_share) {
+// All in one transaction, each undone by itself if it does not want to commit. False: something failed, nothing was
+// written.
+bool Database::TryTogether(const std::vector<Waiting*>& group) {
   constexpr SqlConnection::Access kWrite = SqlConnection::Access::kWrite;
   std::unique_ptr<SqlConnection> connection;
-  size_t committed = 0, run = 0;
-  std::set<std::string> lanes;
+  bool committed = false;
   try {
     connection = Take(kWrite);
     connection->Begin(kWrite);
-    const auto end = std::chrono::steady_clock::now() + kGroupTime;
     for (const Waiting* write : group) {
-      const bool is_further = !lanes.insert(write->lane).second;
-      if (lanes_share && is_further && std::chrono::steady_clock::now() >= end) break;
       Query::Do(*connection, "SAVEPOINT one");
       if (!write->body(*connection)) Query::Do(*connection, "ROLLBACK TO one");
       Query::Do(*connection, "RELEASE one");
-      ++run;
     }
     connection->Commit();
-    committed = run;
+    committed = true;
   } catch (const SqlFailure&) {
     if (connection != nullptr) connection->Rollback();
   }
@@ -187,41 +163,25 @@ size_t Database::TryTogether(const std::vector<Waiting*>& group, bool lanes_shar
   return committed;
 }
 
-size_t Database::RunGroup(const std::vector<Waiting*>& group, bool lanes_share) {
-  const size_t together = group.size() > 1 ? TryTogether(group, lanes_share) : 0;
-  if (together > 0) return together;
+void Database::RunGroup(const std::vector<Waiting*>& group) {
+  if (group.size() > 1 && TryTogether(group)) return;
   for (Waiting* write : group) Alone(SqlConnection::Access::kWrite, *write);
-  return group.size();
 }
 
-// The first that finds nobody at work does the work of those that wait.
+// The first that finds nobody at work does the work of all that wait.
 void Database::InGroup(Waiting& write) {
   std::unique_lock<std::mutex> lock(group_mutex_);
-  if (!write.lane.empty()) {  // the server's own are few
-    if (write.lane != newest_lane_ && !newest_lane_.empty()) lanes_differed_ = std::chrono::steady_clock::now();
-    newest_lane_ = write.lane;
-  }
   waiting_.push_back(&write);
-  while (true) {
-    group_done_.wait(lock, [&] { return write.done || !leading_; });
-    if (write.done) return;
-    leading_ = true;
-    const std::vector<Waiting*> group = TakeGroup();
-    const bool lanes_share = std::chrono::steady_clock::now() - lanes_differed_ < kShared;
-    lock.unlock();
-    const size_t run = RunGroup(group, lanes_share);
-    lock.lock();
-    leading_ = false;
-    for (size_t i = 0; i < run; ++i) group[i]->done = true;
-    // Those that are left came before whoever waits by now.
-    waiting_.insert(waiting_.begin(), group.begin() + static_cast<std::ptrdiff_t>(run), group.end());
-    group_done_.notify_all();
-  }
-}
-
-size_t Database::waiting_writes() {
-  const std::lock_guard<std::mutex> lock(group_mutex_);
-  return waiting_.size();
+  group_done_.wait(lock, [&] { return write.done || !leading_; });
+  if (write.done) return;
+  leading_ = true;
+  const std::vector<Waiting*> group = std::exchange(waiting_, {});
+  lock.unlock();
+  RunGroup(group);
+  lock.lock();
+  leading_ = false;
+  for (Waiting* member : group) member->done = true;
+  group_done_.notify_all();
 }
 
 Outcome<Done> Database::PrepareSchema() {
@@ -243,7 +203,7 @@ std::optional<Error> Database::Transact(SqlConnection::Access access, const Body
   std::optional<Executor::Blocked> blocked;
   if (access == SqlConnection::Access::kWrite) blocked.emplace();
   for (int conflicts = 0, losses = 0;;) {
-    Waiting write{body, Executor::CurrentLane()};
+    Waiting write{body};
     if (access == SqlConnection::Access::kWrite && options_.group_writes) {
       InGroup(write);
     } else {

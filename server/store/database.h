@@ -1,9 +1,7 @@
 #ifndef ROLLGAIT_SERVER_STORE_DATABASE_H_
 #define ROLLGAIT_SERVER_STORE_DATABASE_H_
 
-#include <chrono>
 #include <condition_variable>
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,9 +22,7 @@ class Database {
     std::string name;  // for messages; without a password
     std::function<std::unique_ptr<SqlConnection>()> connect;
     int writers = 1, readers = 2;  // most connections of each kind
-    // Writes that wait for one another share a transaction and its commit: one of each lane of the executor, then more
-    // of each in turn; while several lanes write, no more than a short time allows.
-    bool group_writes = false;
+    bool group_writes = false;     // writes that wait for one another share a transaction and its commit
   };
   explicit Database(Options options) : options_(std::move(options)) {}
   Database(const Database&) = delete;
@@ -53,14 +49,11 @@ class Database {
   // EnsureSchema (schema.h) over one of the connections.
   Outcome<Done> PrepareSchema();
   const std::string& name() const { return options_.name; }
-  // Writes that wait for a group of others to end.
-  size_t waiting_writes();
 
  private:
   using Body = std::function<bool(SqlConnection&)>;  // returns whether to commit
   struct Waiting {
     const Body& body;
-    std::string lane = {};  // of the executor: whose write it is
     std::optional<SqlFailure> failure = std::nullopt;
     bool done = false;
   };
@@ -87,11 +80,8 @@ class Database {
   // One attempt; sets failure.
   void Alone(SqlConnection::Access access, Waiting& write);
   void InGroup(Waiting& write);
-  // Those that run next, who then do not wait any more. Needs group_mutex_.
-  std::vector<Waiting*> TakeGroup();
-  // Runs the first of them at least, and returns how many.
-  size_t RunGroup(const std::vector<Waiting*>& group, bool lanes_share);
-  size_t TryTogether(const std::vector<Waiting*>& group, bool lanes_share);
+  void RunGroup(const std::vector<Waiting*>& group);
+  bool TryTogether(const std::vector<Waiting*>& group);
   // Throws.
   std::unique_ptr<SqlConnection> Take(SqlConnection::Access access);
   void Return(SqlConnection::Access access, std::unique_ptr<SqlConnection> connection);
@@ -105,8 +95,6 @@ class Database {
   std::condition_variable group_done_;
   std::vector<Waiting*> waiting_;
   bool leading_ = false;  // a thread runs a group
-  std::string newest_lane_;
-  std::chrono::steady_clock::time_point lanes_differed_{};  // when a write came of another lane than the one before
 };
 
 }  // namespace rollgait::server

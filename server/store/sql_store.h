@@ -86,8 +86,6 @@ class SqlStore : public SolveStore, public ModelStore {
   Outcome<std::optional<CreatedSolve>> CreateIn(SqlConnection& connection, const NewSolve& solve, int writers,
                                                 bool with_result);
 
-  Outcome<CreatedModel> WriteModel(const NewModel& model);
-
   const std::unique_ptr<Database> database_;
   const Clock& clock_;
   const DiskRoom room_;

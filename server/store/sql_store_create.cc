@@ -177,7 +177,7 @@ Error OfBatch(Error error, size_t index, size_t count) {
 }
 
 // Refuses a batch that does not fit before any of it is written: all others wait while it is, and while it is undone.
-// Sure with the locks held exclusively, else of the moment of the snapshot.
+// With the locks held exclusively.
 std::optional<Error> NoRoomForAll(SqlConnection& connection, const std::vector<NewSolve>& solves) {
   const NewSolve& limits = solves.front();
   const std::string& tenant = limits.actor.tenant;
@@ -224,12 +224,6 @@ Outcome<std::optional<CreatedSolve>> SqlStore::TryCreate(const NewSolve& solve, 
 Outcome<std::vector<CreatedSolve>> SqlStore::CreateAll(const std::vector<NewSolve>& solves) {
   using Made = std::vector<CreatedSolve>;
   if (solves.empty()) return Made();
-  // The writer is everybody's: who is refused does not ask for it.
-  const Outcome<Done> fits = database_->Read([&](SqlConnection& connection) -> Outcome<Done> {
-    if (std::optional<Error> full = NoRoomForAll(connection, solves)) return *std::move(full);
-    return Done{};
-  });
-  if (!fits.ok()) return fits.error();
   Outcome<Made> outcome = database_->Write([&](SqlConnection& connection) -> Outcome<Made> {
     LockQueues(connection, solves.front(), LockMode::kExclusive);
     if (std::optional<Error> full = NoRoomForAll(connection, solves)) return *std::move(full);

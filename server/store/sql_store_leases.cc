@@ -179,12 +179,6 @@ void CheckTenantHasRoom(SqlConnection& connection, const std::string& tenant) {
 }  // namespace
 
 Outcome<std::optional<ClaimedSolve>> SqlStore::ClaimNext(const std::string& owner, std::chrono::milliseconds duration) {
-  // Agents look after every change. Where one writer at a time has the database, who finds nothing has not kept it.
-  const Outcome<bool> may_find = database_->ReadOne([](SqlConnection& connection) -> Outcome<bool> {
-    return connection.MostWriters() > 1 || Query(connection, ROLLGAIT_TENANTS_BY_TURN "LIMIT 1").Step();
-  });
-  if (!may_find.ok()) return may_find.error();
-  if (!may_find.value()) return std::optional<ClaimedSolve>();
   return database_->Write([&](SqlConnection& connection) -> Outcome<std::optional<ClaimedSolve>> {
     const int64_t now_us = clock_.WallMicros();
     std::optional<Candidate> next = NextQueued(connection);

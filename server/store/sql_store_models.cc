@@ -47,39 +47,23 @@ std::optional<Error> TooMany(SqlConnection& connection, const NewModel& model) {
   return error;
 }
 
-// What the model was stored as before; nullopt: never.
-std::optional<CreatedModel> FindSame(SqlConnection& connection, const NewModel& model) {
-  Query same(connection,
-             "SELECT " ROLLGAIT_MODEL_COLUMNS
-             ", payload FROM models WHERE tenant = ? AND id = ? AND digest IN (?, ?) ORDER BY version LIMIT 1",
-             model.actor.tenant, model.id, model.digest, model.given_digest);
-  if (!same.Step()) return std::nullopt;
-  ModelRecord known = ReadModel(same);
-  known.payload = same.Bytes(kModelColumns);
-  return CreatedModel{std::move(known), false};
-}
-
 }  // namespace
 
-// The writer is everybody's: what needs none is decided before it is asked for.
 Outcome<CreatedModel> SqlStore::CreateModel(const NewModel& model) {
-  using Decided = std::optional<CreatedModel>;
-  Outcome<Decided> decided = database_->Read([&](SqlConnection& connection) -> Outcome<Decided> {
-    Decided same = FindSame(connection, model);
-    if (same.has_value()) return same;
-    if (std::optional<Error> many = TooMany(connection, model)) return *std::move(many);
-    return Decided();
-  });
-  if (!decided.ok()) return decided.error();
-  if (decided.value().has_value()) return *std::move(decided).value();
-  return WriteModel(model);
-}
-
-Outcome<CreatedModel> SqlStore::WriteModel(const NewModel& model) {
   return database_->Write([&](SqlConnection& connection) -> Outcome<CreatedModel> {
     const std::string& tenant = model.actor.tenant;
     connection.Lock("models of tenant " + tenant, LockMode::kExclusive);
-    if (std::optional<CreatedModel> same = FindSame(connection, model)) return *std::move(same);
+    {
+      Query same(connection,
+                 "SELECT " ROLLGAIT_MODEL_COLUMNS
+                 ", payload FROM models WHERE tenant = ? AND id = ? AND digest IN (?, ?) ORDER BY version LIMIT 1",
+                 tenant, model.id, model.digest, model.given_digest);
+      if (same.Step()) {
+        ModelRecord known = ReadModel(same);
+        known.payload = same.Bytes(kModelColumns);
+        return CreatedModel{std::move(known), false};
+      }
+    }
     if (std::optional<Error> full = room_.Refusal()) return *full;
     if (std::optional<Error> many = TooMany(connection, model)) return *many;
     ModelRecord record{model.id, 1, model.digest, clock_.WallMicros(), 0, model.summary, model.payload};

@@ -1,15 +1,11 @@
 #include "server/base/executor.h"
 
 #include <gtest/gtest.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
 #include <future>
 #include <string>
 #include <thread>
-#include <utility>
 
 namespace rollgait::server {
 namespace {
@@ -125,49 +121,6 @@ TEST(ExecutorTest, ALaneHasHalfOfThePlacesToWait) {
   EXPECT_TRUE(executor.TryPost("b", [] {}));
   gate.set_value();
   EXPECT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
-}
-
-// What the kernel tells of the calling thread's time slice, ns; 0 before Linux 6.12.
-uint64_t Slice() {
-  struct {
-    uint32_t size, policy;
-    uint64_t flags;
-    int32_t nice;
-    uint32_t priority;
-    uint64_t runtime, deadline, period;
-  } attributes{};
-  return syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0) == 0 ? attributes.runtime : 0;
-}
-
-TEST(ExecutorTest, ALaneThatTakesMuchHasThreadsWithLongerSlices) {
-  const uint64_t usual = Slice();
-  if (usual == 0) GTEST_SKIP() << "slices cannot be asked for before Linux 6.12";
-  LaneLoad load;
-  load.Add("hostile", std::chrono::hours(1), LaneLoad::Clock::now());
-  load.Add("good", std::chrono::milliseconds(1), LaneLoad::Clock::now());
-  Executor executor(4, 1000, std::move(load));
-  std::atomic<uint64_t> of_good{0}, of_hostile{0};
-  ASSERT_TRUE(executor.TryPost("good", [&] { of_good = Slice(); }));
-  ASSERT_TRUE(executor.TryPost("hostile", [&] { of_hostile = Slice(); }));
-  ASSERT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
-  EXPECT_EQ(of_good, usual);
-  EXPECT_EQ(of_hostile, 5'000'000u);
-}
-
-TEST(ExecutorTest, TellsTheLaneOfATask) {
-  Executor executor(1, 10);
-  std::string lane, while_blocked, unnamed = "?";
-  ASSERT_TRUE(executor.TryPost("a", [&] {
-    lane = Executor::CurrentLane();
-    const Executor::Blocked blocked;
-    while_blocked = Executor::CurrentLane();
-  }));
-  ASSERT_TRUE(executor.TryPost([&] { unnamed = Executor::CurrentLane(); }));
-  ASSERT_TRUE(executor.WaitIdle(std::chrono::minutes(1)));
-  EXPECT_EQ(lane, "a");
-  EXPECT_EQ(while_blocked, "a");
-  EXPECT_EQ(unnamed, "");
-  EXPECT_EQ(Executor::CurrentLane(), "");
 }
 
 }  // namespace

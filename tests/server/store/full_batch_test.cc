@@ -1,7 +1,6 @@
-// What is refused does not keep others waiting: neither while it is written and undone, nor for the writer at all.
+// A batch that has no room does not keep others waiting while it is written and undone.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <string_view>
 
 #include "server/store/sql_store.h"
@@ -14,12 +13,8 @@ namespace {
 
 class CountingConnection : public SqliteConnection {
  public:
-  CountingConnection(const std::string& path, const Clock& clock, int* inserts, int* writes)
-      : SqliteConnection(path, clock), inserts_(inserts), writes_(writes) {}
-  void Begin(Access access) override {
-    if (access == Access::kWrite) ++*writes_;
-    SqliteConnection::Begin(access);
-  }
+  CountingConnection(const std::string& path, const Clock& clock, int* inserts)
+      : SqliteConnection(path, clock), inserts_(inserts) {}
   SqlStatement& Prepared(const char* sql) override {
     if (std::string_view(sql).rfind("INSERT INTO solves", 0) == 0) ++*inserts_;
     return SqliteConnection::Prepared(sql);
@@ -27,7 +22,6 @@ class CountingConnection : public SqliteConnection {
 
  private:
   int* const inserts_;
-  int* const writes_;
 };
 
 class FullBatchTest : public testing::Test {
@@ -35,7 +29,7 @@ class FullBatchTest : public testing::Test {
   FullBatchTest() {
     Database::Options options;
     options.connect = [this] {
-      return std::make_unique<CountingConnection>(directory_.path() + "/solves.db", clock_, &inserts_, &writes_);
+      return std::make_unique<CountingConnection>(directory_.path() + "/solves.db", clock_, &inserts_);
     };
     store_ = SqlStore::Open(std::make_unique<Database>(std::move(options)), clock_).value();
   }
@@ -53,7 +47,7 @@ class FullBatchTest : public testing::Test {
 
   const TemporaryDirectory directory_;
   const FakeClock clock_;
-  int inserts_ = 0, writes_ = 0;
+  int inserts_ = 0;
   std::unique_ptr<SqlStore> store_;
 };
 
@@ -76,48 +70,6 @@ TEST_F(FullBatchTest, IsRefusedBeforeAnyOfItIsWritten) {
   EXPECT_FALSE(store_->CreateAll(Batch("b", 1, 5, 0)).ok());
   EXPECT_FALSE(store_->CreateAll(Batch("b", 1, 3, 0)).ok()) << "a limit that was lowered";
   EXPECT_EQ(inserts_, 5);
-}
-
-TEST_F(FullBatchTest, IsRefusedWithoutTheWriter) {
-  ASSERT_TRUE(store_->CreateAll(Batch("a", 5, 8, 0)).ok());
-  const int before = writes_;
-  EXPECT_FALSE(store_->CreateAll(Batch("b", 4, 8, 100)).ok());
-  EXPECT_FALSE(store_->CreateAll(Batch("b", 4, 100, 7)).ok());
-  EXPECT_EQ(writes_, before);
-  EXPECT_TRUE(store_->CreateAll(Batch("b", 3, 8, 100)).ok());
-  EXPECT_EQ(writes_, before + 1);
-}
-
-TEST_F(FullBatchTest, ModelsAreRefusedAndFoundWithoutTheWriter) {
-  NewModel model;
-  model.actor.tenant = "red";
-  model.id = "m";
-  model.digest = model.given_digest = "one";
-  model.max_versions_tenant = 1;
-  ASSERT_TRUE(store_->CreateModel(model).ok());
-  const int before = writes_;
-  const auto again = store_->CreateModel(model);
-  ASSERT_TRUE(again.ok());
-  EXPECT_FALSE(again.value().created);
-  model.digest = model.given_digest = "two";
-  const auto refused = store_->CreateModel(model);
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().code, ErrorCode::kResourceExhausted);
-  EXPECT_TRUE(refused.error().quota.has_value());
-  EXPECT_EQ(writes_, before);
-}
-
-TEST_F(FullBatchTest, ALookForWorkWithoutAnyNeedsNoWriter) {
-  const int before = writes_;
-  const std::chrono::milliseconds lease(1000);
-  const auto none = store_->ClaimNext("agent", lease);
-  ASSERT_TRUE(none.ok());
-  EXPECT_FALSE(none.value().has_value());
-  EXPECT_EQ(writes_, before);
-  ASSERT_TRUE(store_->CreateAll(Batch("a", 1, 8, 0)).ok());
-  EXPECT_TRUE(store_->ClaimNext("agent", lease).value().has_value());
-  EXPECT_FALSE(store_->ClaimNext("agent", lease).value().has_value());
-  EXPECT_EQ(writes_, before + 2);
 }
 
 TEST_F(FullBatchTest, TakesWhatNeedsNoPlace) {
