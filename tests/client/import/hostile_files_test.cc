@@ -23,7 +23,12 @@
 namespace rollgait::client {
 namespace {
 
-constexpr int64_t kMostMemoryKb = 256 * 1024;  // as the issue asks; a sanitizer's shadow comes on top
+// As the issue asks. The address sanitizer adds its shadow and keeps up to 256 MiB of what was freed.
+#ifdef __SANITIZE_ADDRESS__
+constexpr int64_t kMostMemoryKb = 4 * 256 * 1024;
+#else
+constexpr int64_t kMostMemoryKb = 256 * 1024;
+#endif
 
 std::string Repeat(const std::string& text, int count) {
   std::string all;
