@@ -245,7 +245,8 @@ TEST_F(AgentTest, ASolverThatIgnoresTheCancellationIsKilled) {
 
 TEST_F(AgentTest, ManySolvesShareTheSlots) {
   std::vector<std::string> ids;
-  for (int i = 0; i < 12; ++i) ids.push_back(Queue("iterations 5 sleep 10 result"));
+  // Long enough for two of them to be seen at once beside other work.
+  for (int i = 0; i < 12; ++i) ids.push_back(Queue("iterations 5 sleep 200 result"));
   const auto agent = MakeAgent();
   int most = 0;
   EXPECT_TRUE(StepUntil(*agent, [&] {
