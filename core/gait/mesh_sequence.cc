@@ -69,11 +69,6 @@ bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& meshes) {
   return before > bound && now > std::max(bound, 0.5 * before);
 }
 
-// Whether the finer mesh has at most a twentieth of intervals more.
-bool HardlyGrows(const Mesh& mesh, const Mesh& finer) {
-  return 20 * (TotalIntervals(finer) - TotalIntervals(mesh)) <= TotalIntervals(mesh);
-}
-
 // Solves one NLP, from a guess and the multipliers of its predecessor, if there is one; on the same mesh and with the
 // same constraints it is the same NLP.
 Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& problem, const Mesh& mesh,
@@ -215,10 +210,9 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     }
     const bool adds = AddViolated(spec, *solution.trajectory, *solution.accuracy, &added);
     if (is_finer ? refinements++ == spec.max_refinements : !adds || additions++ == kMostAdditions) break;
-    const bool hardly_grows = HardlyGrows(mesh, finer);
     mesh = finer;
     guess = GuessFromTrajectory(*solution.trajectory);
-    settings = SettingsNear(hardly_grows ? StartOf::kHardlyFinerMesh : StartOf::kFinerMesh, spec);
+    settings = SettingsNear(StartOf::kFinerMesh, spec);
     previous = std::move(current);
   }
   if (within && solution.verdict.kind == Verdict::Kind::kExceeded) {

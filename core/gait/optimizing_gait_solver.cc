@@ -141,11 +141,12 @@ GaitSolution SearchWithoutRates(const GaitSpec& spec, SolveBudget* budget) {
 
 GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget);
 
-// Of a search that ended before any program of the spec itself: on the way there nothing was left.
+// What a search returns whose limit was reached before any program of the spec itself was solved.
 GaitSolution WithoutAnyProgram(const SolveBudget& budget) {
   GaitSolution solution;
   solution.termination = budget.Cut().value_or(Termination::kIterationLimit);
   solution.message = Explain(solution.termination);
+  solution.wall_time = budget.elapsed();
   return solution;
 }
 

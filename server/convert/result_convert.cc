@@ -144,7 +144,6 @@ v1::ProgramStart EncodeStart(StartOf start) {
     case StartOf::kOtherRequest:
       return v1::PROGRAM_START_OTHER_REQUEST;
     case StartOf::kFinerMesh:
-    case StartOf::kHardlyFinerMesh:
       return v1::PROGRAM_START_COARSER_MESH;
     case StartOf::kImage:
       return v1::PROGRAM_START_MIRROR_IMAGE;

@@ -14,8 +14,9 @@ make_package_root() {
   chmod +x "$root/usr/sbin/policy-rc.d"
   echo force-unsafe-io > "$root/etc/dpkg/dpkg.cfg.d/test"  # 334 packages in a third of the time
   cp $here/systemctl_by_hand "$root/usr/local/bin/systemctl"
-  mkdir -p "$root/root/build" "$roots/archives-$1/partial"
-  cp -r build/packages "$root/root/build/"
+  local home=$root/root  # of the user in there
+  mkdir -p "$home/build" "$roots/archives-$1/partial"
+  cp -r build/packages "$home/build/"
   export root archives=$roots/archives-$1
   # shellcheck disable=SC2016
   unshare --mount --pid --net --fork --kill-child bash -euc '

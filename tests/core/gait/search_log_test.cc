@@ -69,6 +69,7 @@ GaitSolution Search(const GaitRequest& request, Seen* seen, const Cut& cut = {},
 
 // Every program that ran is listed once, in order.
 void ExpectComplete(const GaitSolution& solution, const Seen& seen) {
+  EXPECT_GT(solution.wall_time, 0);
   ASSERT_EQ(solution.meshes.size(), seen.iterations.size()) << solution.message;
   for (size_t i = 0; i < seen.iterations.size(); ++i) {
     EXPECT_EQ(solution.meshes[i].iterations, seen.iterations[i]) << "program " << i;
