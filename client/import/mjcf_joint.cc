@@ -21,6 +21,7 @@ void Omit(const MjcfElement& joint, LeftOut* left_out) {
 }
 
 constexpr int kTurnOrder[] = {1, 0, 2};
+// Of the second turn: at 90° the other two turn about the same line. 80° is what rollgait.v1.JointCoordinate allows.
 constexpr double kMostMiddleTurn = 80 * kPi / 180;
 
 }  // namespace

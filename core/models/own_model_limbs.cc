@@ -73,10 +73,10 @@ void CheckRoleOrder(JointRole first, JointRole second, OwnModelCheck* check) {
     int at = joints[far].parent;
     while (at >= 0 && at != near) at = joints[at].parent;
     if (at == near) continue;
-    check->Refuse("joints", far, "role", "of joint \"", joints[far].name, "\" is that of a joint behind joint \"",
+    check->Refuse("joints", far, "role", "of joint \"", joints[far].name, "\" is behind that of joint \"",
                   joints[near].name,
-                  "\", which moves it: roles stand in the order hip, knee, ankle and shoulder, elbow, ",
-                  "from the base on. Exchange the two roles, or leave one out");
+                  "\", which does not move it: from the base on, roles stand in the order hip, knee, ankle and ",
+                  "shoulder, elbow. Exchange the two roles, or leave one out");
   }
 }
 

@@ -15,6 +15,14 @@
 
 namespace rollgait {
 
+// A model weighs what its tree does.
+inline void CheckMass(const client::LinkTree& tree, const v1::Model& model) {
+  double mass = 0, expected = 0;
+  for (const v1::Joint& joint : model.joints()) mass += joint.mass_kg();
+  for (const client::TreeLink& link : tree.links) expected += link.mass.mass;
+  ROLLGAIT_CHECK(std::abs(mass - expected) <= 1e-9 * expected);
+}
+
 // `also` is called with the tree of a file that can be read.
 template <typename Also>
 void CheckImport(const std::string& path, const std::string& text, const Also& also) {
@@ -24,11 +32,7 @@ void CheckImport(const std::string& path, const std::string& text, const Also& a
     const client::SideProposal proposal = client::ProposeSideFile(tree);
     if (!proposal.missing.empty()) return;
     client::CheckSideFile("proposed", proposal.side, tree);
-    const v1::Model model = client::ModelOfTree(tree, "proposed", proposal.side).model;
-    double mass = 0, expected = 0;
-    for (const v1::Joint& joint : model.joints()) mass += joint.mass_kg();
-    for (const client::TreeLink& link : tree.links) expected += link.mass.mass;
-    ROLLGAIT_CHECK(std::abs(mass - expected) <= 1e-9 * expected);
+    CheckMass(tree, client::ModelOfTree(tree, "proposed", proposal.side).model);
   } catch (const client::Failure& failure) {
     ROLLGAIT_CHECK(failure.code() == client::ExitCode::kUsage && failure.what()[0] != '\0');
   }

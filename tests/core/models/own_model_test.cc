@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
                "within 60°"},
         Broken{"KneeAboveTheHip",
                [](OwnModel* m) { std::swap(At(m, "hip_l").role, At(m, "knee_l").role); }, ".role",
-               "is that of a joint behind joint \"knee_l\""},
+               "is behind that of joint \"knee_l\", which does not move it"},
         Broken{"ElbowAboveTheShoulder",
                [](OwnModel* m) { std::swap(At(m, "shoulder_r").role, At(m, "elbow_r").role); }, ".role",
                "hip, knee, ankle and shoulder, elbow"},
