@@ -20,7 +20,7 @@ struct GaitKnowledge {
   // The spec with its preset spelled out (CreateSolveRequest.spell_out); violations as check_spec.
   std::function<Result<v1::SolveSpec>(const v1::SolveSpec&)> spell_out;
   // A good model with its universal and ball joints as chains (GetModelRequest.joint_chains).
-  std::function<v1::Model(const v1::Model&)> with_joint_chains = [](const v1::Model& model) { return model; };
+  std::function<v1::Model(const v1::Model&)> with_joint_chains;
 };
 
 }  // namespace rollgait::server
