@@ -29,6 +29,9 @@ v1::Solve Get(const Daemon& daemon, const std::string& name) {
   return solve;
 }
 
+// Iterations of a solve that runs until it is cancelled, however slow the machine is: 100 s of the test's solver.
+constexpr int kLong = 10000;
+
 std::string Create(const Daemon& daemon, int iterations) {
   grpc::ClientContext context;
   v1::CreateSolveRequest request;
@@ -39,9 +42,17 @@ std::string Create(const Daemon& daemon, int iterations) {
   return solve.name();
 }
 
-bool Ends(const Daemon& daemon, const std::string& name) {
+void Cancel(const Daemon& daemon, const std::string& name) {
+  grpc::ClientContext context;
+  v1::CancelSolveRequest request;
+  request.set_name(name);
+  v1::Solve solve;
+  EXPECT_TRUE(daemon.NewStub()->CancelSolve(&context, request, &solve).ok());
+}
+
+bool ReachesState(const Daemon& daemon, const std::string& name, v1::SolveState state) {
   for (int i = 0; i < 600; ++i) {
-    if (Get(daemon, name).state() == v1::SOLVE_STATE_SUCCEEDED) return true;
+    if (Get(daemon, name).state() == state) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return false;
@@ -57,22 +68,25 @@ TEST(BackupTest, AServerOnTheCopyHasWhatWasThereAndGoesOnWithWhatRan) {
     Daemon daemon(OptionsFor(first));
     ASSERT_NE(daemon.address(), "");
     done = Create(daemon, 3);
-    ASSERT_TRUE(Ends(daemon, done));
+    ASSERT_TRUE(ReachesState(daemon, done, v1::SOLVE_STATE_SUCCEEDED));
     before = Get(daemon, done);
-    running = Create(daemon, 40);
+    running = Create(daemon, kLong);
     const std::string report = OutputOfRollgaitd("backup --data-dir " + first + " --to " + copy);
     EXPECT_NE(report.find("2 solves, 1 results"), std::string::npos) << report;
     EXPECT_EQ(std::filesystem::status(copy).permissions() & std::filesystem::perms::group_all,
               std::filesystem::perms::none);
     EXPECT_THROW(OutputOfRollgaitd("backup --data-dir " + first + " --to " + copy), std::runtime_error);
     EXPECT_THROW(OutputOfRollgaitd("restore --data-dir " + first + " --from " + copy), std::runtime_error);
-    EXPECT_TRUE(Ends(daemon, running));
+    Cancel(daemon, running);
+    EXPECT_TRUE(ReachesState(daemon, running, v1::SOLVE_STATE_CANCELLED));
   }
   EXPECT_NE(OutputOfRollgaitd("restore --data-dir " + second + " --from " + copy).find("2 solves"), std::string::npos);
   const Daemon daemon(OptionsFor(second));
   ASSERT_NE(daemon.address(), "");
   EXPECT_EQ(Get(daemon, done).SerializeAsString(), before.SerializeAsString());
-  EXPECT_TRUE(Ends(daemon, running));
+  EXPECT_TRUE(ReachesState(daemon, running, v1::SOLVE_STATE_RUNNING));
+  Cancel(daemon, running);
+  EXPECT_TRUE(ReachesState(daemon, running, v1::SOLVE_STATE_CANCELLED));
 }
 
 }  // namespace
