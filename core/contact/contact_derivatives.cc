@@ -85,7 +85,7 @@ void ContactDerivatives<T>::UpdateSecond() {
       third_[j] = jet_.T[j];
     }
   }
-  const Vec3 n = kNormal.template cast<T>();
+  const Vec3& n = kNormal.template cast<T>();
   for (int k = 0; k < path_size(); ++k) {
     const Vec3 theta_k = Angular(k);
     for (int m = 0; m <= k; ++m) {
@@ -109,7 +109,7 @@ typename ContactDerivatives<T>::Vec3 ContactDerivatives<T>::ThirdApply(const Vec
 
 template <typename T>
 typename ContactDerivatives<T>::Vec3 ContactDerivatives<T>::JacobianDerivative(int m, int k) const {
-  const Vec3 turned = Angular(k).cross(dp_[m]);
+  Vec3 turned = Angular(k).cross(dp_[m]);
   if (m > k) return turned;
   return At(CrossMotion<T>(axis_[m], axis_[k])) + turned;
 }
@@ -141,7 +141,7 @@ T ContactDerivatives<T>::ContractedSecond(const Field& field, const Vec3& y, int
 template <typename T>
 typename ContactDerivatives<T>::Vec3 ContactDerivatives<T>::SurfacePointSecond(int m, int k) const {
   if (m > k) std::swap(m, k);
-  const Vec3 n = kNormal.template cast<T>();
+  const Vec3& n = kNormal.template cast<T>();
   const Vec3 inner = rotation_.transpose() * Angular(k).cross(Vec3(Angular(m).cross(n)));
   return ThirdApply(turn_[m], turn_[k]) - hessian_ * inner;
 }

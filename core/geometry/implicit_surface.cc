@@ -115,7 +115,8 @@ Result<ImplicitSurface> ImplicitSurface::Create(std::shared_ptr<const ConvexFunc
   }
   double size = 0;
   for (int i = 0; i < 27; ++i) {
-    const Vector3 direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
+    const Vector3 direction(x, y, z);
     if (direction.isZero(0)) continue;
     double length = 0;
     const std::string complaint = Complaint(*function, direction.normalized(), &length);
