@@ -170,7 +170,8 @@ void ExpectToOutliveFaults(const v1::SolveSpec& spec) {
   for (const Fault& fault : Faults()) {
     SCOPED_TRACE(fault.name);
     Outlived outlived(spec);
-    outlived.ReadUntil(2 * count / 3);
+    // In the middle: on a busy machine iterations are read seconds late, and by then the solve must not be over.
+    outlived.ReadUntil(count / 2);
     fault.happen(outlived);
     outlived.ReadUntil(SIZE_MAX);
     ASSERT_EQ(outlived.solve().state(), v1::SOLVE_STATE_SUCCEEDED) << outlived.solve().error().message();
