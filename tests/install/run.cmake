@@ -1,5 +1,5 @@
 # Installs core below WORK, builds examples/library with it as a stranger would, and runs what it makes.
-#   cmake -DTREE=<build> -DROOT=<repository> -DWORK=<directory> -P tests/install/run.cmake
+#   cmake -DTREE=<build> -DROOT=<repository> -DWORK=<directory> -DGENERATOR=<of the build> -P tests/install/run.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -14,7 +14,7 @@ file(REMOVE_RECURSE "${WORK}")
 run("${CMAKE_COMMAND}" --install "${TREE}" --prefix "${WORK}/prefix" --component core)
 # A copy, so that no header is found beside the example.
 file(COPY "${ROOT}/examples/library" DESTINATION "${WORK}")
-run("${CMAKE_COMMAND}" -S "${WORK}/library" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" -DCMAKE_BUILD_TYPE=Release)
+run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}/library" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/one_gait" 10)
 if(NOT output MATCHES "speed 1[.]3000 m/s")

@@ -53,16 +53,16 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
                                             ::testing::Values(Scheme::kRadau2, Scheme::kRadau3,
                                                               Scheme::kHermiteSimpson)));
 
-// The same search with Ipopt in place of our own solver.
+// The same search with Ipopt in place of our own solver, without refinement: rough solutions of two solvers are refined
+// in different places, and the objectives then differ by what a mesh leaves open (7e-5 with Debian 13's Ipopt).
 TEST(SolverOfPrograms, IpoptAnswersTheSame) {
   GaitRequest request = Planar(0);
-  request.discretization.single_support_intervals = 8;
+  request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
   const GaitSolution own = Solve(request);
   request.nlp_solver = NlpSolver::kIpopt;
   const GaitSolution ipopt = Solve(request);
   ASSERT_EQ(ipopt.termination, Termination::kOptimal) << ipopt.message;
-  EXPECT_EQ(ipopt.verdict.kind, Verdict::Kind::kWithin);
-  ASSERT_EQ(ipopt.meshes.size(), own.meshes.size());
+  ASSERT_EQ(ipopt.meshes.back().intervals, own.meshes.back().intervals);
   EXPECT_NEAR(ipopt.objective / own.objective, 1, 1e-6);
   EXPECT_NE(ipopt.meshes.front().iterations, own.meshes.front().iterations);
 }
