@@ -52,6 +52,7 @@ std::map<std::string, std::string> ReadConfiguration(const ConfigurationFile& fi
 // `source`: "ROLLGAIT_TIMEOUT" or "config.toml: timeout".
 void SetDefault(CLI::Option& option, const std::string& source, const std::string& value) {
   try {
+    option.run_callback_for_default();  // of flags such as --quiet Debian 13's CLI11 does so only when asked
     option.default_val(value);
   } catch (const CLI::Error& error) {
     throw Failure(ExitCode::kUsage, source + " = " + value + ": is not a value of --" + option.get_lnames().front() +
