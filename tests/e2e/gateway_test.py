@@ -402,13 +402,14 @@ class Harm(WithService):
 
     def test_bodies(self):
         head = "POST /v1/solves HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Type: application/json\r\n"
-        for rest, status in ((f"Content-Length: {MOST_BODY + 1}\r\n\r\n", 413),
-                             ("Transfer-Encoding: chunked\r\n\r\n5\r\n{}\r\n0\r\n\r\n", 411),
-                             ("Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", 400),
-                             ("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n{}", 411),
-                             ("Content-Length: -2\r\n\r\n{}", 400),
-                             ("Content-Length: 99999999999999999999\r\n\r\n{}", 413)):
-            self.assertEqual(self.status((head + rest).encode()), status, rest)
+        # Both lengths at once Debian 13's HTTP library refuses before us, as no HTTP.
+        for rest, statuses in ((f"Content-Length: {MOST_BODY + 1}\r\n\r\n", {413}),
+                               ("Transfer-Encoding: chunked\r\n\r\n5\r\n{}\r\n0\r\n\r\n", {411}),
+                               ("Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}", {400}),
+                               ("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n{}", {411, 400}),
+                               ("Content-Length: -2\r\n\r\n{}", {400}),
+                               ("Content-Length: 99999999999999999999\r\n\r\n{}", {413})):
+            self.assertIn(self.status((head + rest).encode()), statuses, rest)
 
         def filled(begin, entry, end):
             """As many entries as fit."""
