@@ -49,9 +49,14 @@ Identity Make(const std::string& name, long from_s, long until_s, X509* issuer, 
   X509_NAME_add_entry_by_txt(X509_get_subject_name(made), "CN", MBSTRING_UTF8,
                              reinterpret_cast<const unsigned char*>(name.c_str()), -1, -1, 0);
   X509_set_issuer_name(made, X509_get_subject_name(issuer == nullptr ? made : issuer));
+  Extend(made, made, NID_subject_key_identifier, "hash");
   if (issuer == nullptr) {
     Extend(made, made, NID_basic_constraints, "critical,CA:TRUE");
+    Extend(made, made, NID_key_usage, "critical,keyCertSign,cRLSign");
   } else {
+    Extend(made, issuer, NID_authority_key_identifier, "keyid");
+    Extend(made, issuer, NID_key_usage, "critical,digitalSignature");
+    Extend(made, issuer, NID_ext_key_usage, "serverAuth,clientAuth");
     Extend(made, issuer, NID_subject_alt_name, "DNS:" + name + ",DNS:localhost,IP:127.0.0.1,URI:urn:rollgait:" + name);
   }
   ROLLGAIT_CHECK(X509_sign(made, issuer == nullptr ? key.get() : issuer_key, EVP_sha256()) > 0);
