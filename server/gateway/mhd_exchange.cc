@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstring>
 #include <utility>
 
+#include "server/gateway/body_length.h"
 #include "server/gateway/problem.h"
 
 namespace rollgait::server {
@@ -100,20 +100,9 @@ MHD_Result MhdExchange::OnHead(MHD_Connection* connection, const char* verb, Htt
   MHD_get_connection_values(connection, MHD_HEADER_KIND, ReadHeader, &read);
   own_headers_ = service.HeadersFor(request_);
   if (!read.twice.empty()) return Refuse(connection, 400, "the header " + read.twice + " is given twice", lock);
-  if (request_.headers.count("transfer-encoding") > 0) {
-    return Refuse(connection, 411, "a body must come with Content-Length, not with Transfer-Encoding", lock);
-  }
-  const std::string length = request_.Header("content-length");
-  uint64_t bytes = 0;
-  const auto parsed = std::from_chars(length.data(), length.data() + length.size(), bytes);
-  if (!length.empty() && (parsed.ec != std::errc() || parsed.ptr != length.data() + length.size())) {
-    return Refuse(connection, 400, "Content-Length is no number", lock);
-  }
-  if (bytes > limits_.body_bytes) {
-    return Refuse(connection, 413,
-                  "the body has " + length + " bytes, the limit is " + std::to_string(limits_.body_bytes), lock);
-  }
-  if (bytes > limits_.short_body_bytes) {
+  const BodyLength length = BodyLengthOf(request_, limits_.body_bytes);
+  if (length.status != 0) return Refuse(connection, length.status, length.message, lock);
+  if (length.bytes > limits_.short_body_bytes) {
     state_ = State::kAsking;
     deadline_ = Clock::time_point::max();
     suspended_ = true;
