@@ -56,25 +56,14 @@ def free_port():
 
 
 class Certificates:
+    """Those of scripts/make-certificates."""
+
     def __init__(self, directory):
         self.directory = directory
-        run("openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days",
-            "2", "-keyout", self.path("ca.key"), "-out", self.path("ca.crt"), "-subj", "/CN=authority", "-addext",
-            "keyUsage=critical,keyCertSign")
-        self.make("tls", "localhost", "DNS:localhost")
-        self.make("client", "lab", "URI:urn:lab")
+        run(SOURCE + "/scripts/make-certificates", directory, "localhost", "lab")
 
     def path(self, name):
         return f"{self.directory}/{name}"
-
-    def make(self, name, common_name, alternative_name):
-        with open(self.path("extension"), "w", encoding="utf-8") as extension:
-            extension.write(f"subjectAltName={alternative_name}\nsubjectKeyIdentifier=hash\nauthorityKeyIdentifier=keyid\n")
-        run("openssl", "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-keyout",
-            self.path(name + ".key"), "-out", self.path(name + ".csr"), "-subj", "/CN=" + common_name)
-        run("openssl", "x509", "-req", "-in", self.path(name + ".csr"), "-CA", self.path("ca.crt"), "-CAkey",
-            self.path("ca.key"), "-CAcreateserial", "-days", "2", "-out", self.path(name + ".crt"), "-extfile",
-            self.path("extension"))
 
     def read(self, name):
         with open(self.path(name), "rb") as file:
@@ -102,7 +91,7 @@ class Server:
             ["haproxy", "-db", "-f", SOURCE + "/docker/door/haproxy.cfg"], stdout=self.log, stderr=self.log,
             env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin", "ROLLGAIT_DOOR_LISTEN": self.address,
                  "ROLLGAIT_DOOR_SOCKET": self.directory + "/door.sock",
-                 "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **door})
+                 "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("server.crt"), **door})
 
     def token(self, tenant="lab"):
         return run(os.environ["ROLLGAITD"], "token", "create", "--data-dir", self.directory + "/data", "--tenant",
@@ -157,7 +146,7 @@ class GoodCaller(threading.Thread):
         self.attack, self.stopping = "no attack", threading.Event()
 
     def run(self):
-        tls = grpc.ssl_channel_credentials(self.server.certificates.read("ca.crt"))
+        tls = grpc.ssl_channel_credentials(self.server.certificates.read("ca.pem"))
         while not self.stopping.is_set():
             options = (("grpc.use_local_subchannel_pool", 1), ("grpc.ssl_target_name_override", "localhost"))
             with grpc.secure_channel(self.server.address, tls, options) as channel:
@@ -206,7 +195,7 @@ class DoorTest(unittest.TestCase):
         hostile = server.token("hostile")
         with open(server.directory + "/token", "w", encoding="utf-8") as file:
             file.write(hostile)
-        tls = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+        tls = grpc.ssl_channel_credentials(self.certificates.read("ca.pem"))
         with grpc.secure_channel(server.address, tls, (("grpc.ssl_target_name_override", "localhost"),)) as channel:
             solve = server.long_solve(channel, hostile)
         caller = GoodCaller(server, server.token())  # from 127.0.0.1, another tenant
@@ -228,7 +217,7 @@ class DoorTest(unittest.TestCase):
                 caller.attack = name
                 caller.times.clear()
                 before = alert_rules.scrape(*watched)
-                made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.crt"),
+                made = self.attack(name, server, f"127.0.0.{number + 2}", "--ca", self.certificates.path("ca.pem"),
                                    *more)
                 peaks = memory(server.rollgaitd), memory(server.haproxy)
                 after = alert_rules.scrape(*watched)
@@ -276,13 +265,13 @@ class DoorTest(unittest.TestCase):
 
     def test_the_door_and_nobody_else_says_who_calls(self):
         server = self.serve("--behind-door", "--certificate-tenant", "cn",
-                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt"),
+                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.pem"),
                                   "ROLLGAIT_DOOR_VERIFY": "optional"})
-        ca, key, cert = (self.certificates.read(name) for name in ("ca.crt", "client.key", "client.crt"))
+        ca, key, cert = (self.certificates.read(name) for name in ("ca.pem", "client.key", "client.pem"))
         options = (("grpc.ssl_target_name_override", "localhost"), ("grpc.use_local_subchannel_pool", 1))
         with grpc.secure_channel(server.address, grpc.ssl_channel_credentials(ca, key, cert), options) as channel:
             self.assertIn(b"lab", ask(channel))
-        forged = run("openssl", "x509", "-in", self.certificates.path("client.crt"), "-outform", "pem")
+        forged = run("openssl", "x509", "-in", self.certificates.path("client.pem"), "-outform", "pem")
         forged = "".join(forged.split("\n")[1:-2])
         with grpc.secure_channel(server.address, grpc.ssl_channel_credentials(ca), options) as channel:
             for name, value in (("x-rollgait-client-certificate", forged), ("x-rollgait-peer", "ipv4:203.0.113.9:1")):
@@ -297,7 +286,7 @@ class DoorTest(unittest.TestCase):
 
     def test_http_comes_in_through_the_same_door(self):
         server = self.serve("--behind-door", "--require-token", door={"ROLLGAIT_DOOR_GATEWAY": self.directory.name + "/http.sock"})
-        tls = ssl.create_default_context(cafile=self.certificates.path("ca.crt"))
+        tls = ssl.create_default_context(cafile=self.certificates.path("ca.pem"))
         tls.verify_flags |= ssl.VERIFY_X509_STRICT  # the default from Python 3.13 on
         host, port = "localhost", int(server.address.rsplit(":", 1)[1])
 
@@ -308,7 +297,7 @@ class DoorTest(unittest.TestCase):
                 response = connection.getresponse()
                 return response.status, response.read().decode(), response.headers
         bearer = {"authorization": "Bearer " + server.token()}
-        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.pem"))
         with grpc.secure_channel(server.address, credentials, (("grpc.ssl_target_name_override", "localhost"),)) as channel:
             ask(channel, tuple(bearer.items()))
         self.assertEqual(answer("GET", "/v1/serverInfo")[0], 503)  # no gateway yet
@@ -324,7 +313,7 @@ class DoorTest(unittest.TestCase):
             self.assertIn("peer=ipv4:127.0.0.1:", audit)
             self.assertNotIn("6.6.6.6", audit)
             # HTTP/2, as browsers speak it.
-            shown = run("curl", "--silent", "--show-error", "--http2", "--cacert", self.certificates.path("ca.crt"), "--write-out",
+            shown = run("curl", "--silent", "--show-error", "--http2", "--cacert", self.certificates.path("ca.pem"), "--write-out",
                         "%{http_version} %{http_code}", "--header", "authorization: " + bearer["authorization"],
                         f"https://localhost:{port}/v1/{solve['name']}")
             self.assertTrue(shown.endswith("2 200"), shown[-200:])
@@ -354,18 +343,18 @@ class DoorTest(unittest.TestCase):
             gateway.stdout.close()
 
     def test_the_configuration_holds_no_warning(self):
-        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt"), "ROLLGAIT_DOOR_METRICS": "127.0.0.1:9466"}):
+        for more in ({}, {"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.pem"), "ROLLGAIT_DOOR_METRICS": "127.0.0.1:9466"}):
             checked = subprocess.run(
                 ["haproxy", "-c", "-f", SOURCE + "/docker/door/haproxy.cfg"], capture_output=True, text=True, check=False,
                 env={**ENVIRONMENT, "PATH": os.environ["PATH"] + ":/usr/sbin",
-                     "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("tls.crt"), **more})
+                     "ROLLGAIT_DOOR_CERTIFICATE": self.certificates.path("server.crt"), **more})
             self.assertEqual(checked.returncode, 0, checked.stderr)
             self.assertNotIn("WARNING", checked.stderr)
 
     def test_a_certificate_is_asked_for_where_it_must_be(self):
         server = self.serve("--behind-door", "--require-token",
-                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.crt")})
-        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.crt"))
+                            door={"ROLLGAIT_DOOR_CLIENT_CA": self.certificates.path("ca.pem")})
+        credentials = grpc.ssl_channel_credentials(self.certificates.read("ca.pem"))
         options = (("grpc.ssl_target_name_override", "localhost"), ("grpc.use_local_subchannel_pool", 1))
         with grpc.secure_channel(server.address, credentials, options) as channel:
             with self.assertRaises(grpc.RpcError) as caught:

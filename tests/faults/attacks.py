@@ -56,7 +56,6 @@ class Attacker:
         self.tls = ssl.create_default_context(cafile=arguments.ca) if arguments.ca else None
         if self.tls:
             self.tls.verify_flags |= ssl.VERIFY_X509_STRICT  # the default from Python 3.13 on
-        if self.tls:
             self.tls.set_alpn_protocols(["h2"])
         self.counts = {"connections": 0, "refused": 0, "bytes": 0, "streams": 0}
         self.lock = threading.Lock()
