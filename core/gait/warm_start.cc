@@ -29,7 +29,7 @@ std::string Span(Cycle cycle) {
 
 // What a request of another cycle may do to start from a solution of `cycle`.
 std::string HowToMatch(Cycle cycle) {
-  const std::string other = "start from a solve of the cycle that this request asks for";
+  std::string other = "start from a solve of the cycle that this request asks for";
   if (cycle == Cycle::kHalf) return "give `cycle` CYCLE_HALF, or " + other;
   if (cycle == Cycle::kFull) return "give `cycle` CYCLE_FULL, or " + other;
   return other;

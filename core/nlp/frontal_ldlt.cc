@@ -99,7 +99,7 @@ void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vecto
 
 void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
   std::vector<int> row_in(size_, -1);
-  const auto place = [this, &row_in](const Front& front) {
+  const auto place = [&row_in](const Front& front) {
     int row = 0;
     for (int i : front.own) row_in[i] = row++;
     for (int i : front.update) row_in[i] = row++;

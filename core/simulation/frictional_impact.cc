@@ -61,10 +61,10 @@ std::optional<Impact> ResolveTouchDown(const SimulationScene& scene, int contact
     if (stays) bilateral.push_back(k);
     if (k == contact || stays) must_hold.push_back(k);
   }
-  const std::optional<Impact> impact = ResolveFrictionalImpact(scene, touching, must_hold, t, x, dynamics);
+  std::optional<Impact> impact = ResolveFrictionalImpact(scene, touching, must_hold, t, x, dynamics);
   if (!impact || impact->consistent) return impact;
   // Others that close at the same instant may open this one again.
-  const std::optional<Impact> other = ResolveFrictionalImpact(scene, touching, bilateral, t, x, dynamics);
+  std::optional<Impact> other = ResolveFrictionalImpact(scene, touching, bilateral, t, x, dynamics);
   if (other && other->consistent) return other;
   return ResolveFrictionalImpact(scene, touching, must_hold, t, x, dynamics);
 }

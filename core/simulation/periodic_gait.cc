@@ -114,7 +114,7 @@ Violations CheckWalker(const SimulationScene& scene) {
 }  // namespace
 
 GaitSection::GaitSection(const SimulationScene& scene, const VectorX& q)
-    : scene_(scene), dynamics_(scene), touching_(dynamics_.active()) {
+    : dynamics_(scene), touching_(dynamics_.active()) {
   for (int k : dynamics_.active()) {
     const int mirror = MirrorContact(scene, k);
     if (std::find(touching_.begin(), touching_.end(), mirror) == touching_.end()) touching_.push_back(mirror);

@@ -51,7 +51,6 @@ class GaitSection {
   // q + normals z with all gaps zero.
   VectorX Close(VectorX q);
 
-  const SimulationScene& scene_;
   SceneDynamics dynamics_;
   std::vector<int> touching_;
   VectorX origin_;

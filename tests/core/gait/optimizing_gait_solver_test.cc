@@ -53,8 +53,19 @@ INSTANTIATE_TEST_SUITE_P(SlopesAndSchemes, ColdStart,
                                             ::testing::Values(Scheme::kRadau2, Scheme::kRadau3,
                                                               Scheme::kHermiteSimpson)));
 
-// The same search with Ipopt in place of our own solver, without refinement: rough solutions of two solvers are refined
-// in different places, and the objectives then differ by what a mesh leaves open (7e-5 with Debian 13's Ipopt).
+// The same search with Ipopt in place of our own solver.
+TEST(SolverOfPrograms, IpoptIsWithinTheBoundsToo) {
+  GaitRequest request = Planar(0);
+  request.discretization.single_support_intervals = 8;
+  request.nlp_solver = NlpSolver::kIpopt;
+  const GaitSolution ipopt = Solve(request);
+  ASSERT_EQ(ipopt.termination, Termination::kOptimal) << ipopt.message;
+  EXPECT_EQ(ipopt.verdict.kind, Verdict::Kind::kWithin);
+  EXPECT_GT(ipopt.meshes.size(), 1u);
+}
+
+// On one mesh: rough solutions of two solvers are refined in different places, and the objectives then differ by what
+// a mesh leaves open (7e-5 with Debian 13's Ipopt).
 TEST(SolverOfPrograms, IpoptAnswersTheSame) {
   GaitRequest request = Planar(0);
   request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
