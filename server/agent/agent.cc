@@ -204,6 +204,9 @@ SteadyTime Agent::NextDue(SteadyTime now) const {
 void Agent::ServiceRuns(SteadyTime now) {
   for (const auto& run : runs_) run->Service(now);
   StoreEvents(now);
+  const auto never_began = [](const auto& run) { return run->over() && run->never_began(); };
+  // Who kills solvers that wait would kill the next one, too.
+  if (std::any_of(runs_.begin(), runs_.end(), never_began)) spawn_at_ = std::max(spawn_at_, now + kSpawnRetry);
   std::erase_if(runs_, [](const auto& run) { return run->over(); });
 }
 
@@ -276,6 +279,7 @@ void Agent::KeepIdleProcesses(SteadyTime now) {
 
 void Agent::ClaimWork(SteadyTime now) {
   while (running() < options_.slots) {
+    HearIdleProcesses(now);  // a claim is handed to nobody who is known to be dead
     const auto idle = std::find_if(idle_.begin(), idle_.end(), [](const IdleProcess& i) { return i.ready; });
     if (idle == idle_.end() || running() + RunByDrainingAgents() >= options_.slots) return;
     Outcome<std::optional<ClaimedSolve>> claimed = store_.ClaimNext(owner_, options_.lease);

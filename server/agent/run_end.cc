@@ -80,7 +80,8 @@ std::variant<SolveEnd, Crash> JudgeRun(RunFacts facts) {
     detail = Describe(facts.stream);
   }
   if (!facts.output.empty()) detail += "; it printed: " + facts.output;
-  return Crash{detail};
+  const bool was_killed = WIFSIGNALED(facts.process.wait_status) && WTERMSIG(facts.process.wait_status) == SIGKILL;
+  return Crash{detail, facts.taken || !was_killed};
 }
 
 }  // namespace rollgait::server

@@ -20,6 +20,7 @@ struct RunFacts {
   bool has_solution = false;
   bool cancelled = false;    // we asked it to stop because a client wanted that
   bool out_of_time = false;  // we killed it because it did not stop at its wall time
+  bool taken = false;        // the request had arrived, or it was we who killed it
   double cpu_limit_s = 0;
   std::string output;  // the last it printed
 };
@@ -27,6 +28,7 @@ struct RunFacts {
 // Give the solve up, so that the store decides on another attempt.
 struct Crash {
   std::string detail;
+  bool began = true;  // false: the solver was killed before the request arrived, which says nothing of the request
 };
 
 // Judges the end of a run: a result is an answer whatever the exit status; an exit without one is a crash whatever the

@@ -134,8 +134,11 @@ void SolveRun::ReadSolver(SteadyTime now) {
   const FrameStatus status = process_->Receive(&payloads);
   for (const std::string& payload : payloads) Take(payload, now);
   if (status != FrameStatus::kNeedMore && !stream_end_) stream_end_ = status;
-  // It ends by itself in an instant; a process that closed or spoilt its stream is of no use any more.
-  if (stream_end_) KillBy(*stream_end_ == FrameStatus::kEnd ? now + context_.kill_after : now);
+  if (!stream_end_) return;
+  // A process that spoilt its stream is of no use any more. One that closed it, kError if it had not read all, ends by
+  // itself in an instant.
+  const bool is_closed = *stream_end_ == FrameStatus::kEnd || *stream_end_ == FrameStatus::kError;
+  KillBy(is_closed ? now + context_.kill_after : now);
 }
 
 void SolveRun::Take(const std::string& payload, SteadyTime now) {
@@ -145,6 +148,8 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     return;
   }
   if (message.has_ready()) return;
+  taken_ = true;
+  if (message.has_taken()) return;
   if (message.has_continuation()) return journal_.Take(message.continuation());
   if (message.has_record()) {
     if (!journal_.Take(std::move(*message.mutable_record()))) stream_end_ = FrameStatus::kGarbage;
@@ -260,6 +265,7 @@ void SolveRun::EnforceDeadlines(SteadyTime now) {
   }
   if (kill_at_ && now >= *kill_at_) {
     process_->Kill(SIGKILL);
+    killed_ = true;
     kill_at_ = now + kRetry;  // until it is gone
   }
 }
@@ -276,6 +282,7 @@ void SolveRun::ConcludeIfGone(SteadyTime now) {
   facts.cancelled = cancelled_;
   facts.has_solution = has_solution_;
   facts.out_of_time = out_of_time_;
+  facts.taken = taken_ || killed_;
   facts.cpu_limit_s = context_.cpu_limit_s;
   facts.output = process_->LastOutput();
   context_.iterates.Remove(id());
@@ -314,8 +321,9 @@ void SolveRun::Commit(SteadyTime now) {
   std::optional<Error> failure;
   if (const Crash* crash = std::get_if<Crash>(&outcome_)) {
     if (!stopping_) Warn("solver.died", crash->detail);
-    const Outcome<SolveState> given = stopping_ ? GiveBack(GiveBackReason::kStopping, "its agent stops")
-                                                : GiveBack(GiveBackReason::kCrashed, crash->detail);
+    const GiveBackReason reason = crash->began ? GiveBackReason::kCrashed : GiveBackReason::kNeverBegan;
+    const Outcome<SolveState> given =
+        stopping_ ? GiveBack(GiveBackReason::kStopping, "its agent stops") : GiveBack(reason, crash->detail);
     if (!given.ok()) failure = given.error();
   } else {
     if (!spooled_) PutIntoSpool();

@@ -66,6 +66,11 @@ class SolveRun {
   SteadyTime NextDue(SteadyTime now) const;
   // The store knows the end, or the solve is no longer ours.
   bool over() const { return state_ == State::kOver; }
+  // Its solver was killed before the request arrived.
+  bool never_began() const {
+    const Crash* const crash = std::get_if<Crash>(&outcome_);
+    return crash != nullptr && !crash->began;
+  }
   // Asks the solver to stop because a client wants that.
   void Cancel();
   // Asks the solver to stop because the agent does. It keeps what it has come to, and the solve goes back to the queue.
@@ -112,6 +117,8 @@ class SolveRun {
   bool sent_any_ = false;
   SteadyTime iterate_at_{};      // one before that is dropped
   bool iterate_failed_ = false;  // the log has a line about it
+  bool taken_ = false;           // by the solver: the request
+  bool killed_ = false;          // by us, at a deadline
   bool cancelled_ = false, stopping_ = false;
   bool out_of_time_ = false;
   bool grace_begins_ = false;  // it has been asked to stop; its time to do so counts from the next Service

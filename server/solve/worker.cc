@@ -215,6 +215,11 @@ WorkerExit ServeOneRequest(int fd, GaitSolver& solver, StopFlag& stop,
     std::string payload;
     const FrameStatus status = ReadFrame(fd, &payload);
     if (status == FrameStatus::kEnd) return kWorkerDone;
+    if (status == FrameStatus::kOk) {
+      wire::SolverMessage taken;
+      taken.mutable_taken();
+      if (WriteFrame(fd, taken.SerializeAsString()) != FrameStatus::kOk) return kWorkerNoReader;
+    }
     v1::SolveSpec request;
     if (status != FrameStatus::kOk || !request.ParseFromString(payload)) {
       SendError(fd, v1::SolveError::KIND_INTERNAL,

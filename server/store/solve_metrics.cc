@@ -31,6 +31,18 @@ std::string TerminationOf(const SolveEnd& end) {
   return "unknown";
 }
 
+const char* ReasonLabel(GiveBackReason reason) {
+  switch (reason) {
+    case GiveBackReason::kStopping:
+      return "agent_stopped";
+    case GiveBackReason::kNeverBegan:
+      return "solver_gone";
+    case GiveBackReason::kCrashed:
+      return "crash";
+  }
+  return "unknown";
+}
+
 std::string StateLabel(SolveState state) {
   return Label(v1::SolveState_Name(static_cast<v1::SolveState>(state)), "SOLVE_STATE_");
 }
@@ -48,7 +60,7 @@ SolveMetrics::SolveMetrics(Metrics& metrics)
       lease_lost_(
           CounterFamily(metrics, "rollgait_lease_lost_total", "Writes refused because the lease was lost").Add({})),
       leases_(GaugeFamily(metrics, "rollgait_leases", "Solves that this process works on").Add({})) {
-  for (const char* reason : {"crash", "agent_stopped", "agent_died", "lease_expired"})
+  for (const char* reason : {"crash", "solver_gone", "agent_stopped", "agent_died", "lease_expired"})
     retries_.Add({{"reason", reason}});
 }
 
@@ -90,7 +102,7 @@ void SolveMetrics::Finished(const Lease& lease, const SolveEnd& end) {
 void SolveMetrics::GivenBack(const Lease& lease, GiveBackReason reason, SolveState now) {
   const Run run = Take(lease);
   if (now == SolveState::kQueued) {
-    Requeued(reason == GiveBackReason::kCrashed ? "crash" : "agent_stopped", 1);
+    Requeued(ReasonLabel(reason), 1);
   } else {
     CountEnd(run, now, now == SolveState::kCancelled ? "cancelled" : "crash");
   }

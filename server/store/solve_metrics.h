@@ -18,8 +18,8 @@ namespace rollgait::server {
 //   rollgait_solves_total{model, state, termination}     ends
 //   rollgait_leases                                      solves that this process works on
 //   rollgait_lease_lost_total                            writes refused because the lease was another's
-//   rollgait_retries_total{reason}                       solves put back into the queue: crash, agent_stopped,
-//   agent_died, lease_expired
+//   rollgait_retries_total{reason}                       solves put back into the queue: crash, solver_gone,
+//   agent_stopped, agent_died, lease_expired
 // The termination of a run without a result is the kind of its error. Threads may share it.
 class SolveMetrics {
  public:

@@ -123,8 +123,9 @@ struct SolveEnd {
 };
 
 enum class GiveBackReason {
-  kStopping,  // the agent stops: back to the queue
-  kCrashed,   // the solver process died: back to the queue, the third time kFailed with KIND_CRASH
+  kStopping,    // the agent stops: back to the queue
+  kNeverBegan,  // the solver was killed before the request arrived: back to the queue
+  kCrashed,     // the solver process died: back to the queue, the third time kFailed with KIND_CRASH
 };
 
 struct SolveCounts {

@@ -40,6 +40,9 @@ int main(int argc, char** argv) {
   std::string payload;
   v1::SolveSpec spec;
   if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;
+  wire::SolverMessage taken;
+  taken.mutable_taken();
+  if (WriteFrame(stream, taken.SerializeAsString()) != FrameStatus::kOk) return 1;
   signal(kCancelSignal, HandleStop);
   signal(SIGPIPE, SIG_IGN);
   const int count = spec.solver_limits().has_max_iterations() ? spec.solver_limits().max_iterations() : 60;

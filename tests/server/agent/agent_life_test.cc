@@ -3,6 +3,9 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "server/agent/agent.h"
 #include "tests/server/agent/agent_fixture.h"
 
@@ -12,6 +15,12 @@ namespace {
 class AgentLifeTest : public AgentFixture {};
 
 bool Exists(pid_t pid) { return kill(pid, 0) == 0; }
+
+// Of this thread, which the agents run in.
+std::vector<pid_t> Children() {
+  std::ifstream file("/proc/thread-self/children");
+  return {std::istream_iterator<pid_t>(file), {}};
+}
 
 TEST_F(AgentLifeTest, KeepsIdleSolversReady) {
   const auto agent = MakeAgent();
@@ -33,6 +42,35 @@ TEST_F(AgentLifeTest, ASolverThatCannotStartIsNotTheFaultOfARequest) {
   for (int i = 0; i < 40; ++i) agent->Step(std::chrono::milliseconds(10));
   EXPECT_EQ(Get(id).state, SolveState::kQueued);
   EXPECT_EQ(Get(id).attempts, 0);
+}
+
+TEST_F(AgentLifeTest, ADeadSolverIsHandedNoRequest) {
+  const auto agent = MakeAgent();
+  ASSERT_TRUE(StepUntil(*agent, [&] { return agent->IdleProcesses().size() == 2; }));
+  for (const pid_t pid : agent->IdleProcesses()) {
+    kill(pid, SIGKILL);
+    siginfo_t info;
+    ASSERT_EQ(waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT), 0) << "it is dead, and not reaped";
+  }
+  const SolveRecord record = RunToEnd(*agent, Queue("iterations 1 result"));
+  EXPECT_EQ(record.state, SolveState::kSucceeded);
+  EXPECT_EQ(record.attempts, 1);
+}
+
+// It counts as no crash, however often: after the third crash the solve would have failed.
+TEST_F(AgentLifeTest, ASolverKilledBeforeItHadTheRequestIsNotTheFaultOfTheRequest) {
+  const std::string id = Queue("untaken");
+  const auto agent = MakeAgent();
+  for (int attempt = 1; attempt <= 3; ++attempt) {
+    ASSERT_TRUE(StepUntil(*agent, [&] { return Get(id).attempts == attempt; })) << attempt;
+    // The one with the request waits for ever; those without are idle.
+    const std::vector<pid_t> idle = agent->IdleProcesses();
+    for (const pid_t pid : Children()) {
+      if (std::find(idle.begin(), idle.end(), pid) == idle.end()) kill(pid, SIGKILL);
+    }
+  }
+  ASSERT_TRUE(StepUntil(*agent, [&] { return Get(id).attempts == 4; }));
+  EXPECT_EQ(Get(id).crashes, 0);
 }
 
 TEST_F(AgentLifeTest, StopGivesTheSolvesBackAndLeavesNoProcess) {

@@ -85,6 +85,16 @@ TEST(JudgeRun, AnErrorOfTheSolverIsTheErrorOfTheSolve) {
   EXPECT_EQ(End(JudgeRun(facts)).state, SolveState::kFailed);
 }
 
+TEST(JudgeRun, OnlyWhoWasKilledBeforeItHadTheRequestNeverBegan) {
+  RunFacts facts = With(std::nullopt, Signalled(SIGKILL));
+  EXPECT_FALSE(std::get<Crash>(JudgeRun(facts)).began);
+  facts.taken = true;
+  EXPECT_TRUE(std::get<Crash>(JudgeRun(facts)).began);
+  for (const int status : {kExit0, Signalled(SIGSEGV)}) {
+    EXPECT_TRUE(std::get<Crash>(JudgeRun(With(std::nullopt, status))).began);
+  }
+}
+
 TEST(JudgeRun, ExitStatusZeroWithoutAnythingIsACrash) {
   RunFacts facts = With(std::nullopt, kExit0);
   facts.output = "STOP 1";

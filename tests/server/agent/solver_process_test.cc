@@ -47,9 +47,9 @@ TEST(SolverProcess, HandsOverTheRequestAndReceivesTheAnswer) {
   EXPECT_TRUE(WIFEXITED(end.wait_status));
   EXPECT_EQ(WEXITSTATUS(end.wait_status), 0) << "9: descriptors or environment are not as promised";
   process.Receive(&payloads);
-  ASSERT_EQ(payloads.size(), 5u) << "ready, three iterations, the result";
+  ASSERT_EQ(payloads.size(), 6u) << "ready, taken, three iterations, the result";
   wire::SolverMessage last;
-  ASSERT_TRUE(last.ParseFromString(payloads[4]));
+  ASSERT_TRUE(last.ParseFromString(payloads[5]));
   EXPECT_TRUE(last.has_result());
   EXPECT_EQ(process.LastOutput(), "hello");
   EXPECT_GT(end.peak_memory_bytes, 0);

@@ -9,6 +9,7 @@
 //   iterates N     sends N iterates            long-iterate  sends one of more than kMaxIterateBytes
 //   solutions N    sends N intermediate solutions, of objectives 1 to N
 //   print WORD     prints                      crash      dies by SIGSEGV
+//   untaken        alone: waits for ever, and has not said that the request arrived
 //   xcpu           dies by SIGXCPU             once FILE  dies by SIGSEGV unless FILE exists; makes it
 // After the last word it exits with status 0.
 #include <fcntl.h>
@@ -139,6 +140,8 @@ void Obey(std::istringstream& words) {
       ready.mutable_iteration()->set_index(1000);
       Send(ready);
       WaitForEver();
+    } else if (word == "untaken") {
+      WaitForEver();
     } else if (word == "close") {
       close(stream);
       WaitForEver();
@@ -172,6 +175,9 @@ int main(int argc, char** argv) {
   rollgait::v1::SolveSpec spec;
   if (ReadFrame(stream, &payload) != FrameStatus::kOk || !spec.ParseFromString(payload)) return 0;
   std::istringstream words(spec.model().name());
+  rollgait::wire::SolverMessage taken;
+  taken.mutable_taken();
+  if (!spec.model().name().starts_with("untaken")) Send(taken);
   Obey(words);
   return 0;
 }

@@ -52,7 +52,7 @@ class WorkerTest : public ::testing::Test {
     wire::SolverMessage message;
     EXPECT_EQ(ReadFrame(parent(), &payload), FrameStatus::kOk);
     EXPECT_TRUE(message.ParseFromString(payload));
-    return message.has_ready() ? Receive() : message;
+    return message.has_ready() || message.has_taken() ? Receive() : message;
   }
 
   std::array<int, 2> ends_ = {-1, -1};
@@ -144,6 +144,19 @@ TEST_F(WorkerTest, SaysThatItIsReadyAndEndsQuietlyWithoutARequest) {
   EXPECT_TRUE(message.ParseFromString(payload));
   EXPECT_TRUE(message.has_ready());
   EXPECT_EQ(requests_, 0);
+}
+
+TEST_F(WorkerTest, SaysThatTheRequestHasArrivedBeforeItIsRead) {
+  ASSERT_EQ(WriteFrame(parent(), "no SolveSpec"), FrameStatus::kOk);
+  EXPECT_EQ(Serve(Optimal), kWorkerNoRequest);
+  std::string payload;
+  wire::SolverMessage message;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(ReadFrame(parent(), &payload), FrameStatus::kOk);
+    EXPECT_TRUE(message.ParseFromString(payload));
+  }
+  EXPECT_TRUE(message.has_taken());
+  EXPECT_TRUE(Receive().has_error());
 }
 
 TEST_F(WorkerTest, GarbageIsNoRequest) {
