@@ -1,5 +1,5 @@
 // Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.
-//   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [CASE...]
+//   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [--iterations] [CASE...]
 //   one_sided --help   the cases and what they change
 
 #include <algorithm>
@@ -73,10 +73,19 @@ void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& me
   std::fflush(stdout);
 }
 
+void PrintIteration(const IterationInfo& i) {
+  std::printf(
+      "      %d %4d  %12.8f  infeasibility %8.1e %8.1e  barrier %7.1e  shift %7.1e  step %8.1e %6.4f %6.4f  trials "
+      "%d%s\n",
+      i.mesh, i.index, i.objective, i.primal_infeasibility, i.dual_infeasibility, i.barrier_parameter, i.regularization,
+      i.step_norm, i.primal_step, i.dual_step, i.line_search_trials, i.restoration ? "  restoration" : "");
+}
+
 int Help() {
   std::printf(
       "Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.\n"
-      "  one_sided [--model human29] [--preset human|transport|torque] [--draft | --fine] [--slope DEGREES] [CASE...]\n"
+      "  one_sided [--model human29] [--preset human|transport|torque] [--draft | --fine] [--slope DEGREES] "
+      "[--iterations] [CASE...]\n"
       "Cases, all of them by default:\n");
   for (const Subject& subject : kSubjects) std::printf("  %-13s %s\n", subject.name, subject.what);
   return 0;
@@ -93,6 +102,7 @@ int Main(int argc, char** argv) {
   request.preset = Preset::kHuman;
   request.motion.speed = 1.3;
   std::vector<std::string> chosen;
+  SolveControl control;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--help" || flag == "-h") {
@@ -101,6 +111,8 @@ int Main(int argc, char** argv) {
       request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
     } else if (flag == "--draft") {
       request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+    } else if (flag == "--iterations") {
+      control.observer = PrintIteration;
     } else if (flag == "--model" && i + 1 < argc) {
       request.body.model = argv[++i];
     } else if (flag == "--slope" && i + 1 < argc) {
@@ -130,7 +142,7 @@ int Main(int argc, char** argv) {
                   spec.violations()[0].message.c_str());
       continue;
     }
-    Print(subject, spec.value(), Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), SolveControl()); }));
+    Print(subject, spec.value(), Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), control); }));
   }
   return 0;
 }

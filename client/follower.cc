@@ -95,7 +95,7 @@ grpc::Status SolveFollower::Cancel() {
   v1::CancelSolveRequest request;
   request.set_name(name_);
   v1::Solve solve;
-  const grpc::Status status = connection_.stub().CancelSolve(&context, request, &solve);
+  grpc::Status status = connection_.stub().CancelSolve(&context, request, &solve);
   if (status.ok()) cancel_pending_ = false;
   return status;
 }

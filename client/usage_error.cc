@@ -26,7 +26,7 @@ std::string UnknownWord(const std::vector<std::string>& words) {
 
 std::string UsageMessage(const CLI::App& app, const CLI::Error& error) {
   const std::vector<CLI::App*> named = app.get_subcommands();
-  const std::string program = app.get_name();
+  const std::string& program = app.get_name();
   const std::string help =
       "\nRun `" + program + (named.empty() ? "" : " " + named.front()->get_name()) + " --help` for what there is.";
   const std::string unknown = UnknownWord(app.remaining(true));

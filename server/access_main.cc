@@ -145,7 +145,7 @@ int ShowAudit(AccessStore& store, const Arguments& arguments) {
 using Action = std::function<int(AccessStore&, const Arguments&)>;
 
 CLI::App* AddCommand(CLI::App& parent, const char* name, const char* help, Arguments& arguments, Action& chosen,
-                     Action action) {
+                     const Action& action) {
   CLI::App* command = parent.add_subcommand(name, help);
   command->add_option("--data-dir", arguments.data_dir, "Directory of the store, as of rollgaitd");
   command->add_option("--store", arguments.store, "URL of the store, postgresql://..., as of rollgaitd")

@@ -19,10 +19,12 @@ namespace {
 constexpr char kLabel[] = "sweep";
 
 // What the sweep asks for, a request a point.
-std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, SpecFlags flags, int priority, std::string* name) {
+std::vector<v1::CreateSolveRequest> Requests(const SweepGrid& grid, const SpecFlags& base, int priority,
+                                             std::string* name) {
   std::vector<v1::CreateSolveRequest> requests;
   std::vector<std::string> specs;  // digests
   for (const SweepPoint& point : grid.points) {
+    SpecFlags flags = base;
     for (size_t k = 0; k < grid.axes.size(); ++k) flags.*grid.axes[k].value = point.values[k];
     *requests.emplace_back().mutable_spec() = BuildSpec(flags);
     specs.push_back(Digest(BytesOf(requests.back().spec())));

@@ -60,7 +60,7 @@ class Simulator {
       if (message.has_event()) *whole.add_events() = message.event();
       if (message.has_report()) *whole.mutable_report() = message.report();
     }
-    const grpc::Status status = stream->Finish();
+    grpc::Status status = stream->Finish();
     Set(nullptr);
     return status;
   }

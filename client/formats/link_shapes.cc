@@ -36,7 +36,7 @@ LinkShape InertiaEllipsoid(const v1::Model& model, int joint) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.inertia);
   Eigen::Matrix3d axes = eigen.eigenvectors();
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-  const Eigen::Vector3d moments = eigen.eigenvalues();
+  const Eigen::Vector3d& moments = eigen.eigenvalues();
   Eigen::Vector3d semi_axes;
   for (int k = 0; k < 3; ++k) {
     semi_axes(k) = std::sqrt(std::max(0.0, 2.5 / body.mass * (moments.sum() - 2 * moments(k))));

@@ -27,7 +27,7 @@ constexpr double kMostMiddleTurn = 80 * kPi / 180;
 }  // namespace
 
 std::string MjcfJointType(const MjcfElement& joint) {
-  const std::string type = joint.Has("type") ? joint.Get("type") : "hinge";
+  std::string type = joint.Has("type") ? joint.Get("type") : "hinge";
   if (type != "free" && type != "ball" && type != "hinge" && type != "slide") {
     joint.Refuse("type \"" + type.substr(0, 40) + "\" is unknown; must be free, ball, slide or hinge");
   }

@@ -46,7 +46,7 @@ class Batches {
     while (true) {
       grpc::ClientContext context;
       connection_.SetDeadline(context);
-      const grpc::Status status = connection_.stub().BatchCreateSolves(&context, request, response);
+      grpc::Status status = connection_.stub().BatchCreateSolves(&context, request, response);
       const std::optional<double> delay_s = RetryDelay(status);
       if (status.error_code() == grpc::StatusCode::UNAVAILABLE && !repeated) {
         repeated = true;

@@ -27,7 +27,7 @@ const std::map<std::string, v1::DriftControl::Kind>& DriftWords() {
 
 std::vector<double> ParseTolerances(const std::string& flag, const std::string& text, double least,
                                     const std::string& range) {
-  const std::vector<double> values = ParseSweepValues(flag, text);
+  std::vector<double> values = ParseSweepValues(flag, text);
   for (const double value : values) {
     if (!(value >= least && value <= kMost)) RefuseScene(flag, text, FormatNumber(value, 12) + " must be in " + range);
   }

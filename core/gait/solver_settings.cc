@@ -27,7 +27,7 @@ struct Settings {
 //  * Smoother powers on a coarser mesh: the finer the mesh, the larger the accelerations that a push asks for, and with
 //    1e-2 they violate the start by 30 to 250 times the size of a row. 96 solves of success_rate (both models, `human`
 //    and `transport`): 7900 iterations and 5 programs that led nowhere with μ = 1e-3 and a push of 1e-2; 6800 and none
-//    with this row.
+//    with μ = 1e-4 and 1e-3. With μ = 1e-5 the finer meshes after it take less (docs/explanation/optimizer.md).
 //  * The first Hessian that needs a shift is refused 1e-4, from a guess and from smoother powers alike: in 48 solves of
 //    success_rate the ladder 1e-4, 1e-2, 1, 100 ended at 1e-2 or 1 from a guess, and from smoother powers at 1 in 65 of
 //    69. To begin there spares the factorisations before it: 2 to 3 of a hundred.
@@ -36,15 +36,17 @@ struct Settings {
 //  * A mirror image is the solution but for its multipliers, so it starts with the last μ of its half. Seed 7 of
 //    bench/verdict_audit, #24, #88 and #159: 4, 3 and 11 iterations; 142, 111 and 96 as from a neighbour.
 //  * Between meshes the active bounds are known. Planar, transport, level: 19 iterations with a push of 1e-4, none
-//    within 900 with 1e-3. Where no interval is shorter than before, the solution is closest of all.
+//    within 900 with 1e-3. With powers μ = 1e-6: the multipliers are those of the last μ, and a
+//    larger one has to come down again, which takes half of the iterations where few intervals are new. Where no
+//    interval is shorter than before, the solution is closest of all.
 constexpr Settings kTable[] = {
     {StartOf::kGuess, Costs::kAny, 0.1, 0, 10, 1.5, false, 1e-10, 1e-2},
     {StartOf::kNeighbour, Costs::kAny, 1e-2, 1e-2, 1000, 2.2, true, 1e-8, 1e-4},
-    {StartOf::kSmoother, Costs::kAny, 1e-4, 1e-3, 1000, 2.2, true, 1e-8, 1},
+    {StartOf::kSmoother, Costs::kAny, 1e-5, 1e-3, 1000, 2.2, true, 1e-8, 1},
     {StartOf::kOtherRequest, Costs::kWithoutPowers, 1e-2, 5e-3, 1000, 2, true, 1e-8, 1e-2},
     {StartOf::kOtherRequest, Costs::kWithPowers, 1e-4, 1e-4, 10000, 2.2, true, 1e-8, 1e-2},
     {StartOf::kFinerMesh, Costs::kWithoutPowers, 1e-3, 1e-3, 10, 1.5, false, 1e-10, 1e-4},
-    {StartOf::kFinerMesh, Costs::kWithPowers, 1e-4, 1e-4, 1000, 2.2, true, 1e-8, 1e-4},
+    {StartOf::kFinerMesh, Costs::kWithPowers, 1e-6, 1e-4, 1000, 2.2, true, 1e-8, 1e-4},
     {StartOf::kImage, Costs::kAny, 0, 1e-9, 10, 1.5, false, 1e-10, 1e-4},
     {StartOf::kSameMesh, Costs::kWithoutPowers, 1e-4, 1e-4, 1000, 2.2, true, 1e-8, 1e-4},
     {StartOf::kSameMesh, Costs::kWithPowers, 1e-5, 1e-5, 1000, 2.2, true, 1e-8, 1e-4},

@@ -104,19 +104,20 @@ void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
     for (int i : front.own) row_in[i] = row++;
     for (int i : front.update) row_in[i] = row++;
   };
-  std::vector<std::vector<int>> entries(fronts_.size());
-  for (int e = 0; e < pattern.size(); ++e) {
-    entries[std::min(front_of_[pattern.rows[e]], front_of_[pattern.columns[e]])].push_back(e);
-  }
+  const auto front_of = [&](int e) { return std::min(front_of_[pattern.rows[e]], front_of_[pattern.columns[e]]); };
+  std::vector<int> counts(fronts_.size(), 0);
+  for (int e = 0; e < pattern.size(); ++e) ++counts[front_of(e)];
+  for (size_t f = 0; f < fronts_.size(); ++f) fronts_[f].entries.reserve(counts[f]);
+  for (int e = 0; e < pattern.size(); ++e)
+    fronts_[front_of(e)].entries.push_back({e, pattern.rows[e], pattern.columns[e]});
   size_t most = 0;
   for (size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     place(front);
-    front.entries.reserve(entries[f].size());
-    for (int e : entries[f]) {
-      int row = row_in[pattern.rows[e]], column = row_in[pattern.columns[e]];
-      if (row < column) std::swap(row, column);
-      front.entries.push_back({e, row, column});
+    for (Entry& entry : front.entries) {
+      entry.row = row_in[entry.row];
+      entry.column = row_in[entry.column];
+      if (entry.row < entry.column) std::swap(entry.row, entry.column);
     }
     for (int child : front.children) {
       for (int i : fronts_[child].update) fronts_[child].parent_row.push_back(row_in[i]);

@@ -91,8 +91,13 @@ std::vector<int> KktSystem::PlacesWithout(const std::vector<Condensed>& condense
 }
 
 FrontalLdlt KktSystem::MakeFactors(const NlpProblem& problem) {
-  SparsityPattern pattern;
   const SparsityPattern& whole = matrix_.pattern();
+  size_t size = whole.rows.size();
+  for (const Condensed& row : condensed_) size += row.entries.size() * (row.entries.size() + 1) / 2;
+  SparsityPattern pattern;
+  pattern.rows.reserve(size);
+  pattern.columns.reserve(size);
+  reduced_source_.reserve(whole.rows.size());
   for (int e = 0; e < whole.size(); ++e) {
     const int row = place_[whole.rows[e]], column = place_[whole.columns[e]];
     if (row < 0 || column < 0) continue;

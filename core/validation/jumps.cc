@@ -43,7 +43,7 @@ std::vector<TreeContact> ContactsOf(const Scene& scene, const TrajectoryPhase& p
 
 VectorX VelocityBefore(const Model& model, const Trajectory& trajectory, int phase) {
   const TrajectoryPhase& last = phase > 0 ? trajectory.phases[phase - 1] : trajectory.phases.back();
-  const VectorX v = last.node_velocities.col(last.node_velocities.cols() - 1);
+  VectorX v = last.node_velocities.col(last.node_velocities.cols() - 1);
   if (phase > 0 || trajectory.cycle != Cycle::kHalf) return v;
   VectorX mirrored = v;
   for (int j = 0; j < model.size(); ++j) {

@@ -160,7 +160,7 @@ void SolveRun::Take(const std::string& payload, SteadyTime now) {
     AddIteration(std::move(*message.mutable_iteration()), now);
     return;
   }
-  if (message.has_intermediate()) return AddSolution(std::move(*message.mutable_intermediate()), now);
+  if (message.has_intermediate()) return AddSolution(message.intermediate(), now);
   if (message.has_iterate()) return ShowIterate(std::move(*message.mutable_iterate()), now);
   last_ = std::move(message);
   KillBy(now + context_.kill_after);  // nothing is to follow but its end
@@ -187,7 +187,7 @@ void SolveRun::AddIteration(v1::Iteration iteration, SteadyTime now) {
   sent_any_ = true;
 }
 
-void SolveRun::AddSolution(v1::SolveResult solution, SteadyTime now) {
+void SolveRun::AddSolution(const v1::SolveResult& solution, SteadyTime now) {
   if (event_bytes_ > context_.max_event_bytes) return;
   has_solution_ = true;
   v1::SolveEvent event;
@@ -312,7 +312,7 @@ Outcome<SolveState> SolveRun::GiveBack(GiveBackReason reason, const std::string&
     pending_.clear();
   }
   journal_.Save();
-  const Outcome<SolveState> given = context_.store.GiveBack(lease_, reason, detail);
+  Outcome<SolveState> given = context_.store.GiveBack(lease_, reason, detail);
   if (given.ok() && IsTerminal(given.value())) journal_.Remove();
   return given;
 }

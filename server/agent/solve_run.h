@@ -84,7 +84,7 @@ class SolveRun {
   void ReadSolver(SteadyTime now);
   void Take(const std::string& payload, SteadyTime now);
   void AddIteration(v1::Iteration iteration, SteadyTime now);
-  void AddSolution(v1::SolveResult solution, SteadyTime now);
+  void AddSolution(const v1::SolveResult& solution, SteadyTime now);
   void ShowIterate(v1::Iterate iterate, SteadyTime now);
   void RenewLease(SteadyTime now);
   void EnforceDeadlines(SteadyTime now);

@@ -57,7 +57,7 @@ Surface SceneDecoding::Shape(const std::string& field, const v1::Surface& surfac
 }
 
 Vector3 SceneDecoding::Point(const std::string& field, const v1::Vector3& v) {
-  const Vector3 point = DecodeVector(v);
+  Vector3 point = DecodeVector(v);
   if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kMaxSceneNumber) {
     Refuse(field, "every component must be finite and within ±1e9 m");
     return Vector3::Zero();

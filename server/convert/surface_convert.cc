@@ -146,7 +146,7 @@ void EncodeSurface(const Surface& surface, v1::Surface* encoded) {
 }
 
 std::optional<Surface> DecodeSurface(const std::string& field, const v1::Surface& surface, Violations* violations) {
-  const std::optional<Surface> decoded = DecodeShape(field, surface, violations);
+  std::optional<Surface> decoded = DecodeShape(field, surface, violations);
   if (!(surface.rounding_m() >= 0 && surface.rounding_m() <= kMaxRadius)) {
     violations->push_back(
         {field + ".rounding_m", "is " + std::to_string(surface.rounding_m()) + "; must be within [0, 1e6] m"});

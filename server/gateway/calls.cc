@@ -21,7 +21,7 @@ class Session : public std::enable_shared_from_this<Session> {
     if (--context_.use->calls == 0) context_.use->calls.notify_all();
   }
 
-  void Attach(std::shared_ptr<UpstreamCall> call) {
+  void Attach(const std::shared_ptr<UpstreamCall>& call) {
     bool gone = false, reads = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -219,8 +219,8 @@ class BodySession final : public Session {
 // Begins the call of a session whose listener is set.
 template <typename AnySession>
 void Start(const std::shared_ptr<AnySession>& session, const std::shared_ptr<grpc::Channel>& channel,
-           UpstreamCall::Request request) {
-  session->Attach(UpstreamCall::Start(channel, std::move(request),
+           const UpstreamCall::Request& request) {
+  session->Attach(UpstreamCall::Start(channel, request,
                                       {[session](std::string message) { session->OnMessage(std::move(message)); },
                                        [session](const CallEnd& end) { session->OnEnd(end); }}));
 }
@@ -231,23 +231,24 @@ void SendProblem(const Problem& problem, HttpHeaders headers, HttpAnswer& answer
   answer.Send(ProblemResponse(problem, std::move(headers)));
 }
 
-void AskForBody(CallContext context, const std::shared_ptr<grpc::Channel>& channel, UpstreamCall::Request request) {
+void AskForBody(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
+                const UpstreamCall::Request& request) {
   const std::shared_ptr<HttpAnswer> answer = context.answer;
   const auto session = std::make_shared<BodySession>(std::move(context));
   if (!answer->Listen({{}, {}, {}, {}, [session] { session->Cancel(); }})) return;
-  Start(session, channel, std::move(request));
+  Start(session, channel, request);
 }
 
-void AnswerOnce(CallContext context, const std::shared_ptr<grpc::Channel>& channel, UpstreamCall::Request request,
-                int64_t most) {
+void AnswerOnce(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
+                const UpstreamCall::Request& request, int64_t most) {
   const std::shared_ptr<HttpAnswer> answer = context.answer;
   const auto session = std::make_shared<UnarySession>(std::move(context), most);
   if (!answer->Listen({{}, {}, {}, {}, [session] { session->Cancel(); }})) return;
-  Start(session, channel, std::move(request));
+  Start(session, channel, request);
 }
 
 void AnswerWithEvents(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
-                      UpstreamCall::Request request) {
+                      const UpstreamCall::Request& request) {
   const std::shared_ptr<HttpAnswer> answer = context.answer;
   const auto session = std::make_shared<StreamSession>(std::move(context));
   if (!answer->Listen({[session] { session->OnWait(); }, [session] { session->ReadNext(); },
@@ -255,7 +256,7 @@ void AnswerWithEvents(CallContext context, const std::shared_ptr<grpc::Channel>&
                        [session] { session->Cancel(); }})) {
     return;
   }
-  Start(session, channel, std::move(request));
+  Start(session, channel, request);
 }
 
 }  // namespace rollgait::server

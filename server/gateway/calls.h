@@ -39,16 +39,17 @@ void SendProblem(const Problem& problem, HttpHeaders headers, HttpAnswer& answer
 
 // Lets the body come (HttpAnswer::TakeBody) if `request`, a call that costs rollgaitd little, is not refused for who
 // calls or how often; a caller who only may not make this call is one that is known.
-void AskForBody(CallContext context, const std::shared_ptr<grpc::Channel>& channel, UpstreamCall::Request request);
+void AskForBody(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
+                const UpstreamCall::Request& request);
 
 // An answer that would make GatewayUse::answer_bytes more than `most`, and is not the only one, becomes a 503.
-void AnswerOnce(CallContext context, const std::shared_ptr<grpc::Channel>& channel, UpstreamCall::Request request,
-                int64_t most);
+void AnswerOnce(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
+                const UpstreamCall::Request& request, int64_t most);
 
 // One message is held at a time: the next one is read when the client has taken it. A client that does not take it in
 // time is told why in the last event, for when it reads on, and so is the log.
 void AnswerWithEvents(CallContext context, const std::shared_ptr<grpc::Channel>& channel,
-                      UpstreamCall::Request request);
+                      const UpstreamCall::Request& request);
 
 }  // namespace rollgait::server
 

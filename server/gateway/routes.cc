@@ -63,7 +63,7 @@ std::string RouteProblem(const Route& route, const google::protobuf::ServiceDesc
     }
   }
   const std::string body = route.body, cursor = route.cursor;
-  if (body != "" && body != "*") {
+  if (!body.empty() && body != "*") {
     const FieldDescriptor* field = request.FindFieldByName(body);
     if (field == nullptr || field->type() != FieldDescriptor::TYPE_MESSAGE || field->is_repeated()) {
       return request.full_name() + " has no message " + body;
@@ -79,7 +79,7 @@ std::string RouteProblem(const Route& route, const google::protobuf::ServiceDesc
   }
   const std::string verb = route.verb;
   if (verb != "GET" && verb != "POST" && verb != "DELETE") return "the verb " + verb + " is not answered";
-  if (verb != "POST" && body != "") return verb + " has no body";
+  if (verb != "POST" && !body.empty()) return verb + " has no body";
   return "";
 }
 

@@ -39,7 +39,7 @@ std::string Text(const grpc::ByteBuffer& buffer) {
 // Lives until gRPC is done with it, whoever else holds it.
 class Call final : public UpstreamCall, public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  Call(const std::shared_ptr<grpc::Channel>& channel, Request request, Listener listener)
+  Call(const std::shared_ptr<grpc::Channel>& channel, const Request& request, Listener listener)
       : stub_(channel), listener_(std::move(listener)) {
     const grpc::Slice slice(request.message);
     request_ = grpc::ByteBuffer(&slice, 1);
@@ -103,14 +103,14 @@ class Call final : public UpstreamCall, public grpc::ClientBidiReactor<grpc::Byt
 
 }  // namespace
 
-std::shared_ptr<UpstreamCall> UpstreamCall::Start(const std::shared_ptr<grpc::Channel>& channel, Request request,
+std::shared_ptr<UpstreamCall> UpstreamCall::Start(const std::shared_ptr<grpc::Channel>& channel, const Request& request,
                                                   Listener listener) {
   if (const std::string name = UnfitMetadata(request); !name.empty()) {
     listener.on_end({{grpc::StatusCode::INVALID_ARGUMENT,
                       "the header " + name + " has bytes that are no printable ASCII, which calls cannot carry"}});
     return std::make_shared<NoCall>();
   }
-  const auto call = std::make_shared<Call>(channel, std::move(request), std::move(listener));
+  const auto call = std::make_shared<Call>(channel, request, std::move(listener));
   call->Begin(call);
   return call;
 }

@@ -36,7 +36,7 @@ class UpstreamCall {
   };
   // Begins the call and asks for the first message. Values of metadata that are no printable ASCII end it at once, with
   // INVALID_ARGUMENT.
-  static std::shared_ptr<UpstreamCall> Start(const std::shared_ptr<grpc::Channel>& channel, Request request,
+  static std::shared_ptr<UpstreamCall> Start(const std::shared_ptr<grpc::Channel>& channel, const Request& request,
                                              Listener listener);
   virtual ~UpstreamCall() = default;
   // After on_message, once for each message. Any thread.

@@ -51,7 +51,7 @@ std::string Text(const ASN1_STRING* text) {
   unsigned char* utf8 = nullptr;
   const int size = ASN1_STRING_to_UTF8(&utf8, text);
   if (size < 0) return {};
-  const std::string copy(reinterpret_cast<const char*>(utf8), static_cast<size_t>(size));
+  std::string copy(reinterpret_cast<const char*>(utf8), static_cast<size_t>(size));
   OPENSSL_free(utf8);
   return copy;
 }
