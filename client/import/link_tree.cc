@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -20,13 +21,15 @@ class TreeFinisher {
   explicit TreeFinisher(LinkTree* tree) : tree_(*tree) {}
 
   void Finish() {
-    std::set<std::string> links, joints;
+    std::set<std::string> links;
+    std::map<std::string, std::string> joints;  // what has the joint of a name as one of its turns
     for (const TreeLink& link : tree_.links) {
       if (!links.insert(link.name).second) tree_.RefuseLink(link.name, "the name is used twice; give each its own");
       CheckLink(link);
     }
     for (TreeJoint& joint : tree_.joints) {
-      if (!joints.insert(joint.name).second) tree_.RefuseJoint(joint.name, "the name is used twice; give each its own");
+      const auto [other, is_new] = joints.emplace(joint.name, joint.turn_of);
+      if (!is_new) RefuseSecond(joint, other->second.empty() ? joint.turn_of : other->second);
       CheckJoint(&joint);
     }
     FindRoot();
@@ -34,6 +37,12 @@ class TreeFinisher {
   }
 
  private:
+  // The second joint of a name; ball: the joint that has one of the two as a turn, empty: none has.
+  [[noreturn]] void RefuseSecond(const TreeJoint& joint, const std::string& ball) {
+    const std::string turn = " and so is called one of the three turns of the joint \"" + ball + "\"";
+    tree_.RefuseJoint(joint.name, "the name is used twice" + (ball.empty() ? "" : "," + turn) + "; give each its own");
+  }
+
   static std::string Millimetres(const std::string& what, const Eigen::Vector3d& v) {
     return what + " is (" + FormatNumber(v.x()) + ", " + FormatNumber(v.y()) + ", " + FormatNumber(v.z()) +
            ") m; every component must be within ±10 m: lengths are metres, these look like millimetres";

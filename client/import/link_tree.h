@@ -54,7 +54,8 @@ struct TreeJoint {
   bool driven = true;   // false: the file says that nothing drives it
   // A spring that exerts −stiffness · (position − rest), and a damper.
   double stiffness = 0, rest = 0, damping = 0;
-  std::string mimics = {};  // name of the joint whose position this one takes; empty: none
+  std::string turn_of = {};  // name of the joint of three turns that has this one; empty: none
+  std::string mimics = {};   // name of the joint whose position this one takes; empty: none
 
   bool Moves() const { return type == Type::kRevolute || type == Type::kContinuous || type == Type::kPrismatic; }
 };

@@ -77,6 +77,7 @@ std::vector<TreeJoint> ReadMjcfBall(const MjcfElement& from, const std::string& 
     TreeJoint& turn = turns.emplace_back();
     const double reach = turns.size() == 2 ? std::min(most, kMostMiddleTurn) : most;
     turn.name = MjcfTurnName(name, axis);
+    turn.turn_of = name;
     turn.type = std::isinf(reach) ? TreeJoint::Type::kContinuous : TreeJoint::Type::kRevolute;
     turn.axis = Eigen::Vector3d::Unit(axis);
     turn.lower = -reach;

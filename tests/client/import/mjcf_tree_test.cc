@@ -58,6 +58,13 @@ std::vector<BrokenFile> BrokenMjcfFiles() {
       {"SameBodyTwice", WithMjcf("name=\"b\"", "name=\"a\""), "<body name=\"a\">: the name is used twice"},
       {"SameJointTwice", Replaced(WithMjcf("name=\"j\"", "name=\"root\""), "joint=\"j\"", "joint=\"root\""),
        "<joint name=\"root\">: the name is used twice"},
+      {"JointCalledLikeATurn",
+       Replaced(Replaced(WithMjcf("<body name=\"b\"",
+                                  "<body name=\"d\"><joint type=\"ball\" name=\"s\"/>"
+                                  "<geom name=\"e\" size=\"0.1\"/></body><body name=\"b\""),
+                         "name=\"j\"", "name=\"s_x\""),
+                "joint=\"j\"", "joint=\"s_x\""),
+       "<joint name=\"s_x\">: the name is used twice, and so is called one of the three turns of the joint \"s\""},
       {"LongName", WithMjcf("name=\"b\"", "name=\"" + std::string(300, 'b') + "\""), "name has 300 bytes"},
       {"ControlCharacter", WithMjcf("name=\"b\"", "name=\"b&#x1b;\""), "name holds a control character"},
       {"UnknownClass", WithMjcf("childclass=\"leg\"", "childclass=\"arm\""),
