@@ -10,8 +10,8 @@ namespace {
 constexpr double kTauMin = 0.99, kKappaMu = 0.2, kKappaEnd = 10, kKappaEpsilon = 10, kThetaMu = 1.5;
 // Where steps are short: each counts 0.3 of the mean, so that some seven short ones in a row bring it below its
 // threshold and one long step in three keeps it above. Request 115 of seed 7 of
-// bench/verdict_audit ends after 162 iterations in all; without it after 676 without a solution
-// (docs/explanation/optimizer.md).
+// bench/verdict_audit ended after 162 iterations in all; without it after 676 without a solution
+// (docs/explanation/optimizer.md, at fa1e66a).
 constexpr double kWeightOfAStep = 0.3, kShortSteps = 0.2;
 // It is raised to ten times where the program began, so that one that began close to its bounds stays in their
 // neighbourhood, and no further than programs begin that start from the solution of a neighbour. Seed 7 of the audit:
