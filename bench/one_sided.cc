@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/measured_solve.h"
+#include "bench/program_tally.h"
 #include "core/gait/optimizing_gait_solver.h"
 
 namespace rollgait {
@@ -103,6 +104,7 @@ int Main(int argc, char** argv) {
   request.motion.speed = 1.3;
   std::vector<std::string> chosen;
   SolveControl control;
+  ProgramTally tally;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--help" || flag == "-h") {
@@ -142,8 +144,11 @@ int Main(int argc, char** argv) {
                   spec.violations()[0].message.c_str());
       continue;
     }
-    Print(subject, spec.value(), Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), control); }));
+    const MeasuredSolve measured = Measure([&] { return OptimizingGaitSolver().Solve(spec.value(), control); });
+    Print(subject, spec.value(), measured);
+    tally.Add(measured.solution.meshes);
   }
+  tally.Print();
   return 0;
 }
 

@@ -1,16 +1,18 @@
-// How often the built-in start converges: both sexes, statures, masses, slopes; iterations and time of each request.
+// How often the built-in start converges: both sexes, statures, masses, slopes; iterations and time of each request,
+// and of all programs by where they started.
 //   success_rate [--model planar] [--preset human] [--starts 1] [--standard] [--intervals 10] [--scheme radau2]
 //                [--slopes -10,0,10] [--statures 1.5,1.67,1.83,2.0] [--masses 45,82.5,120]
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "bench/measured_solve.h"
+#include "bench/program_tally.h"
 #include "core/gait/optimizing_gait_solver.h"
 
 namespace rollgait {
@@ -29,12 +31,12 @@ struct Outcome {
   double cpu;  // s
 };
 
-Outcome Solve(const GaitSpec& spec, std::string* why) {
-  const std::clock_t begin = std::clock();
-  const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
-  Outcome outcome{solution.termination == Termination::kOptimal, solution.within_requested_accuracy(), 0,
-                  static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC};
-  for (const MeshStatistics& mesh : solution.meshes) outcome.iterations += mesh.iterations;
+Outcome Solve(const GaitSpec& spec, ProgramTally* tally, std::string* why) {
+  const MeasuredSolve measured = Measure([&] { return OptimizingGaitSolver().Solve(spec, SolveControl()); });
+  const GaitSolution& solution = measured.solution;
+  const Outcome outcome{solution.termination == Termination::kOptimal, solution.within_requested_accuracy(),
+                        measured.iterations, measured.cpu};
+  tally->Add(solution.meshes);
   if (!outcome.optimal || !outcome.accurate) *why = solution.message;
   if (solution.message.find("continuation") != std::string::npos) *why = "by continuation";
   return outcome;
@@ -76,6 +78,7 @@ int Main(int argc, char** argv) {
   }
   int asked = 0, optimal = 0, accurate = 0;
   std::vector<double> iterations, times;
+  ProgramTally tally;
   std::printf("%-6s %7s %6s %6s | %-7s %5s %7s\n", "sex", "stature", "mass", "slope", "end", "iter", "cpu s");
   for (const Sex sex : {Sex::kFemale, Sex::kMale}) {
     for (const double stature : statures) {
@@ -92,7 +95,7 @@ int Main(int argc, char** argv) {
             return 1;
           }
           std::string why;
-          const Outcome outcome = Solve(spec.value(), &why);
+          const Outcome outcome = Solve(spec.value(), &tally, &why);
           ++asked;
           optimal += outcome.optimal ? 1 : 0;
           accurate += outcome.accurate ? 1 : 0;
@@ -110,6 +113,7 @@ int Main(int argc, char** argv) {
       "%.2f s\n",
       asked, optimal, accurate, Median(iterations), *std::max_element(iterations.begin(), iterations.end()),
       Median(times), *std::max_element(times.begin(), times.end()));
+  tally.Print();
   return optimal == asked ? 0 : 1;
 }
 

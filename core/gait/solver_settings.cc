@@ -36,9 +36,9 @@ struct Settings {
 //  * A mirror image is the solution but for its multipliers, so it starts with the last μ of its half. Seed 7 of
 //    bench/verdict_audit, #24, #88 and #159: 4, 3 and 11 iterations; 142, 111 and 96 as from a neighbour.
 //  * Between meshes the active bounds are known. Planar, transport, level: 19 iterations with a push of 1e-4, none
-//    within 900 with 1e-3. With powers μ = 1e-6: the multipliers are those of the last μ, and a
-//    larger one has to come down again, which takes half of the iterations where few intervals are new. Where no
-//    interval is shorter than before, the solution is closest of all.
+//    within 900 with 1e-3. With powers μ = 1e-6: the multipliers are those of the last μ, and a larger one has to come
+//    down again, which takes a quarter of the iterations where few intervals are new. Where no interval is shorter than
+//    before, the solution is closest of all.
 constexpr Settings kTable[] = {
     {StartOf::kGuess, Costs::kAny, 0.1, 0, 10, 1.5, false, 1e-10, 1e-2},
     {StartOf::kNeighbour, Costs::kAny, 1e-2, 1e-2, 1000, 2.2, true, 1e-8, 1e-4},

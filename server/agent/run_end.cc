@@ -80,6 +80,7 @@ std::variant<SolveEnd, Crash> JudgeRun(RunFacts facts) {
     detail = Describe(facts.stream);
   }
   if (!facts.output.empty()) detail += "; it printed: " + facts.output;
+  // Solvers ignore the other signals that come from outside (server/solve/main.cc).
   const bool was_killed = WIFSIGNALED(facts.process.wait_status) && WTERMSIG(facts.process.wait_status) == SIGKILL;
   return Crash{detail, facts.taken || !was_killed};
 }

@@ -70,6 +70,10 @@ TEST_F(MeasuredStoreTest, TellsRetriesFromEnds) {
   EXPECT_EQ(Sample("rollgait_retries_total{reason=\"crash\"}"), kMaxCrashes - 1);
   EXPECT_EQ(Sample("rollgait_solves_total{model=\"human29\",state=\"failed\",termination=\"crash\"}"), 1);
   Add("b", "ball");
+  ASSERT_TRUE(store_.GiveBack(Claim(), GiveBackReason::kNeverBegan, "signal 9").ok());
+  EXPECT_EQ(Sample("rollgait_retries_total{reason=\"solver_gone\"}"), 1);
+  ASSERT_TRUE(store_.GiveBack(Claim(), GiveBackReason::kStopping, "").ok());
+  EXPECT_EQ(Sample("rollgait_retries_total{reason=\"agent_stopped\"}"), 1);
   Claim();
   ASSERT_TRUE(store_.ReclaimOwner("agent").ok());
   EXPECT_EQ(Sample("rollgait_retries_total{reason=\"agent_died\"}"), 1);

@@ -155,13 +155,15 @@ TEST_P(SolveStoreConformance, TheThirdCrashIsTheLast) {
     const Lease lease = bench.Claim();
     EXPECT_EQ(bench.store().GiveBack(lease, GiveBackReason::kCrashed, "signal 11").value(), SolveState::kQueued);
   }
-  const Lease stopped = bench.Claim();
-  EXPECT_EQ(bench.store().GiveBack(stopped, GiveBackReason::kStopping, "").value(), SolveState::kQueued);
+  for (const GiveBackReason reason : {GiveBackReason::kStopping, GiveBackReason::kNeverBegan}) {
+    const Lease lease = bench.Claim();
+    EXPECT_EQ(bench.store().GiveBack(lease, reason, "").value(), SolveState::kQueued);
+  }
   const Lease last = bench.Claim();
   EXPECT_EQ(bench.store().GiveBack(last, GiveBackReason::kCrashed, "signal 11").value(), SolveState::kFailed);
   EXPECT_EQ(bench.ErrorOf("a").kind(), v1::SolveError::KIND_CRASH);
   EXPECT_NE(bench.ErrorOf("a").message().find("signal 11"), std::string::npos);
-  EXPECT_EQ(bench.Get("a").attempts, kMaxCrashes + 1);
+  EXPECT_EQ(bench.Get("a").attempts, kMaxCrashes + 2);
   EXPECT_EQ(bench.Events("a").back().kind, EventKind::kFinished);
   ExpectDense(bench.Events("a"));
   EXPECT_FALSE(bench.CanClaim());
