@@ -21,15 +21,12 @@ class TreeFinisher {
   explicit TreeFinisher(LinkTree* tree) : tree_(*tree) {}
 
   void Finish() {
-    std::set<std::string> links;
+    NameLinks();
     std::map<std::string, std::string> joints;  // what has the joint of a name as one of its turns
-    for (const TreeLink& link : tree_.links) {
-      if (!links.insert(link.name).second) tree_.RefuseLink(link.name, "the name is used twice; give each its own");
-      CheckLink(link);
-    }
+    for (const TreeLink& link : tree_.links) CheckLink(link);
     for (TreeJoint& joint : tree_.joints) {
       const auto [other, is_new] = joints.emplace(joint.name, joint.turn_of);
-      if (!is_new) RefuseSecond(joint, other->second.empty() ? joint.turn_of : other->second);
+      if (!is_new) RefuseSecond(joint, other->second);
       CheckJoint(&joint);
     }
     FindRoot();
@@ -37,10 +34,25 @@ class TreeFinisher {
   }
 
  private:
-  // The second joint of a name; ball: the joint that has one of the two as a turn, empty: none has.
-  [[noreturn]] void RefuseSecond(const TreeJoint& joint, const std::string& ball) {
-    const std::string turn = " and so is called one of the three turns of the joint \"" + ball + "\"";
-    tree_.RefuseJoint(joint.name, "the name is used twice" + (ball.empty() ? "" : "," + turn) + "; give each its own");
+  void NameLinks() {
+    std::set<std::string> names;
+    for (const TreeLink& link : tree_.links) {
+      if (link.is_made || names.insert(link.name).second) continue;
+      tree_.RefuseLink(link.name, "the name is used twice; give each its own");
+    }
+    for (TreeLink& link : tree_.links) {
+      while (link.is_made && !names.insert(link.name).second) link.name += "_";
+    }
+  }
+
+  // first_of: the joint that has the first of the name as one of its turns; empty: none has.
+  [[noreturn]] void RefuseSecond(const TreeJoint& second, const std::string& first_of) {
+    const std::string twice = "the name is used twice", end = "; give each its own";
+    const std::string& ball = first_of.empty() ? second.turn_of : first_of;
+    if (ball.empty()) tree_.RefuseJoint(second.name, twice + end);
+    if (first_of == second.turn_of) tree_.RefuseJoint(ball, twice + end);
+    tree_.RefuseJoint(second.name,
+                      twice + ", and so is called one of the three turns of the joint \"" + ball + "\"" + end);
   }
 
   static std::string Millimetres(const std::string& what, const Eigen::Vector3d& v) {

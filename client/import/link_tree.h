@@ -34,6 +34,7 @@ struct TreeLink {
   std::string name;
   MassProperties mass = {};
   std::vector<TreeShape> shapes = {};
+  bool is_made = false;  // the file gives it no name, or has no such link: its name gives way to those of the file
 };
 
 // The child's link frame is origin · motion(position − zero) · end in the parent's.

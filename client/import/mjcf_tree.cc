@@ -145,7 +145,7 @@ class MjcfReader {
     body.childclass = ChildClass(element, from.childclass);
     const std::string name =
         element.Attribute("name") == nullptr ? "body_" + std::to_string(tree_.links.size()) : source_.Name(element);
-    body.link = tree_.AddLink({.name = name});
+    body.link = tree_.AddLink({.name = name, .is_made = element.Attribute("name") == nullptr});
     if (element.Attribute("mocap") != nullptr && source_.Flag(element, "mocap", element.Attribute("mocap"))) {
       source_.Refuse(element, "is moved by motion capture, which a model cannot express; remove it");
     }

@@ -54,7 +54,7 @@ bool AddChain(TreeChain chain, LinkTree* tree) {
     TreeJoint& joint = chain.joints[i];
     const bool is_last = i + 1 == chain.joints.size();
     joint.parent = parent;
-    joint.child = is_last ? chain.child : tree->AddLink({.name = joint.name + "_link"});
+    joint.child = is_last ? chain.child : tree->AddLink({.name = joint.name + "_link", .is_made = true});
     if (is_last) joint.end = chain.end;
     parent = joint.child;
     tree->joints.push_back(std::move(joint));
