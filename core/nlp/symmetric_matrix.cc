@@ -20,39 +20,48 @@ std::vector<int> SortedBy(const Key& key, int size, const std::vector<int>& entr
 }  // namespace
 
 SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
-    : size_(size), place_(pattern.size()), source_(pattern.size()), values_(VectorX::Zero(pattern.size())) {
+    : size_(size), first_(size + 1, 0), below_(size, 0) {
   const auto column_of = [&pattern](int e) { return std::min(pattern.rows[e], pattern.columns[e]); };
   const auto row_of = [&pattern](int e) { return std::max(pattern.rows[e], pattern.columns[e]); };
-  std::iota(source_.begin(), source_.end(), 0);
-  source_ = SortedBy(row_of, size, source_);
-  source_ = SortedBy(column_of, size, source_);
-  first_.assign(size + 1, 0);
-  below_.assign(size, 0);
-  pattern_.rows.reserve(pattern.size());
-  pattern_.columns.reserve(pattern.size());
-  for (int k = 0; k < pattern.size(); ++k) {
-    const int e = source_[k], column = column_of(e), row = row_of(e);
-    place_[e] = k;
+  std::vector<int> entries;
+  entries.reserve(pattern.size());
+  for (int e = 0; e < pattern.size(); ++e) {
+    if (column_of(e) >= 0) entries.push_back(e);
+  }
+  entries = SortedBy(row_of, size, entries);
+  entries = SortedBy(column_of, size, entries);
+  const size_t count = entries.size() + size;
+  source_.reserve(count);
+  pattern_.rows.reserve(count);
+  pattern_.columns.reserve(count);
+  const auto add = [this](int source, int row, int column) {
+    source_.push_back(source);
     pattern_.Add(row, column);
-    ++first_[column + 1];
-    if (row == column) ++below_[column];
-  }
+  };
+  auto entry = entries.begin();
   for (int j = 0; j < size; ++j) {
-    first_[j + 1] += first_[j];
-    below_[j] += first_[j];
+    first_[j] = pattern_.size();
+    add(-1, j, j);
+    for (; entry != entries.end() && column_of(*entry) == j && row_of(*entry) == j; ++entry) add(*entry, j, j);
+    below_[j] = pattern_.size();
+    for (; entry != entries.end() && column_of(*entry) == j; ++entry) add(*entry, row_of(*entry), j);
   }
+  first_[size] = pattern_.size();
+  values_ = VectorX::Zero(pattern_.size());
 }
 
 void SymmetricMatrix::Assign(const double* values) {
-  for (size_t k = 0; k < source_.size(); ++k) values_[static_cast<int>(k)] = values[source_[k]];
+  for (int j = 0; j < size_; ++j) {
+    for (int k = first_[j] + 1; k < first_[j + 1]; ++k) values_[k] = values[source_[k]];
+  }
 }
 
-void SymmetricMatrix::Multiply(const VectorX& x, VectorX* y) const {
+void SymmetricMatrix::Multiply(const double* x, double* y) const {
   const double* __restrict value = values_.data();
-  const double* __restrict in = x.data();
-  double* __restrict out = y->data();
+  const double* __restrict in = x;
+  double* __restrict out = y;
   const int* row = pattern_.rows.data();
-  y->setZero();
+  std::fill(y, y + size_, 0.0);
   for (int j = 0; j < size_; ++j) {
     const double factor = in[j];
     double sum = 0;
