@@ -2,34 +2,25 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace rollgait {
-namespace {
-
-// Entries in the order of their keys, 0 to size − 1; equal ones stay in turn.
-template <typename Key>
-std::vector<int> SortedBy(const Key& key, int size, const std::vector<int>& entries) {
-  std::vector<int> next(size + 1, 0), sorted(entries.size());
-  for (const int e : entries) ++next[key(e) + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (const int e : entries) sorted[next[key(e)]++] = e;
-  return sorted;
-}
-
-}  // namespace
 
 SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
     : size_(size), first_(size + 1, 0), below_(size, 0) {
   const auto column_of = [&pattern](int e) { return std::min(pattern.rows[e], pattern.columns[e]); };
   const auto row_of = [&pattern](int e) { return std::max(pattern.rows[e], pattern.columns[e]); };
-  std::vector<int> entries;
-  entries.reserve(pattern.size());
+  // By columns first; those of one column are few, and lie close together in the pattern.
+  std::vector<int> next(size + 1, 0);
   for (int e = 0; e < pattern.size(); ++e) {
-    if (column_of(e) >= 0) entries.push_back(e);
+    if (column_of(e) >= 0) ++next[column_of(e) + 1];
   }
-  entries = SortedBy(row_of, size, entries);
-  entries = SortedBy(column_of, size, entries);
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<int> entries(next[size]);
+  for (int e = 0; e < pattern.size(); ++e) {
+    if (column_of(e) >= 0) entries[next[column_of(e)]++] = e;
+  }
   const size_t count = entries.size() + size;
   source_.reserve(count);
   pattern_.rows.reserve(count);
@@ -38,13 +29,16 @@ SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
     source_.push_back(source);
     pattern_.Add(row, column);
   };
+  const auto earlier_row = [&](int a, int b) { return std::pair(row_of(a), a) < std::pair(row_of(b), b); };
   auto entry = entries.begin();
   for (int j = 0; j < size; ++j) {
+    const auto end = entries.begin() + next[j];  // the first of column j + 1
+    std::sort(entry, end, earlier_row);
     first_[j] = pattern_.size();
     add(-1, j, j);
-    for (; entry != entries.end() && column_of(*entry) == j && row_of(*entry) == j; ++entry) add(*entry, j, j);
+    for (; entry != end && row_of(*entry) == j; ++entry) add(*entry, j, j);
     below_[j] = pattern_.size();
-    for (; entry != entries.end() && column_of(*entry) == j; ++entry) add(*entry, row_of(*entry), j);
+    for (; entry != end; ++entry) add(*entry, row_of(*entry), j);
   }
   first_[size] = pattern_.size();
   values_ = VectorX::Zero(pattern_.size());
