@@ -201,12 +201,13 @@ void CollocationNlp::IntervalDerivatives(const double* x, const double* lambda, 
     block.Derivatives(x + layout_.node(k), Step(x, k), lambda, weights_.data(), *jacobian, *hessian,
                       local_gradient_.head(size + 1));
     if (*jacobian != nullptr) {
-      for (const auto& [row, column] : block.jacobian_pattern()) *(*jacobian)++ *= column == size ? ratio : 1;
+      for (const int e : block.jacobian_step_entries()) (*jacobian)[e] *= ratio;
+      *jacobian += block.jacobian_pattern().size();
     }
     if (*hessian == nullptr) continue;
-    for (const auto& [row, column] : block.hessian_pattern()) {
-      *(*hessian)++ *= (row == size ? ratio : 1) * (column == size ? ratio : 1);
-    }
+    for (const int e : block.hessian_step_entries()) (*hessian)[e] *= ratio;
+    (*hessian)[block.hessian_step_entries().back()] *= ratio;
+    *hessian += block.hessian_pattern().size();
     cost_gradient_.segment(layout_.node(k), size) += local_gradient_.head(size);
     cost_gradient_(layout_.duration(layout_.phase(k))) += ratio * local_gradient_(size);
     lambda += block.rows();

@@ -132,7 +132,7 @@ void IntervalBlock::EvaluateJacobian(Point* point) {
   }
 }
 
-double* IntervalBlock::WriteJacobian(int i, double* values) const {
+double* IntervalBlock::WriteJacobian(int i, double* values) {
   const Point& point = points_[i];
   const int n = layout_.n;
   const double* j = point.jacobian.data();
@@ -147,11 +147,8 @@ double* IntervalBlock::WriteJacobian(int i, double* values) const {
   for (const auto& [row, column] : point.control_entries) {
     *values++ = j[row + column * stride] * scale_(controls + column) * point.row_factor(row);
   }
-  for (int row : point.dense_rows) {
-    double sum = 0;
-    for (int c = 0; c < 3 * n; ++c) sum += j[row + c * stride] * z_rate_(c);
-    *values++ = sum * point.row_factor(row);
-  }
+  row_rates_.head(point.rows).noalias() = point.jacobian.leftCols(3 * n) * z_rate_;
+  for (int row : point.dense_rows) *values++ = row_rates_(row) * point.row_factor(row);
   return values;
 }
 
@@ -159,7 +156,7 @@ void IntervalBlock::Derivatives(const double* y, double h, const double* lambda,
                                 double* jacobian, double* hessian, Eigen::Ref<VectorX> cost_gradient) {
   SetStep(h);
   if (hessian != nullptr) {
-    local_.setZero();
+    ClearLocal();
     CostGradient(y, h, weights, cost_gradient);
   }
   for (int i = 0; i < points_count_; ++i) {
@@ -172,10 +169,15 @@ void IntervalBlock::Derivatives(const double* y, double h, const double* lambda,
   if (jacobian != nullptr) path_->Jacobian(y, h, jacobian);
   if (hessian == nullptr) return;
   path_->AddHessian(y, h, lambda + FirstPathRow(), local_);
-  const Eigen::Index stride = local_.rows();
-  for (size_t e = 0; e < hessian_pattern_.size(); ++e) {
-    const auto& [i, j] = hessian_pattern_[e];
-    hessian[e] = local_.data()[i + j * stride] * hessian_scale_[e];
+  for (size_t e = 0; e < hessian_place_.size(); ++e) hessian[e] = local_.data()[hessian_place_[e]] * hessian_scale_[e];
+}
+
+// Its lower triangle, and the other half of the blocks on the diagonal, which are written whole.
+void IntervalBlock::ClearLocal() {
+  const int widest = std::max(layout_.n, controls_), order = local_size_ + 1;
+  for (int column = 0; column < order; ++column) {
+    double* values = local_.data() + static_cast<Eigen::Index>(column) * order;
+    std::fill(values + std::max(0, column - widest), values + order, 0.0);
   }
 }
 

@@ -36,6 +36,9 @@ class IntervalBlock {
   const VectorX& scale() const { return scale_; }                        // physical = scale · unknown, local_size()
   const Entries& jacobian_pattern() const { return jacobian_pattern_; }  // column local_size() is h
   const Entries& hessian_pattern() const { return hessian_pattern_; }    // lower triangle, h included
+  // The entries of both that have h: of the Hessian in its row, the one in its column last.
+  const std::vector<int>& jacobian_step_entries() const { return jacobian_step_entries_; }
+  const std::vector<int>& hessian_step_entries() const { return hessian_step_entries_; }
   // Local variables (h excluded) on which the cost depends.
   const std::vector<int>& cost_variables() const { return cost_variables_; }
 
@@ -83,7 +86,8 @@ class IntervalBlock {
   void LoadPoint(const double* y, int i);
   void UpdateWorkspace(int i, bool dynamics, bool second);
   void EvaluateJacobian(Point* point);
-  double* WriteJacobian(int i, double* values) const;
+  double* WriteJacobian(int i, double* values);
+  void ClearLocal();
   void EvaluateHessian(int i, double h, const double* lambda, const double* weights);
   void BuildPoints();
   void BuildPath(const AddedConstraints& added);
@@ -111,6 +115,7 @@ class IntervalBlock {
   VectorX scale_;
   std::unique_ptr<IntervalPathRows> path_;
   Entries jacobian_pattern_, hessian_pattern_;
+  std::vector<int> jacobian_step_entries_, hessian_step_entries_;
   std::vector<int> cost_variables_;
 
   // Coefficients for the current h: [kind](point, source).
@@ -123,8 +128,9 @@ class IntervalBlock {
   bool bends_accelerations_ = false;     // something has second derivatives by accelerations alone
   MatrixX aa_;                           // those, if so
   MatrixX qq_, qv_, vq_, qa_, aq_, vv_;  // blocks of hessian_ and their transposes
-  std::vector<double> hessian_scale_;    // per entry of hessian_pattern_
-  VectorX gradient_, cost_gradient_, scaled_lambda_;
+  std::vector<int> hessian_place_;       // per entry of hessian_pattern_: of it in local_
+  std::vector<double> hessian_scale_;    // likewise
+  VectorX gradient_, cost_gradient_, scaled_lambda_, row_rates_;
   MatrixX local_;          // dense lower Hessian of the interval
   MatrixX block_;          // n × controls
   VectorX turned_;         // 3n

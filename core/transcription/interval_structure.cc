@@ -76,6 +76,7 @@ void IntervalBlock::BuildPoints() {
     points_.push_back(std::move(point));
   }
   scaled_lambda_.resize(largest);
+  row_rates_.resize(largest);
 }
 
 void IntervalBlock::BuildPath(const AddedConstraints& added) {
@@ -130,6 +131,9 @@ void IntervalBlock::BuildJacobianPattern() {
   }
   for (const auto& [row, column] : path_->JacobianPattern(local_size_)) {
     jacobian_pattern_.emplace_back(FirstPathRow() + row, column);
+  }
+  for (size_t e = 0; e < jacobian_pattern_.size(); ++e) {
+    if (jacobian_pattern_[e].second == local_size_) jacobian_step_entries_.push_back(static_cast<int>(e));
   }
 }
 
@@ -205,7 +209,11 @@ void IntervalBlock::BuildHessianPattern() {
   }
   cost_variables_.assign(cost.begin(), cost.end());
   const auto scale = [this](int i) { return i < local_size_ ? scale_(i) : 1; };
-  for (const auto& [i, j] : hessian_pattern_) hessian_scale_.push_back(scale(i) * scale(j));
+  for (const auto& [i, j] : hessian_pattern_) {
+    if (i == local_size_) hessian_step_entries_.push_back(static_cast<int>(hessian_place_.size()));
+    hessian_place_.push_back(i + j * order);
+    hessian_scale_.push_back(scale(i) * scale(j));
+  }
 }
 
 void IntervalBlock::Bounds(double start, double length, const IntervalPlace& place, double* lower,
