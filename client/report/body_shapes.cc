@@ -80,8 +80,11 @@ class Drawing {
   }
 
   // A surface far from the joint of its limb, like the point on which a shank without a foot stands, does not show the
-  // limb.
-  static bool IsFar(const BodyShape& shape) { return shape.pose.position.norm() > 4 * shape.semi_axes.maxCoeff(); }
+  // limb: of the way from the joint to its far side it spans less than half, however it is turned.
+  static bool IsFar(const BodyShape& shape) {
+    const double distance = shape.pose.position.norm(), longest = shape.semi_axes.maxCoeff();
+    return 2 * longest < (distance + longest) / 2;
+  }
 
   // The far surface of a limb that carries one; nullptr if none does.
   const BodyShape* FarEnd(int link) const {

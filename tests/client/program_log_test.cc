@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "tests/client/sample_solve.h"
 
@@ -45,6 +47,25 @@ TEST(ProgramLogTest, EachProgramSaysWhatItWasAndHowItEnded) {
                              "on a slope of 0°, powers smoothed by 40 W, 4 + 8 intervals: iteration limit after 7 "
                              "iterations, "),
                   StartsWith("Program 2, from the solution on the mesh before, 4 + 8 intervals: optimal after 7 ")));
+}
+
+// Each of what a program adds to the request is said by itself.
+TEST(ProgramLogTest, WhatIsAddedIsSaidAlone) {
+  const std::pair<void (*)(v1::MeshStatistics*), const char*> kAdded[] = {
+      {[](v1::MeshStatistics*) {}, ""},
+      {[](v1::MeshStatistics* program) { program->set_half_cycle(true); }, ", one step with its mirror image"},
+      {[](v1::MeshStatistics* program) { program->set_sides_alike(true); }, ", the body with both sides alike"},
+      {[](v1::MeshStatistics* program) { program->set_added_torque_rates(true); }, ", with a price of torque rates"},
+      {[](v1::MeshStatistics* program) { program->set_smoothing_w(3); }, ", powers smoothed by 3 W"},
+      {[](v1::MeshStatistics* program) { program->set_for_errors(true); }, ", to estimate the errors"},
+  };
+  for (const auto& [add, words] : kAdded) {
+    v1::Solve solve = SolveOnASlope();
+    solve.mutable_result()->mutable_trajectory()->set_cycle(v1::CYCLE_FULL);
+    v1::MeshStatistics& program = Add(&solve, v1::PROGRAM_START_GUESS, v1::TERMINATION_OPTIMAL);
+    add(&program);
+    EXPECT_EQ(ProgramWords(solve, program), std::string("from a guess") + words);
+  }
 }
 
 TEST(ProgramLogTest, WhatIsAsRequestedIsNotSaid) {

@@ -56,6 +56,7 @@ TEST(BodyShapesTest, SurfacesOfTheModelAreDrawnAsTheyAre) {
   body.set_name("left_shank");
   body.set_joint(4);
   body.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->set_x(0.06);
+  body.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m()->set_z(0.2);
   body.mutable_center_m()->set_z(-0.2);
   v1::BodySurface& foot = *model.add_bodies();  // contacts are among the bodies, and drawn once
   foot.set_name("left_foot");
@@ -110,6 +111,27 @@ TEST(BodyShapesTest, DrawsALimbWhoseOnlySurfaceIsAtItsEnd) {
   EXPECT_EQ(drawn.kind, ShapeKind::kDrawn);
   EXPECT_NEAR(drawn.pose.position.z(), -0.2, 1e-12) << "from the knee to the point";
   EXPECT_GE(drawn.semi_axes.z(), 0.2);
+}
+
+// A surface whose longest axis reaches 0.1 m to either side spans 0.2 m of the way from the knee to its far side: of
+// 0.39 m more than half, of 0.41 m less.
+TEST(BodyShapesTest, ASurfaceShowsALimbOfWhichItSpansHalf) {
+  const auto is_drawn = [](double depth, double longest) {
+    v1::Model model = SampleModel();
+    v1::BodySurface& body = *model.add_bodies();
+    body.set_name("calf");
+    body.set_joint(4);
+    v1::Vector3& axes = *body.mutable_surface()->mutable_ellipsoid()->mutable_semi_axes_m();
+    axes.set_x(0.01);
+    axes.set_y(longest);
+    axes.set_z(0.01);
+    body.mutable_center_m()->set_z(-depth);
+    return ByPart(model).count("left shank") != 0;
+  };
+  EXPECT_FALSE(is_drawn(0, 0.1));
+  EXPECT_FALSE(is_drawn(0.29, 0.1));
+  EXPECT_TRUE(is_drawn(0.31, 0.1));
+  EXPECT_TRUE(is_drawn(0.29, 0.09));
 }
 
 TEST(BodyShapesTest, RefusesASurfaceOnNoJoint) {

@@ -107,6 +107,17 @@ int Find(const OwnModel& model, const std::string& name) {
 }
 Joint& At(OwnModel* model, const char* name) { return model->joints[Find(*model, name)]; }
 
+// As of bodies drawn in a plane, whose places are rounded.
+TEST(OwnModelTest, HipsMayBeInOnePlace) {
+  for (const double rounding : {0.0, 1e-9}) {
+    OwnModel model = Human();
+    At(&model, "hip_l").p_PJ.y() = -rounding;
+    At(&model, "hip_r").p_PJ.y() = rounding;
+    const Result<Scene> scene = OwnScene(model);
+    EXPECT_TRUE(scene.ok()) << rounding << ": " << scene.violations()[0].field << " " << scene.violations()[0].message;
+  }
+}
+
 struct Broken {
   const char* name;
   std::function<void(OwnModel*)> change;
@@ -185,6 +196,15 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"ElbowAboveTheShoulder",
                [](OwnModel* m) { std::swap(At(m, "shoulder_r").role, At(m, "elbow_r").role); }, ".role",
                "hip, knee, ankle and shoulder, elbow"},
+        Broken{"AnkleAboveTheKnee",
+               [](OwnModel* m) { std::swap(At(m, "knee_r").role, At(m, "ankle_r").role); }, ".role",
+               "is behind that of joint \"ankle_r\", which does not move it"},
+        Broken{"AnkleAboveTheHipOfALegWithoutAKnee",
+               [](OwnModel* m) {
+                 std::swap(At(m, "hip_l").role, At(m, "ankle_l").role);
+                 At(m, "knee_l").role = JointRole::kNone;
+               },
+               ".role", "is behind that of joint \"ankle_l\", which does not move it"},
         Broken{"FacesBackwards",
                [](OwnModel* m) {
                  for (Joint& joint : m->joints) {
