@@ -16,6 +16,8 @@ constexpr char kOutputHelp[] =
     "Write FILE: .json the finished Solve, .csv the trajectory, .sto the gait cycle as OpenSim storage, or another "
     "ending of `rollgait export`; - writes the Solve as JSON to standard output";
 constexpr char kPageHelp[] = "The page, one file that needs no network; - for standard output";
+constexpr char kModelFile[] = "The model: rollgait.v1.Model as JSON, or a URDF, MJCF or .osim file";
+constexpr char kSideFile[] = "Of a URDF, MJCF or .osim file: rollgait.v1.ModelSideFile as JSON";
 constexpr char kSolveArgument[] = "solves/ID or ID, or a .json file of --output";
 
 void AddGlobal(CLI::App& app, GlobalOptions& global) {
@@ -158,7 +160,8 @@ void AddExport(CLI::App& app, ExportOptions& options) {
 
 void AddModels(CLI::App& app, Arguments& arguments) {
   CLI::App* const models = app.add_subcommand(
-      "models", "Models of the server and your own, or one of them whole; store and delete your own");
+      "models", "Models of the server and your own, or one of them whole; check, store and delete your own");
+  models->alias("model");
   models->add_option(
       "NAME", arguments.models.flags.model,
       "Print this model: joints, links, limits, contact surfaces; models/ID is one of your own, models/ID@2 "
@@ -173,13 +176,19 @@ void AddModels(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(-45.0, 45.0));
   models->footer("Example: rollgait models create robot.json, then rollgait solve --model models/robot");
 
-  CLI::App* const create = models->add_subcommand("create", "Store a model of your own on the server; print its name");
-  create
-      ->add_option("FILE", arguments.created_model.file,
-                   "The model: rollgait.v1.Model as JSON, or a URDF, MJCF or .osim file")
+  CLI::App* const check = models->add_subcommand(
+      "check", "Say what the server makes of a model in a file, or why it refuses it; store nothing");
+  check->add_option("FILE", arguments.checked_model.file, kModelFile)->required();
+  check->add_option("--side", arguments.checked_model.side_file, kSideFile);
+  models
+      ->add_subcommand(
+          "fit-feet",
+          "Fit ellipsoids to the feet of a URDF, MJCF or .osim file; print that part of a side file, ask no server")
+      ->add_option("FILE", arguments.fitted_file, "The file, whose shapes of contact are fitted")
       ->required();
-  create->add_option("--side", arguments.created_model.side_file,
-                     "Of a URDF, MJCF or .osim file: rollgait.v1.ModelSideFile as JSON");
+  CLI::App* const create = models->add_subcommand("create", "Store a model of your own on the server; print its name");
+  create->add_option("FILE", arguments.created_model.file, kModelFile)->required();
+  create->add_option("--side", arguments.created_model.side_file, kSideFile);
   create->add_option(
       "--id", arguments.created_model.id,
       "The ID in models/ID; default: the name in the file. Other content under an ID is its next version");

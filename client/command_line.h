@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/commands/commands.h"
+#include "client/commands/model_commands.h"
 #include "client/commands/simulation_commands.h"
 #include "client/commands/sweep.h"
 #include "client/commands/tradeoff.h"
@@ -30,6 +31,7 @@ struct Arguments {
   SweepOptions sweep;
   TradeoffOptions tradeoff;
   ModelsOptions models;
+  CheckModelOptions checked_model;
   CreateModelOptions created_model;
   ExportOptions exported;
   SpecOptions spec;
@@ -38,7 +40,7 @@ struct Arguments {
   ChosenSolves cancel, remove;
   PriorityOptions priority;
   std::vector<std::string> removed_models;
-  std::string help_topic, shell;
+  std::string fitted_file, help_topic, shell;
 };
 
 // Adds all commands and flags; parsing fills `arguments`, which outlives `app`.

@@ -36,9 +36,10 @@ std::string HelpText(const CLI::App& app, const std::string& name) {
 // `models` alone, or the command below it.
 ExitCode RunModelCommand(const CLI::App& models, const Arguments& arguments, const Terminal& terminal) {
   if (models.get_subcommands().empty()) return RunModels(arguments.models, arguments.global, terminal);
-  if (models.get_subcommands().front()->get_name() == "delete") {
-    return RunDeleteModels(arguments.removed_models, arguments.global, terminal);
-  }
+  const std::string command = models.get_subcommands().front()->get_name();
+  if (command == "check") return RunCheckModel(arguments.checked_model, arguments.global, terminal);
+  if (command == "fit-feet") return RunFitFeet(arguments.fitted_file, arguments.global, terminal);
+  if (command == "delete") return RunDeleteModels(arguments.removed_models, arguments.global, terminal);
   return RunCreateModel(arguments.created_model, arguments.global, terminal);
 }
 

@@ -81,8 +81,7 @@ endfunction()
 # s; ends a test that hangs, and nothing else: with sanitizers on a busy machine the slowest take minutes.
 set(ROLLGAIT_TEST_TIMEOUT 1800)
 
-# Folders of tests that compute with Eigen and read nothing from outside. The address sanitizer doubles the time to compile them, so they
-# go without: what they test is in libraries that have it, and their own indices are checked by Eigen's assertions.
+# Folders of tests that compute with Eigen.
 set(ROLLGAIT_NUMERIC_TESTS "^tests/(core|conformance|paper|reference_check)")
 
 # Options of the sources of tests themselves: what they test is in libraries, with all optimisation. Without it, or with little of it
@@ -92,9 +91,6 @@ set(ROLLGAIT_NUMERIC_TEST_OPTIONS "$<$<CONFIG:Release>:-O1>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # With less inlining g++ sees uninitialised members of variants that are never read; the libraries keep this warning.
   list(APPEND ROLLGAIT_NUMERIC_TEST_OPTIONS "$<$<CONFIG:Release>:-Wno-maybe-uninitialized>")
-endif()
-if(ROLLGAIT_SANITIZE MATCHES "address")
-  list(APPEND ROLLGAIT_NUMERIC_TEST_OPTIONS -fno-sanitize=all)
 endif()
 
 # rollgait_test(dual_test.cc DEPS rollgait::base LABELS unit [DEFINITIONS DATA="..."] [NEEDS a_program])

@@ -216,7 +216,7 @@ Row CreatesScenario(const LoadOptions& options) {
     auto call = NewCall<v1::CreateSolveRequest>(target);
     call->request = DifferentSolve(number);
     Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
-    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](grpc::Status status) {
+    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](const grpc::Status& status) {
       if (status.ok()) {
         const std::lock_guard<std::mutex> lock(mutex);
         if (!acknowledged.insert(call->response.name()).second) ++duplicates;
@@ -256,7 +256,7 @@ Row OverloadScenario(const LoadOptions& options) {
     auto call = NewCall<v1::CreateSolveRequest>(target);
     call->request = DifferentSolve(kQueue + number);
     Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
-    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](grpc::Status status) {
+    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](const grpc::Status& status) {
       if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED && !HasRetryInfo(status)) ++without_retry;
       done(status.error_code());
     });

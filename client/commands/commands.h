@@ -82,17 +82,6 @@ struct ModelsOptions {
 // Without a model name in the flags: the list; with one: the whole model.
 ExitCode RunModels(const ModelsOptions& options, const GlobalOptions& global, const Terminal& terminal);
 
-struct CreateModelOptions {
-  std::string file;       // rollgait.v1.Model as proto3 JSON, or a URDF, MJCF or .osim file
-  std::string side_file;  // of such a file: rollgait.v1.ModelSideFile as proto3 JSON
-  std::string id;         // "ID" or "models/ID"; empty: the name in the file
-};
-// Stores a model and writes its name, or with --json the whole model, to terminal.out; what was read of such a file to
-// terminal.err.
-ExitCode RunCreateModel(const CreateModelOptions& options, const GlobalOptions& global, const Terminal& terminal);
-// As RunDelete.
-ExitCode RunDeleteModels(const std::vector<std::string>& names, const GlobalOptions& global, const Terminal& terminal);
-
 struct ExportOptions {
   std::string solve;   // a name on the server, or a .json file
   std::string format;  // empty: by the ending of `output`

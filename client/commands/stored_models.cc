@@ -1,5 +1,5 @@
 // models create, models delete: the caller's own models on the server.
-#include "client/commands/commands.h"
+#include "client/commands/model_commands.h"
 #include "client/import/model_file.h"
 #include "client/json.h"
 #include "client/output.h"

@@ -15,9 +15,6 @@ inline Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.
 // An unset quaternion is the identity.
 Eigen::Matrix3d ToRotation(const v1::Quaternion& q);
 
-// An unset quaternion is the identity.
-Eigen::Matrix3d ToRotation(const v1::Quaternion& q);
-
 // Pose of a link frame in the world.
 struct Pose {
   Eigen::Matrix3d rotation;  // link -> world

@@ -100,7 +100,7 @@ void Gateway::Admit(const HttpRequest& head, std::shared_ptr<HttpAnswer> answer)
   call.deadline = options_.call_time;
   AskForBody({&route, std::move(target->headers), options_.behind_door, std::move(answer), use_, &answers_, nullptr,
               std::move(place).value()},
-             upstream_.channel(), std::move(call));
+             upstream_.channel(), call);
 }
 
 HttpHeaders Gateway::HeadersFor(const HttpRequest& head) const {
@@ -216,7 +216,7 @@ void Gateway::Begin(const Target& target, HttpRequest request, std::string messa
                       &answers_, nullptr,        std::move(request.place)};
   UpstreamCall::Request call = MakeCall(route, request, std::move(message));
   if (!route.streams()) {
-    return AnswerOnce(std::move(context), upstream_.channel(), std::move(call), options_.answer_bytes);
+    return AnswerOnce(std::move(context), upstream_.channel(), call, options_.answer_bytes);
   }
   Outcome<Place> place = streams_->Take(SourceOf(request));
   if (!place.ok()) {
@@ -224,7 +224,7 @@ void Gateway::Begin(const Target& target, HttpRequest request, std::string messa
                        *answer);
   }
   context.stream = std::move(place).value();
-  AnswerWithEvents(std::move(context), upstream_.MakeChannel(), std::move(call));
+  AnswerWithEvents(std::move(context), upstream_.MakeChannel(), call);
 }
 
 }  // namespace rollgait::server

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "rollgait/v1/model_side_file.pb.h"
 #include "tests/e2e/daemon.h"
 #include "tests/server/store/temporary_directory.h"
 #include "tests/support/certificates.h"
@@ -221,6 +222,23 @@ TEST_F(CommandLineTest, ARobotInAUrdfWalks) {
   EXPECT_THAT(checked.out, HasSubstr("leg length  0.84  m"));
   const v1::Solve walk = Solve("--model " + biped + " --side " + side + " --preset human --speed 0.8 --accuracy draft");
   EXPECT_EQ(walk.result().termination(), v1::TERMINATION_OPTIMAL) << walk.result().message();
+
+  const Ended also_checked = Run("model check " + biped + " --side " + side);
+  EXPECT_EQ(also_checked.code, 0) << also_checked.err;
+  EXPECT_EQ(also_checked.out, checked.out);
+  EXPECT_EQ(Run("model check " + biped).code, 2) << "no side file";
+  EXPECT_EQ(Run("model check planar").code, 2) << "no file";
+  const Ended fitted = Run("models fit-feet " + biped);
+  EXPECT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_THAT(fitted.err, HasSubstr("SEMI-AXES m"));
+  v1::ModelSideFile feet, whole;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(fitted.out, &feet).ok()) << fitted.out;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(proposed.out, &whole).ok());
+  ASSERT_GT(feet.contacts_size(), 0);
+  ASSERT_EQ(feet.contacts_size(), whole.contacts_size());
+  EXPECT_EQ(feet.contacts(0).SerializeAsString(), whole.contacts(0).SerializeAsString());
+  EXPECT_EQ(feet.name() + feet.description(), "") << "the feet alone";
+  EXPECT_EQ(Run("models fit-feet planar").code, 2) << "no file";
 
   EXPECT_EQ(Run("models create " + biped + " --side " + side + " --id biped").out, "models/biped@1\n");
   EXPECT_EQ(Run("solve --model " + biped).code, 2) << "no side file";
