@@ -66,7 +66,8 @@ void Jacobian(benchmark::State& state) {
 }
 void Hessian(benchmark::State& state) {
   Problem p(state);
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(p.nlp->Hessian(p.x.data(), 1, p.lambda.data(), p.hessian.data()));
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(p.nlp->Hessian(p.x.data(), 1, p.lambda.data(), p.hessian.data()));
   PerPoint(state, p.points);
 }
 // One evaluation as a solver's iteration needs it.

@@ -216,13 +216,14 @@ Row CreatesScenario(const LoadOptions& options) {
     auto call = NewCall<v1::CreateSolveRequest>(target);
     call->request = DifferentSolve(number);
     Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
-    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](const grpc::Status& status) {
-      if (status.ok()) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!acknowledged.insert(call->response.name()).second) ++duplicates;
-      }
-      done(status.error_code());
-    });
+    stub.async()->CreateSolve(&call->context, &call->request, &call->response,
+                              [&, call, done](const grpc::Status& status) {
+                                if (status.ok()) {
+                                  const std::lock_guard<std::mutex> lock(mutex);
+                                  if (!acknowledged.insert(call->response.name()).second) ++duplicates;
+                                }
+                                done(status.error_code());
+                              });
   });
   Row row{"durable creates", "≥ 300/s, p99 ≤ 50 ms", "", false, {}};
   Judge(run, grpc::StatusCode::OK, rate, busy == nullptr || busy->StillBusy(), &row);
@@ -256,10 +257,11 @@ Row OverloadScenario(const LoadOptions& options) {
     auto call = NewCall<v1::CreateSolveRequest>(target);
     call->request = DifferentSolve(kQueue + number);
     Stub& stub = *stubs[static_cast<size_t>(number) % stubs.size()];
-    stub.async()->CreateSolve(&call->context, &call->request, &call->response, [&, call, done](const grpc::Status& status) {
-      if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED && !HasRetryInfo(status)) ++without_retry;
-      done(status.error_code());
-    });
+    stub.async()->CreateSolve(
+        &call->context, &call->request, &call->response, [&, call, done](const grpc::Status& status) {
+          if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED && !HasRetryInfo(status)) ++without_retry;
+          done(status.error_code());
+        });
   });
   const double growth_mb = static_cast<double>(memory.Growth()) / 1e6;
   Row row{"overload × 10", "RESOURCE_EXHAUSTED with RetryInfo, p99 ≤ 50 ms, memory flat", "", false, {}};

@@ -231,13 +231,12 @@ TEST_F(CommandLineTest, ARobotInAUrdfWalks) {
   const Ended fitted = Run("models fit-feet " + biped);
   EXPECT_EQ(fitted.code, 0) << fitted.err;
   EXPECT_THAT(fitted.err, HasSubstr("SEMI-AXES m"));
-  v1::ModelSideFile feet, whole;
+  v1::ModelSideFile feet, whole, only_feet;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(fitted.out, &feet).ok()) << fitted.out;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(proposed.out, &whole).ok());
+  *only_feet.mutable_contacts() = whole.contacts();
   ASSERT_GT(feet.contacts_size(), 0);
-  ASSERT_EQ(feet.contacts_size(), whole.contacts_size());
-  EXPECT_EQ(feet.contacts(0).SerializeAsString(), whole.contacts(0).SerializeAsString());
-  EXPECT_EQ(feet.name() + feet.description(), "") << "the feet alone";
+  EXPECT_EQ(feet.SerializeAsString(), only_feet.SerializeAsString());
   EXPECT_EQ(Run("models fit-feet planar").code, 2) << "no file";
 
   EXPECT_EQ(Run("models create " + biped + " --side " + side + " --id biped").out, "models/biped@1\n");
