@@ -205,8 +205,8 @@ void CollocationNlp::IntervalDerivatives(const double* x, const double* lambda, 
       *jacobian += block.jacobian_pattern().size();
     }
     if (*hessian == nullptr) continue;
-    for (const int e : block.hessian_step_entries()) (*hessian)[e] *= ratio;
-    (*hessian)[block.hessian_step_entries().back()] *= ratio;
+    const int by_step_twice = block.hessian_step_entries().back();
+    for (const int e : block.hessian_step_entries()) (*hessian)[e] *= e == by_step_twice ? ratio * ratio : ratio;
     *hessian += block.hessian_pattern().size();
     cost_gradient_.segment(layout_.node(k), size) += local_gradient_.head(size);
     cost_gradient_(layout_.duration(layout_.phase(k))) += ratio * local_gradient_(size);

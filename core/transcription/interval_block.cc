@@ -147,7 +147,9 @@ double* IntervalBlock::WriteJacobian(int i, double* values) {
   for (const auto& [row, column] : point.control_entries) {
     *values++ = j[row + column * stride] * scale_(controls + column) * point.row_factor(row);
   }
-  row_rates_.head(point.rows).noalias() = point.jacobian.leftCols(3 * n) * z_rate_;
+  auto rates = row_rates_.head(point.rows);
+  rates.setZero();
+  for (int c = 0; c < 3 * n; ++c) rates += z_rate_(c) * point.jacobian.col(c);
   for (int row : point.dense_rows) *values++ = row_rates_(row) * point.row_factor(row);
   return values;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 #include "core/base/check.h"
@@ -11,13 +10,6 @@
 
 namespace rollgait {
 namespace {
-
-// Of a whole exponent, which std::pow would not know to be one.
-double Power(double base, int exponent) {
-  double power = 1;
-  for (int i = 0; i < std::abs(exponent); ++i) power *= base;
-  return exponent < 0 ? 1 / power : power;
-}
 
 constexpr double kVelocityShare = 0.1;  // of a limit, that scales rows of velocity
 
@@ -274,7 +266,7 @@ void IntervalPathRows::Values(const double* y, double h, double* g) const {
   for (const Row& row : rows_) {
     double sum = 0;
     for (const Term& term : row.terms)
-      sum += term.coefficient * Power(h, term.power) * scale_(term.local) * y[term.local];
+      sum += term.coefficient * std::pow(h, term.power) * scale_(term.local) * y[term.local];
     *g++ = sum;
   }
 }
@@ -284,8 +276,8 @@ double* IntervalPathRows::Jacobian(const double* y, double h, double* values) co
     double by_step = 0;
     for (const Term& term : row.terms) {
       const double factor = term.coefficient * scale_(term.local);
-      *values++ = factor * Power(h, term.power);
-      by_step += factor * term.power * Power(h, term.power - 1) * y[term.local];
+      *values++ = factor * std::pow(h, term.power);
+      by_step += factor * term.power * std::pow(h, term.power - 1) * y[term.local];
     }
     if (row.depends_on_step()) *values++ = by_step;
   }
@@ -299,8 +291,8 @@ void IntervalPathRows::AddHessian(const double* y, double h, const double* lambd
     for (const Term& term : row.terms) {
       if (term.power == 0) continue;
       const double factor = multiplier * term.coefficient * term.power;
-      local(step, term.local) += factor * Power(h, term.power - 1);
-      local(step, step) += factor * (term.power - 1) * Power(h, term.power - 2) * scale_(term.local) * y[term.local];
+      local(step, term.local) += factor * std::pow(h, term.power - 1);
+      local(step, step) += factor * (term.power - 1) * std::pow(h, term.power - 2) * scale_(term.local) * y[term.local];
     }
   }
 }
