@@ -56,23 +56,24 @@ void PerPoint(benchmark::State& state, int points) {
 
 void Constraints(benchmark::State& state) {
   Problem p(state);
-  for (auto _ : state) benchmark::DoNotOptimize(p.nlp->Constraints(p.x.data(), p.g.data()));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(p.nlp->Constraints(p.x.data(), p.g.data()));
   PerPoint(state, p.points);
 }
 void Jacobian(benchmark::State& state) {
   Problem p(state);
-  for (auto _ : state) benchmark::DoNotOptimize(p.nlp->Jacobian(p.x.data(), p.jacobian.data()));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(p.nlp->Jacobian(p.x.data(), p.jacobian.data()));
   PerPoint(state, p.points);
 }
 void Hessian(benchmark::State& state) {
   Problem p(state);
-  for (auto _ : state) benchmark::DoNotOptimize(p.nlp->Hessian(p.x.data(), 1, p.lambda.data(), p.hessian.data()));
+  for ([[maybe_unused]] auto _ : state)
+    benchmark::DoNotOptimize(p.nlp->Hessian(p.x.data(), 1, p.lambda.data(), p.hessian.data()));
   PerPoint(state, p.points);
 }
 // One evaluation as a solver's iteration needs it.
 void AllThree(benchmark::State& state) {
   Problem p(state);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(p.nlp->Constraints(p.x.data(), p.g.data()));
     benchmark::DoNotOptimize(p.nlp->Derivatives(p.x.data(), 1, p.lambda.data(), p.jacobian.data(), p.hessian.data()));
   }
@@ -118,13 +119,13 @@ struct NewtonMatrix {
 void Factorisation(benchmark::State& state) {
   Problem p(state);
   NewtonMatrix matrix(p);
-  for (auto _ : state) benchmark::DoNotOptimize(matrix.kkt.Factorise(matrix.primal, matrix.dual));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(matrix.kkt.Factorise(matrix.primal, matrix.dual));
   PerPoint(state, p.points);
 }
 void Solution(benchmark::State& state) {
   Problem p(state);
   NewtonMatrix matrix(p);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(matrix.kkt.Solve(matrix.right_x, matrix.right_g, &matrix.u, &matrix.v));
   }
   PerPoint(state, p.points);
@@ -155,7 +156,7 @@ struct Tree {
 
 void InverseDynamics9(benchmark::State& state) {
   Tree t;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     t.tree.Update(t.q.data(), t.v.data(), t.a.data(), t.problem.ocp->gravity);
     t.tree.InverseDynamics(t.tau.data());
     benchmark::DoNotOptimize(t.tau.data());
@@ -163,14 +164,14 @@ void InverseDynamics9(benchmark::State& state) {
 }
 void FirstDerivatives9(benchmark::State& state) {
   Tree t;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     t.tree.FirstDerivatives(t.dq, t.dv, t.da);
     benchmark::DoNotOptimize(t.dq.data());
   }
 }
 void ContractedHessian9(benchmark::State& state) {
   Tree t;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     t.tree.AddContractedHessian(t.lambda.data(), t.qq, t.qv, t.qa, t.vv);
     benchmark::DoNotOptimize(t.qq.data());
   }

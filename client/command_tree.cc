@@ -49,6 +49,7 @@ ArgumentDescription DescribeArgument(const CLI::Option& option) {
 CommandDescription DescribeCommand(const CLI::App& app) {
   CommandDescription command;
   command.name = app.get_name();
+  command.aliases = app.get_aliases();
   command.summary = app.get_description();
   command.footer = app.get_footer();
   for (const CLI::Option* option : app.get_options()) {

@@ -32,7 +32,8 @@ struct ArgumentDescription {
 };
 
 struct CommandDescription {
-  std::string name;  // "solve"; of the program "rollgait"
+  std::string name;                  // "solve"; of the program "rollgait"
+  std::vector<std::string> aliases;  // other names of the same command: "model" of "models"
   std::string summary, footer;
   std::vector<FlagDescription> flags;  // without --help
   std::vector<ArgumentDescription> arguments;

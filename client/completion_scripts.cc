@@ -3,8 +3,8 @@
 #include <functional>
 #include <map>
 
+#include "client/completion_words.h"
 #include "client/flag_values.h"
-#include "client/help_topics.h"
 
 namespace rollgait::client {
 namespace {
@@ -15,60 +15,6 @@ constexpr char kListModels[] = "rollgait --timeout 1 models 2> /dev/null | awk '
 
 using FlagValue = FlagDescription::Value;
 using ArgumentValue = ArgumentDescription::Value;
-
-std::string JoinWords(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-std::vector<std::string> CommandNames(const ProgramDescription& program) {
-  std::vector<std::string> names;
-  for (const CommandDescription& command : program.commands) names.push_back(command.name);
-  return names;
-}
-
-// Of the command and of those below it.
-std::vector<FlagDescription> AllFlags(const CommandDescription& command) {
-  std::vector<FlagDescription> flags = command.flags;
-  for (const CommandDescription& below : command.commands) {
-    const std::vector<FlagDescription> more = AllFlags(below);
-    flags.insert(flags.end(), more.begin(), more.end());
-  }
-  return flags;
-}
-
-std::vector<std::string> FlagNames(const CommandDescription& command) {
-  std::vector<std::string> names;
-  for (const FlagDescription& flag : AllFlags(command)) names.push_back(flag.name);
-  return names;
-}
-
-// The names of the commands below, as words of a command line that end with a blank; empty: none.
-std::string WordsBelow(const CommandDescription& command) {
-  std::string words;
-  for (const CommandDescription& below : command.commands) words += below.name + " ";
-  return words;
-}
-
-std::vector<std::string> TopicNames(const ProgramDescription& program) {
-  std::vector<std::string> names = CommandNames(program);
-  for (const HelpTopic& topic : HelpTopics()) names.push_back(topic.name);
-  return names;
-}
-
-// 'text' in single quotes of bash, zsh and fish; a quote in it becomes a typographic one.
-std::string QuotedForShell(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text) {
-    if (letter == '\'') {
-      quoted += "’";
-    } else {
-      quoted += letter == '\n' ? ' ' : letter;
-    }
-  }
-  return quoted + "'";
-}
 
 // "--output | -o", for a case of bash.
 std::string BashPattern(const FlagDescription& flag) {
@@ -139,7 +85,8 @@ std::string BashScript(const ProgramDescription& program) {
       "  local options=\"--help " +
       JoinWords(FlagNames(program.program)) +
       "\"\n"
-      "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"
+      "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n" +
+      NameOfAlias(program) +
       "    if [[ \" $commands \" == *\" $word \"* ]]; then command=$word; break; fi\n"
       "  done\n"
       "  case $previous in\n" +
@@ -239,7 +186,8 @@ std::string ZshScript(const ProgramDescription& program) {
   script +=
       "  )\n"
       "  local command= word\n"
-      "  for word in \"${(@)words[2,CURRENT-1]}\"; do\n"
+      "  for word in \"${(@)words[2,CURRENT-1]}\"; do\n" +
+      NameOfAlias(program) +
       "    if (( ${commands[(I)$word:*]} )); then command=$word; break; fi\n"
       "  done\n"
       "  case $command in\n";
@@ -311,7 +259,9 @@ std::string FishScript(const ProgramDescription& program) {
               QuotedForShell(command.summary) + "\n";
   }
   for (const CommandDescription& command : program.commands) {
-    const std::string condition = " -n '__fish_seen_subcommand_from " + command.name + "'";
+    std::vector<std::string> names = {command.name};
+    names.insert(names.end(), command.aliases.begin(), command.aliases.end());
+    const std::string condition = " -n '__fish_seen_subcommand_from " + JoinWords(names) + "'";
     for (const FlagDescription& flag : AllFlags(command)) script += FishFlag(flag, condition);
     script += FishArguments(command, program, condition);
   }

@@ -23,7 +23,7 @@ std::string HelpText(const CLI::App& app, const std::string& name) {
   if (name.empty()) return app.help();
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == name) return command->help();
+    if (command->check_name(name)) return command->help(app.get_name());
     names.push_back(command->get_name());
   }
   for (const HelpTopic& topic : HelpTopics()) {

@@ -87,6 +87,7 @@ TEST(CompletionTest, BashOffersCommandsFlagsAndWords) {
   EXPECT_THAT(BashOffers({"rollgait", "solve", "--bound", "max_pull"}), testing::ElementsAre("max_pull_bw="));
   EXPECT_THAT(BashOffers({"rollgait", "list", "--sl"}), testing::ElementsAre(""));
   EXPECT_THAT(BashOffers({"rollgait", "models", "cre"}), testing::ElementsAre("create"));
+  EXPECT_THAT(BashOffers({"rollgait", "model", "fit"}), testing::ElementsAre("fit-feet"));
   EXPECT_THAT(BashOffers({"rollgait", "models", "create", "--i"}), testing::UnorderedElementsAre("--id", "--insecure"));
   EXPECT_THAT(BashOffers({"rollgait", "help", "exit"}), testing::ElementsAre("exit-codes"));
   EXPECT_THAT(BashOffers({"rollgait", "completion", "z"}), testing::ElementsAre("zsh"));
@@ -100,10 +101,12 @@ TEST(CompletionTest, EveryCommandAndFlagIsInEveryScriptAndInTheManualPage) {
   for (const CommandDescription& command : program.commands) {
     EXPECT_THAT(zsh, HasSubstr("    '" + command.name + ":"));
     EXPECT_THAT(fish, HasSubstr("__fish_use_subcommand -a " + command.name + " "));
+    std::string names = command.name;
+    for (const std::string& alias : command.aliases) names += " " + alias;
     for (const FlagDescription& flag : command.flags) {
       EXPECT_THAT(bash, HasSubstr(flag.name)) << command.name;
       EXPECT_THAT(zsh, HasSubstr("'*" + flag.name + "[")) << command.name;
-      EXPECT_THAT(fish, HasSubstr("from " + command.name + "' -l " + flag.name.substr(2) + " ")) << command.name;
+      EXPECT_THAT(fish, HasSubstr("from " + names + "' -l " + flag.name.substr(2) + " ")) << command.name;
     }
   }
   EXPECT_THAT(page, HasSubstr(".SS rollgait solve [flags]"));

@@ -64,6 +64,13 @@ TEST_F(HabitsTest, MistypedWordsAreToldWhatMayBeMeant) {
   }
 }
 
+TEST_F(HabitsTest, AnAliasIsTheCommand) {
+  const Ended help = Run({"help", "models"});
+  EXPECT_THAT(help.out, HasSubstr("fit-feet"));
+  EXPECT_EQ(Run({"help", "model"}).out, help.out);
+  EXPECT_EQ(Run({"model", "--help"}).out, help.out);
+}
+
 TEST_F(HabitsTest, SettingsNameTheServer) {
   const std::string file = testing::TempDir() + "habits_test.toml";
   std::ofstream(file) << "server = \"" << server_.address() << "\"\n";
