@@ -11,8 +11,10 @@ namespace rollgait::server {
 // Whose turn it is: start-time fair queueing (Goyal, Vin, Cheng 1996) over the tenants that have queued solves. Each
 // claim is a unit of work. It has a start tag, the later of the virtual time and of the tenant's last finish tag, and a
 // finish tag, which is kClaimCost / weight later. The tenant with the least start tag is next; virtual time is the
-// largest start tag of any claim. So who was away has no more credit than who comes new, and while a tenant of weight v
-// waits one of weight w gets at most w / v + 1 claims, and as many more as others make at the same time (PostgreSQL).
+// largest start tag that a tenant was chosen by. So who was away has no more credit than who comes new, and while a
+// tenant of weight v waits one of weight w gets at most w / v + 1 claims, and as many more as others make at the same
+// time (PostgreSQL): agents that choose at the same time choose the same tenant by the same tag. Their claims move its
+// finish tag one after the other, and virtual time not at all, so that the others catch up.
 inline constexpr int64_t kClaimCost = 1'000'000;
 inline constexpr int kMostWeight = 100;
 

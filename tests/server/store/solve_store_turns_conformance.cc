@@ -156,6 +156,24 @@ TEST_P(SolveStoreConformance, ThePriorityOfAQueuedSolveCanBeChanged) {
   EXPECT_EQ(queue.bench().Get("b").priority, 3);
 }
 
+// As agents of PostgreSQL do: none of them sees the claims of the others when it chooses.
+TEST_P(SolveStoreConformance, AgentsThatChooseOneTenantAtTheSameTimeTakeNothingFromTheOther) {
+  Queue queue(GetParam());
+  queue.AddMany("red", 20);
+  queue.AddMany("blue", 20);
+  const auto claims_of = [&](const std::string& tenant, int claims, const Share& chosen_by) {
+    const auto counted = queue.bench().OpenAgain()->database().Write([&](SqlConnection& connection) -> Outcome<Done> {
+      for (int i = 0; i < claims; ++i) CountClaim(connection, tenant, chosen_by);
+      return Done{};
+    });
+    ASSERT_TRUE(counted.ok());
+  };
+  claims_of("blue", 4, {});
+  EXPECT_EQ(queue.Tenants(6), "rrrrbr") << "red catches up";
+  claims_of("red", 3, {.finish_tag = 5 * kClaimCost, .virtual_time = 4 * kClaimCost});
+  EXPECT_EQ(queue.Tenants(4), "bbbb") << "and blue";
+}
+
 TEST_P(SolveStoreConformance, AgentsThatClaimAtTheSameTimeShareAllTheSame) {
   constexpr int kAgents = 4, kClaims = 10;
   Queue queue(GetParam());
