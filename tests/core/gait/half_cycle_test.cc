@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/gait/build_problem.h"
-#include "core/gait/initial_guess.h"
-#include "core/gait/meshes.h"
 #include "core/gait/optimizing_gait_solver.h"
+#include "tests/core/gait/motion_residuals.h"
 
 namespace rollgait {
 namespace {
@@ -100,30 +98,6 @@ TEST(HalfCycleOf, IsEmptyWhereLeftAndRightDiffer) {
   request = Planar();
   request.body.locked_joints = {{"ankle_l", 0}};
   EXPECT_FALSE(HasHalf(request));
-}
-
-// How far a motion is from meeting the program of a spec, and its cost.
-struct Residuals {
-  double rows = 0, bounds = 0, objective = 0;
-  std::string worst_row;
-};
-
-Residuals ResidualsAt(const GaitSpec& spec, const WarmStart& motion) {
-  const auto problem = BuildProblem(spec);
-  CollocationNlp nlp(*problem, spec.scheme, MeshOf(motion.trajectory), motion.added);
-  const VectorX x = nlp.MakeStart(GuessFromTrajectory(motion.trajectory));
-  VectorX g(nlp.constraints());
-  Residuals residuals;
-  if (!nlp.Constraints(x.data(), g.data()) || !nlp.Objective(x.data(), &residuals.objective)) {
-    residuals.rows = kInfinity;
-    return residuals;
-  }
-  residuals.objective /= nlp.objective_scale();
-  int row = 0;
-  residuals.rows = (nlp.constraint_lower() - g).cwiseMax(g - nlp.constraint_upper()).maxCoeff(&row);
-  residuals.worst_row = nlp.Describe(x.data(), row).name;
-  residuals.bounds = (nlp.lower_bounds() - x).cwiseMax(x - nlp.upper_bounds()).maxCoeff();
-  return residuals;
 }
 
 struct Case {
