@@ -214,27 +214,29 @@ SidedFeet FeetOf(const BodySelection& selection, const SidedTables& tables, Viol
   SidedFeet feet;
   // In the order of names: of a surface both sides before one of them.
   for (const auto& [name, axes] : selection.changes.foot_semi_axes) {
-    ForSurfaces({"foot_semi_axes_m", name}, selection, tables, violations, [&](const FootSurface& usual, bool left) {
-      const Vector3 low = usual.semi_axes.cwiseProduct(least), high = usual.semi_axes.cwiseProduct(most);
-      if ((axes.array() >= low.array()).all() && (axes.array() <= high.array()).all()) {
-        (left ? feet.left : feet.right)[usual.name].semi_axes = axes;
-        return std::string();
-      }
-      return Text("are (", Numbers(axes), ") m; must be between (", Numbers(low), ") and (", Numbers(high),
-                  ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest, " to ", kHighest,
-                  " times what the lengths of foot and leg give");
-    });
+    ForSurfaces({"foot_semi_axes_m", name}, selection, tables, violations,
+                [&, &axes = axes](const FootSurface& usual, bool left) {
+                  const Vector3 low = usual.semi_axes.cwiseProduct(least), high = usual.semi_axes.cwiseProduct(most);
+                  if ((axes.array() >= low.array()).all() && (axes.array() <= high.array()).all()) {
+                    (left ? feet.left : feet.right)[usual.name].semi_axes = axes;
+                    return std::string();
+                  }
+                  return Text("are (", Numbers(axes), ") m; must be between (", Numbers(low), ") and (", Numbers(high),
+                              ") m: forward and left ", kNarrowest, " to ", kWidest, ", up ", kFlattest, " to ",
+                              kHighest, " times what the lengths of foot and leg give");
+                });
   }
   for (const auto& [name, exponent] : selection.changes.foot_exponents) {
-    ForSurfaces({"foot_exponents", name}, selection, tables, violations, [&](const FootSurface& usual, bool left) {
-      if (IsWithin(exponent, kLeastFootExponent, kMostFootExponent)) {
-        (left ? feet.left : feet.right)[usual.name].exponent = exponent;
-        return std::string();
-      }
-      return Text("is ", exponent, "; must be between ", kLeastFootExponent, " and ", kMostFootExponent,
-                  " (1 is the ellipsoid): ", exponent < kLeastFootExponent ? "boxier" : "more pointed",
-                  " feet are not known to walk");
-    });
+    ForSurfaces({"foot_exponents", name}, selection, tables, violations,
+                [&, exponent = exponent](const FootSurface& usual, bool left) {
+                  if (IsWithin(exponent, kLeastFootExponent, kMostFootExponent)) {
+                    (left ? feet.left : feet.right)[usual.name].exponent = exponent;
+                    return std::string();
+                  }
+                  return Text("is ", exponent, "; must be between ", kLeastFootExponent, " and ", kMostFootExponent,
+                              " (1 is the ellipsoid): ", exponent < kLeastFootExponent ? "boxier" : "more pointed",
+                              " feet are not known to walk");
+                });
   }
   return feet;
 }

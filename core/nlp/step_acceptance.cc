@@ -9,10 +9,12 @@ namespace {
 // Names as in Wächter and Biegler, values as in Ipopt.
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
 constexpr double kGammaAlpha = 0.05;
-constexpr double kEpsilon = 2.2e-16;
 
 // a ≤ b up to the rounding of numbers of the size of `scale`.
-bool AtMost(double a, double b, double scale) { return a - b <= 10 * kEpsilon * std::abs(scale); }
+bool AtMost(double a, double b, double scale) {
+  constexpr double kEpsilon = 2.2e-16;
+  return a - b <= 10 * kEpsilon * std::abs(scale);
+}
 
 // Whether φ is expected to fall by so much that it, and not θ, is to be judged.
 bool Switching(const LinePoint& from, double alpha) {

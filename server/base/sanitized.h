@@ -5,7 +5,7 @@ namespace rollgait::server {
 
 // Whether this build has the address or the thread sanitizer, which reserve terabytes of address space and ask the
 // kernel for more than the program does.
-#if defined(__SANITIZE_ADDRESS__) || defined(ROLLGAIT_THREAD_SANITIZER)
+#if defined(ROLLGAIT_ADDRESS_SANITIZER) || defined(ROLLGAIT_THREAD_SANITIZER)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;

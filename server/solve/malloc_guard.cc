@@ -6,7 +6,7 @@
 #include "server/solve/worker.h"
 
 // Sanitizers bring allocation functions of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(ROLLGAIT_ADDRESS_SANITIZER) && !defined(ROLLGAIT_THREAD_SANITIZER)
 
 extern "C" {
 

@@ -22,11 +22,15 @@ class ExtremeContacts {
     const double size = random_.LogUniform(1e-3, 1e3);
     switch (Choice(4)) {
       case 0:  // near-sphere
-        return size * (Vector3::Ones() + random_.LogUniform(1e-15, 1e-3) * random_.Vector(-1, 1));
-      case 1:  // a foot, a stone
-        return size * Vector3(1, random_.Uniform(0.2, 1), random_.Uniform(0.2, 1));
-      default:
-        return size * Vector3(random_.LogUniform(1e-3, 1), 1, random_.LogUniform(1e-3, 1));
+        return size * (Vector3::Ones() + Scaled(random_.Vector(-1, 1), 1e-15, 1e-3));
+      case 1: {  // a foot, a stone
+        const double z = random_.Uniform(0.2, 1), y = random_.Uniform(0.2, 1);
+        return size * Vector3(1, y, z);
+      }
+      default: {
+        const double z = random_.LogUniform(1e-3, 1), x = random_.LogUniform(1e-3, 1);
+        return size * Vector3(x, 1, z);
+      }
     }
   }
   Surface AnySurface() {
@@ -34,9 +38,9 @@ class ExtremeContacts {
       case 0:
         return Sphere(random_.LogUniform(1e-3, 1e3));
       case 1:
-        return Superellipsoid(Axes(), Exponent(), Exponent());
+        return AnySuperellipsoid();
       case 2:
-        return Surface(Superellipsoid(Axes(), Exponent(), Exponent())).Rounded(random_.LogUniform(1e-3, 1));
+        return AnySuperellipsoid().Rounded(random_.LogUniform(1e-3, 1));
       default:
         return Ellipsoid(Axes());
     }
@@ -49,11 +53,15 @@ class ExtremeContacts {
       case 0:
         return R;
       case 1:
-        return Turn(random_.LogUniform(1e-14, 1e-2) * random_.Unit()) * R;
-      default:
-        return Turn(random_.Uniform(0, 3.1) * random_.Unit());
+        return Turn(Scaled(random_.Unit(), 1e-14, 1e-2)) * R;
+      default: {
+        const Vector3 axis = random_.Unit();
+        return Turn(random_.Uniform(0, 3.1) * axis);
+      }
     }
   }
+  // The vector times a factor, which is drawn after it: a product of two draws would leave their order to the compiler.
+  Vector3 Scaled(const Vector3& vector, double min, double max) { return random_.LogUniform(min, max) * vector; }
   // At rest at the origin of its accelerations: only what moves is drawn here.
   FrameMotion Motion(double length) {
     FrameMotion body;
@@ -74,6 +82,10 @@ class ExtremeContacts {
   }
 
  private:
+  Surface AnySuperellipsoid() {
+    const double e2 = Exponent(), e1 = Exponent();
+    return Superellipsoid(Axes(), e1, e2);
+  }
   double Exponent() {
     const double special[] = {0.05, 0.5, 1, 1.5, 1.95};
     return Choice(3) == 0 ? special[Choice(5)] : random_.Uniform(0.05, 1.95);

@@ -26,7 +26,7 @@ namespace {
 
 // As the issue asks. With the address sanitizer it is not asked: shadow, red zones and what was freed are not the
 // readers'.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef ROLLGAIT_ADDRESS_SANITIZER
 constexpr int64_t kMostMemoryKb = std::numeric_limits<int64_t>::max();
 #else
 constexpr int64_t kMostMemoryKb = 256 * 1024;

@@ -56,7 +56,7 @@ Two DrawEllipsoids(ExtremeContacts* extremes) {
   drawn.R_2 = extremes->Rotation();
   const double size = drawn.surface_1.Size() + drawn.surface_2.Size();
   drawn.p_1 = size * extremes->random().Vector(-1, 1);
-  drawn.p_2 = drawn.p_1 + size * extremes->random().LogUniform(0.01, 10) * extremes->random().Unit();
+  drawn.p_2 = drawn.p_1 + size * extremes->Scaled(extremes->random().Unit(), 0.01, 10);
   return drawn;
 }
 
@@ -126,7 +126,7 @@ TEST(SurfacePairTest, BoxesConvergeFaceToFaceAndCornerToFace) {
     EXPECT_TRUE(at.converged) << i << " after " << at.iterations;
     EXPECT_EQ(at.state, State::kSeparated);
     for (int n = 0; n < 50; ++n) {
-      const Vector3 other = (at.nu + extremes.random().LogUniform(1e-6, 1) * extremes.random().Unit()).normalized();
+      const Vector3 other = (at.nu + extremes.Scaled(extremes.random().Unit(), 1e-6, 1)).normalized();
       EXPECT_LE(G(bodies.one(), bodies.two(), other) - at.distance, 1e-13) << i << " " << at.iterations;
     }
   }

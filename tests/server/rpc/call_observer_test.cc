@@ -162,7 +162,7 @@ TEST(CodeNameTest, SpeaksAsGoDoes) {
   EXPECT_EQ(CodeName(grpc::StatusCode::CANCELLED), "Canceled");
   EXPECT_EQ(CodeName(grpc::StatusCode::RESOURCE_EXHAUSTED), "ResourceExhausted");
   EXPECT_EQ(CodeName(grpc::StatusCode::UNAUTHENTICATED), "Unauthenticated");
-  EXPECT_EQ(CodeName(static_cast<grpc::StatusCode>(77)), "Unknown");
+  EXPECT_EQ(CodeName(static_cast<grpc::StatusCode>(30)), "Unknown");
 }
 
 }  // namespace
