@@ -1,9 +1,7 @@
 #include "core/nlp/frontal_ldlt.h"
 
 #include <algorithm>
-#include <map>
 
-#include "core/base/check.h"
 #include "core/math/subtract_products.h"
 #include "core/nlp/front_pivoting.h"
 
@@ -36,9 +34,9 @@ void ClearLowerTriangle(double* a, int stride, int columns, int rows) {
 // The upper triangle of the first `columns` rows becomes the lower one's transpose.
 void MirrorLowerTriangle(double* a, int stride, int columns) {
   // Both sides of a block stay in the first cache.
-  constexpr int kBlock = 16;
-  for (int first = 0; first < columns; first += kBlock) {
-    const int end = std::min(first + kBlock, columns);
+  constexpr int kColumnsInCache = 16;
+  for (int first = 0; first < columns; first += kColumnsInCache) {
+    const int end = std::min(first + kColumnsInCache, columns);
     for (int i = first; i < columns; ++i) {
       double* row = a + static_cast<size_t>(i) * stride;
       for (int j = first; j < std::min(end, i); ++j) row[j] = a[static_cast<size_t>(j) * stride + i];
@@ -48,86 +46,18 @@ void MirrorLowerTriangle(double* a, int stride, int columns) {
 
 }  // namespace
 
-FrontalLdlt::FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups) : size_(size) {
-  ROLLGAIT_CHECK(static_cast<int>(groups.size()) == size);
-  AnalyseFronts(pattern, groups);
-  AssignEntries(pattern);
+FrontalLdlt::FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups,
+                         const OuterProducts& products)
+    : gathered_(size + kNumbersPerLine) {  // the rows of a front, with zeros up to the next line
+  FrontPlan plan(size, pattern, groups, products);
+  product_rows_ = std::move(plan.product_rows);
+  product_values_ = std::move(plan.product_values);
+  fronts_.reserve(plan.fronts.size());
+  for (PlannedFront& front : plan.fronts) fronts_.emplace_back(std::move(front));
+  most_delayed_ = std::max(kLeastMostDelayed, kMostDelayed * plan.most_rows);
+  map_.reserve(plan.most_rows);
+  run_ends_.reserve(plan.most_rows);
   AssignBlocks();
-}
-
-void FrontalLdlt::AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups) {
-  std::map<int, int> front_of_group;
-  for (int group : groups) front_of_group[group] = 0;
-  int count = 0;
-  for (auto& [group, front] : front_of_group) front = count++;
-  fronts_.resize(count);
-  front_of_.resize(size_);
-  rank_.resize(size_);
-  for (int i = 0; i < size_; ++i) {
-    front_of_[i] = front_of_group[groups[i]];
-    fronts_[front_of_[i]].own.push_back(i);
-  }
-  int rank = 0;
-  for (const Front& front : fronts_) {
-    for (int i : front.own) rank_[i] = rank++;
-  }
-  // Neighbours that are eliminated later: directly, or through an earlier front.
-  for (int e = 0; e < pattern.size(); ++e) {
-    const int a = pattern.rows[e], b = pattern.columns[e];
-    if (front_of_[a] < front_of_[b]) fronts_[front_of_[a]].update.push_back(b);
-    if (front_of_[b] < front_of_[a]) fronts_[front_of_[b]].update.push_back(a);
-  }
-  const auto earlier = [this](int a, int b) { return rank_[a] < rank_[b]; };
-  std::vector<int> found_by(size_, -1), found;
-  for (int f = 0; f < count; ++f) {
-    Front& front = fronts_[f];
-    found.clear();
-    const auto find = [&](int i) {
-      if (front_of_[i] <= f || found_by[i] == f) return;
-      found_by[i] = f;
-      found.push_back(i);
-    };
-    std::for_each(front.update.begin(), front.update.end(), find);
-    for (int child : front.children) std::for_each(fronts_[child].update.begin(), fronts_[child].update.end(), find);
-    std::sort(found.begin(), found.end(), earlier);
-    front.update = std::vector<int>(found.begin(), found.end());
-    if (front.update.empty()) continue;
-    front.is_root = false;
-    fronts_[front_of_[front.update.front()]].children.push_back(f);
-  }
-}
-
-void FrontalLdlt::AssignEntries(const SparsityPattern& pattern) {
-  std::vector<int> row_in(size_, -1);
-  const auto place = [&row_in](const Front& front) {
-    int row = 0;
-    for (int i : front.own) row_in[i] = row++;
-    for (int i : front.update) row_in[i] = row++;
-  };
-  const auto front_of = [&](int e) { return std::min(front_of_[pattern.rows[e]], front_of_[pattern.columns[e]]); };
-  std::vector<int> counts(fronts_.size(), 0);
-  for (int e = 0; e < pattern.size(); ++e) ++counts[front_of(e)];
-  for (size_t f = 0; f < fronts_.size(); ++f) fronts_[f].entries.reserve(counts[f]);
-  for (int e = 0; e < pattern.size(); ++e)
-    fronts_[front_of(e)].entries.push_back({e, pattern.rows[e], pattern.columns[e]});
-  size_t most = 0;
-  for (size_t f = 0; f < fronts_.size(); ++f) {
-    Front& front = fronts_[f];
-    place(front);
-    for (Entry& entry : front.entries) {
-      entry.row = row_in[entry.row];
-      entry.column = row_in[entry.column];
-      if (entry.row < entry.column) std::swap(entry.row, entry.column);
-    }
-    for (int child : front.children) {
-      for (int i : fronts_[child].update) fronts_[child].parent_row.push_back(row_in[i]);
-    }
-    most = std::max(most, front.own.size() + front.update.size());
-  }
-  most_delayed_ = std::max(kLeastMostDelayed, kMostDelayed * static_cast<int>(most));
-  map_.reserve(most);
-  run_ends_.reserve(most);
-  gathered_.resize(size_ + kNumbersPerLine);  // the rows of a front, with zeros up to the next line
 }
 
 // A chain needs a handful of Schur complements at once, and its fronts find them in the cache.
@@ -147,7 +77,8 @@ void FrontalLdlt::AssignBlocks() {
   }
 }
 
-FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double threshold) {
+FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double threshold,
+                                            const OuterProductValues& products) {
   inertia_ = {};
   factor_entries_ = 0;
   delayed_pivots_ = 0;
@@ -159,7 +90,7 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
       inertia_.zero += taken_up;
       return inertia_;
     }
-    Assemble(values, &front);
+    Assemble(values, products, &front);
     FactorPanel(&front, threshold);
     UpdateSchur(&front);
     factor_entries_ += static_cast<long>(front.pivots) * (front.columns + static_cast<long>(front.update.size()));
@@ -171,7 +102,7 @@ FrontalLdlt::Inertia FrontalLdlt::Factorise(const double* values, double thresho
 
 // The fully summed block is put together in its lower triangle and then kept in full; the rest of the panel has the
 // rows of `update`.
-void FrontalLdlt::Assemble(const double* values, Front* front) {
+void FrontalLdlt::Assemble(const double* values, const OuterProductValues& products, Front* front) {
   const int own = static_cast<int>(front->own.size());
   front->unknowns = front->own;
   for (int c : front->children) {
@@ -188,16 +119,40 @@ void FrontalLdlt::Assemble(const double* values, Front* front) {
   ClearLowerTriangle(front->panel, front->stride, front->columns, front->rows);
   if (front->children.empty()) ClearLowerTriangle(Schur(*front), order, order, order);
   const int shift = front->first_update - own;
-  for (const Entry& e : front->entries) {
-    const int row = e.row < own ? e.row : e.row + shift;
-    front->Column(e.column)[row] += values[e.value];
+  for (const PlannedFront::Run& run : front->runs) {
+    const int row = run.row < own ? run.row : run.row + shift;
+    AddTo(front->Column(run.column) + row, values + run.value, run.count);
   }
   int slot = own;
   for (int c : front->children) {
     AddChild(fronts_[c], slot, front);
     slot += fronts_[c].columns - fronts_[c].pivots;
   }
+  AddProducts(products, front);
   MirrorLowerTriangle(front->panel, front->stride, front->columns);
+}
+
+// A term may meet later unknowns alone in part, so it goes to the Schur complement, too.
+void FrontalLdlt::AddProducts(const OuterProductValues& products, Front* front) {
+  const int own = static_cast<int>(front->own.size()), order = static_cast<int>(front->update.size());
+  const int shift = front->first_update - own;
+  for (const PlannedFront::Product& product : front->products) {
+    const double weight = products.weights[product.term];
+    int i = product.first;
+    for (; i < product.end && product_rows_[i] < own; ++i) {
+      const double scaled = weight * products.vectors[product_values_[i]];
+      double* target = front->Column(product_rows_[i]);
+      for (int j = i; j < product.end; ++j) {
+        const int row = product_rows_[j];
+        target[row < own ? row : row + shift] += scaled * products.vectors[product_values_[j]];
+      }
+    }
+    for (; i < product.end; ++i) {
+      const double scaled = weight * products.vectors[product_values_[i]];
+      double* target = Schur(*front) + static_cast<size_t>(product_rows_[i] - own) * order - own;
+      for (int j = i; j < product.end; ++j) target[product_rows_[j]] += scaled * products.vectors[product_values_[j]];
+    }
+  }
 }
 
 // What the child has left over goes to the columns from first_slot on, its Schur complement to the rows of its

@@ -1,8 +1,11 @@
 #ifndef ROLLGAIT_CORE_NLP_FRONTAL_LDLT_H_
 #define ROLLGAIT_CORE_NLP_FRONTAL_LDLT_H_
 
+#include <utility>
 #include <vector>
 
+#include "core/nlp/front_plan.h"
+#include "core/nlp/outer_products.h"
 #include "core/nlp/panel_store.h"
 #include "core/nlp/problem.h"
 
@@ -26,13 +29,14 @@ class FrontalLdlt {
     int zero = 0;
   };
 
-  // `pattern`: entries of one triangle (either, duplicates add) of a matrix of order `size`; `groups` (size): smaller
-  // is eliminated earlier. Contract: rows and columns within size; groups >= 0.
-  FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups);
+  // Of the matrix that a pattern and outer products make up (FrontPlan). Fastest where the pattern has the entries
+  // column by column, in the order of elimination.
+  FrontalLdlt(int size, const SparsityPattern& pattern, const std::vector<int>& groups,
+              const OuterProducts& products = {});
 
   // Values in the order of the pattern. A pivot must be at least `threshold` times the entries it divides (0 <
   // threshold <= 0.5): large values are accurate, small ones keep the fronts narrow.
-  Inertia Factorise(const double* values, double threshold);
+  Inertia Factorise(const double* values, double threshold, const OuterProductValues& products = {});
 
   // x (size) := A⁻¹ x. Contract: Factorise has been called and found no zero.
   void Solve(double* x);
@@ -42,18 +46,10 @@ class FrontalLdlt {
   int delayed_pivots() const { return delayed_pivots_; }
 
  private:
-  struct Entry {
-    int value, row, column;  // index into the values; static position in the front
-  };
-  struct Front {
-    // Symbolic. Static rows: first `own`, then `update`.
-    std::vector<int> own, update;
-    std::vector<int> children;
-    std::vector<int> parent_row;  // static row of update[i] in the parent
-    std::vector<Entry> entries;
-    bool is_root = true;
+  struct Front : PlannedFront {
+    explicit Front(PlannedFront planned) : PlannedFront(std::move(planned)) {}
     double* Column(int c) const { return panel + static_cast<size_t>(c) * stride; }
-    // Numeric. Rows: pivots, columns that were delayed, zeros up to the next line of the cache, update.
+    // Rows: pivots, columns that were delayed, zeros up to the next line of the cache, update.
     int columns = 0, first_update = 0, rows = 0, stride = 0, pivots = 0;
     std::vector<int> unknowns;               // of the columns
     double* panel = nullptr;                 // rows × columns in steps of `stride`; L in the first `pivots` columns
@@ -61,22 +57,20 @@ class FrontalLdlt {
     int block = 0;                           // of blocks_, with the Schur complement: update × update, lower triangle
   };
 
-  void AnalyseFronts(const SparsityPattern& pattern, const std::vector<int>& groups);
-  void AssignEntries(const SparsityPattern& pattern);
   void AssignBlocks();
   double* Schur(const Front& front) { return blocks_[front.block].data(); }
-  void Assemble(const double* values, Front* front);
+  void Assemble(const double* values, const OuterProductValues& products, Front* front);
+  void AddProducts(const OuterProductValues& products, Front* front);
   void AddChild(const Front& child, int first_slot, Front* front);
   void AddRuns(const double* column, int first, int end, double* target) const;
   void CopySchur(const Front& child, int first, Front* front);
   void FactorPanel(Front* front, double threshold);
   void UpdateSchur(Front* front);
 
-  int size_;
   std::vector<Front> fronts_;
+  std::vector<int> product_rows_, product_values_;  // FrontPlan
   PanelStore panels_;
   std::vector<std::vector<double>> blocks_;  // as many as are in use at once, until the parent has taken them up
-  std::vector<int> front_of_, rank_;         // of an unknown: its front; its place in the order of elimination
   std::vector<int> map_,
       run_ends_;  // of the update of the child in work: rows in its parent, where a run of neighbours ends
   std::vector<int> updated_;

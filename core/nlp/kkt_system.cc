@@ -25,161 +25,159 @@ constexpr double kStagnation = 0.5;
 
 }  // namespace
 
-SparsityPattern KktSystem::MakePattern(const NlpProblem& problem) {
-  const int n = problem.variables();
-  const SparsityPattern& jacobian = problem.jacobian_pattern();
-  SparsityPattern pattern;
-  for (std::vector<int>* indices : {&pattern.rows, &pattern.columns}) {
-    indices->reserve(problem.hessian_pattern().size() + jacobian.size() + n + problem.constraints());
-  }
-  pattern.rows = problem.hessian_pattern().rows;
-  pattern.columns = problem.hessian_pattern().columns;
-  for (int e = 0; e < jacobian.size(); ++e) pattern.Add(n + jacobian.rows[e], jacobian.columns[e]);
-  for (int i = 0; i < n + problem.constraints(); ++i) pattern.Add(i, i);
-  return pattern;
-}
-
 KktSystem::KktSystem(const NlpProblem& problem, std::vector<char> fixed, const std::vector<int>& slack_rows,
                      double fine_residual)
     : variables_(problem.variables()),
       rows_(problem.constraints()),
       jacobian_pattern_(problem.jacobian_pattern()),
       jacobian_start_(problem.hessian_pattern().size()),
-      primal_start_(jacobian_start_ + jacobian_pattern_.size()),
-      dual_start_(primal_start_ + variables_),
       fixed_(std::move(fixed)),
-      values_(VectorX::Zero(dual_start_ + rows_)),
-      matrix_(variables_ + rows_, MakePattern(problem)),
+      values_(VectorX::Zero(jacobian_start_ + jacobian_pattern_.size())),
+      condensed_(slack_rows.begin(), slack_rows.end()),
+      place_(Places(problem)),
+      condensed_terms_(CondensedTerms()),
+      matrix_(kept(), MatrixPattern(problem)),
+      factors_(kept(), matrix_.pattern(), GroupsByPlace(problem), condensed_terms_),
       fine_residual_(fine_residual),
       threshold_(kFirstThreshold),
-      condensed_(FindCondensed(slack_rows)),
-      place_(PlacesWithout(condensed_)),
-      factors_(MakeFactors(problem)),
+      weights_(VectorX::Ones(static_cast<int>(condensed_.size()))),
       right_(VectorX::Zero(variables_ + rows_)),
       solution_(right_),
       residual_(right_),
-      correction_(right_) {
-  const SparsityPattern& pattern = matrix_.pattern();
-  const auto is_fixed = [this](int unknown) { return unknown < variables_ && fixed_[unknown] != 0; };
-  for (int e = 0; e < pattern.size(); ++e) {
-    if (is_fixed(pattern.rows[e]) || is_fixed(pattern.columns[e])) fixed_entries_.push_back(e);
-  }
-}
+      correction_(right_) {}
 
-std::vector<KktSystem::Condensed> KktSystem::FindCondensed(const std::vector<int>& slack_rows) const {
-  std::vector<Condensed> condensed(slack_rows.size());
-  std::vector<int> index(rows_, -1);
-  for (size_t k = 0; k < slack_rows.size(); ++k) {
-    condensed[k].row = slack_rows[k];
-    index[slack_rows[k]] = static_cast<int>(k);
+// Of equal groups the variables come before the rows.
+std::vector<int> KktSystem::Places(const NlpProblem& problem) const {
+  const EliminationGroups groups = problem.elimination_groups();
+  std::vector<char> is_condensed(variables_ + rows_, 0);
+  std::vector<int> places(variables_ + rows_), order;
+  int last = kept();
+  for (const Condensed& row : condensed_) {
+    is_condensed[variables_ + row.row] = 1;
+    places[variables_ + row.row] = last++;
   }
-  for (int e = 0; e < jacobian_pattern_.size(); ++e) {
-    const int k = index[jacobian_pattern_.rows[e]];
-    if (k >= 0 && fixed_[jacobian_pattern_.columns[e]] == 0) condensed[k].entries.push_back(e);
+  for (int i = 0; i < variables_ + rows_; ++i) {
+    if (is_condensed[i] == 0) order.push_back(i);
   }
-  return condensed;
-}
-
-std::vector<int> KktSystem::PlacesWithout(const std::vector<Condensed>& condensed) const {
-  std::vector<int> places(variables_ + rows_, 0);
-  for (const Condensed& row : condensed) places[variables_ + row.row] = -1;
-  int place = 0;
-  for (int& p : places) {
-    if (p == 0) p = place++;
-  }
+  const auto group = [&](int i) { return i < variables_ ? groups.variables[i] : groups.constraints[i - variables_]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return group(a) < group(b); });
+  for (size_t k = 0; k < order.size(); ++k) places[order[k]] = static_cast<int>(k);
   return places;
 }
 
-FrontalLdlt KktSystem::MakeFactors(const NlpProblem& problem) {
-  const SparsityPattern& whole = matrix_.pattern();
-  size_t size = whole.rows.size();
-  for (const Condensed& row : condensed_) size += row.entries.size() * (row.entries.size() + 1) / 2;
-  SparsityPattern pattern;
-  pattern.rows.reserve(size);
-  pattern.columns.reserve(size);
-  reduced_source_.reserve(whole.rows.size());
-  for (int e = 0; e < whole.size(); ++e) {
-    const int row = place_[whole.rows[e]], column = place_[whole.columns[e]];
-    if (row < 0 || column < 0) continue;
-    pattern.Add(row, column);
-    reduced_source_.push_back(e);
-  }
-  for (const Condensed& row : condensed_) {
-    for (size_t i = 0; i < row.entries.size(); ++i) {
-      for (size_t j = 0; j <= i; ++j) {
-        pattern.Add(place_[jacobian_pattern_.columns[row.entries[i]]],
-                    place_[jacobian_pattern_.columns[row.entries[j]]]);
-      }
-    }
-  }
+std::vector<int> KktSystem::GroupsByPlace(const NlpProblem& problem) const {
   const EliminationGroups groups = problem.elimination_groups();
-  std::vector<int> kept = groups.variables;
+  std::vector<int> by_place(kept());
+  for (int i = 0; i < variables_; ++i) by_place[place_[i]] = groups.variables[i];
   for (int r = 0; r < rows_; ++r) {
-    if (place_[variables_ + r] >= 0) kept.push_back(groups.constraints[r]);
+    const int place = place_[variables_ + r];
+    if (place < kept()) by_place[place] = groups.constraints[r];
   }
-  reduced_values_ = VectorX::Zero(pattern.size());
-  reduced_ = VectorX::Zero(static_cast<int>(kept.size()));
-  return FrontalLdlt(static_cast<int>(kept.size()), pattern, kept);
+  return by_place;
 }
 
-KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal) {
-  values_.segment(primal_start_, variables_) = primal_diagonal;
-  values_.segment(dual_start_, rows_) = -dual_diagonal;
-  matrix_.Assign(values_.data());
-  for (int e : fixed_entries_) matrix_.value(e) = 0;
-  for (int i = 0; i < variables_; ++i) {
-    if (fixed_[i] != 0) matrix_.value(matrix_.place(primal_start_ + i)) = 1;
+OuterProducts KktSystem::CondensedTerms() const {
+  std::vector<std::vector<int>> entries(condensed_.size());
+  for (int e = 0; e < jacobian_pattern_.size(); ++e) {
+    const int term = place_[variables_ + jacobian_pattern_.rows[e]] - kept();
+    if (term >= 0 && fixed_[jacobian_pattern_.columns[e]] == 0) entries[term].push_back(e);
   }
+  OuterProducts terms;
+  for (const std::vector<int>& row : entries) {
+    for (const int e : row) terms.Add(place_[jacobian_pattern_.columns[e]], e);
+    terms.EndTerm();
+  }
+  return terms;
+}
+
+// Of H and J, by places; entries of fixed variables and of condensed rows are left out.
+SparsityPattern KktSystem::MatrixPattern(const NlpProblem& problem) const {
+  const SparsityPattern& hessian = problem.hessian_pattern();
+  SparsityPattern pattern;
+  pattern.rows.reserve(values_.size());
+  pattern.columns.reserve(values_.size());
+  for (int e = 0; e < hessian.size(); ++e) {
+    const int row = hessian.rows[e], column = hessian.columns[e];
+    const bool is_fixed = fixed_[row] != 0 || fixed_[column] != 0;
+    pattern.Add(is_fixed ? -1 : place_[row], place_[column]);
+  }
+  for (int e = 0; e < jacobian_pattern_.size(); ++e) {
+    const int row = place_[variables_ + jacobian_pattern_.rows[e]], column = jacobian_pattern_.columns[e];
+    pattern.Add(row >= kept() || fixed_[column] != 0 ? -1 : row, place_[column]);
+  }
+  return pattern;
+}
+
+void KktSystem::TakeDerivatives() { matrix_.Assign(values_.data()); }
+
+KktSystem::Outcome KktSystem::Factorise(const VectorX& primal_diagonal, const VectorX& dual_diagonal) {
+  for (int i = 0; i < variables_; ++i) matrix_.diagonal(place_[i]) = fixed_[i] != 0 ? 1 : primal_diagonal(i);
+  for (int r = 0; r < rows_; ++r) {
+    const int place = place_[variables_ + r];
+    if (place < kept()) matrix_.diagonal(place) = -dual_diagonal(r);
+  }
+  for (Condensed& row : condensed_) row.own = dual_diagonal(row.row);
   const Outcome outcome = FactoriseReduced();
   return outcome != Outcome::kRight && BoundWeights() ? FactoriseReduced() : outcome;
 }
 
 KktSystem::Outcome KktSystem::FactoriseReduced() {
-  AssignReduced();
+  const double* derivative = jacobian();
+  has_large_weights_ = false;
+  for (size_t k = 0; k < condensed_.size(); ++k) {
+    double largest = 0;
+    for (int i = condensed_terms_.first[k]; i < condensed_terms_.first[k + 1]; ++i) {
+      largest = std::max(largest, std::abs(derivative[condensed_terms_.values[i]]));
+    }
+    Condensed& row = condensed_[k];
+    const double least = kLeastCompliance * largest * largest;
+    has_large_weights_ |= row.own < least;
+    row.compliance = bounds_weights_ ? std::max(least, row.own) : row.own;
+    weights_(static_cast<int>(k)) = 1 / row.compliance;
+  }
   factored_threshold_ = threshold_;
-  const FrontalLdlt::Inertia inertia = factors_.Factorise(reduced_values_.data(), threshold_);
+  const FrontalLdlt::Inertia inertia = factors_.Factorise(matrix_.values(), threshold_, {derivative, weights_.data()});
   if (inertia.zero > 0) return Outcome::kSingular;
   const int condensed = static_cast<int>(condensed_.size());
   return inertia.negative == rows_ - condensed ? Outcome::kRight : Outcome::kWrongInertia;
 }
 
-void KktSystem::AssignReduced() {
-  double* value = reduced_values_.data();
-  for (const int e : reduced_source_) *value++ = matrix_.values()[e];
+double KktSystem::Product(size_t condensed, const VectorX& x) const {
   const double* derivative = jacobian();
-  has_large_weights_ = false;
-  for (Condensed& row : condensed_) {
-    double largest = 0;
-    for (const int e : row.entries) largest = std::max(largest, std::abs(derivative[e]));
-    const double least = kLeastCompliance * largest * largest, own = -values_(dual_start_ + row.row);
-    has_large_weights_ |= own < least;
-    row.compliance = bounds_weights_ ? std::max(least, own) : own;
-    const double weight = 1 / row.compliance;
-    for (size_t i = 0; i < row.entries.size(); ++i) {
-      const double scaled = weight * derivative[row.entries[i]];
-      for (size_t j = 0; j <= i; ++j) *value++ = scaled * derivative[row.entries[j]];
-    }
+  double sum = 0;
+  for (int i = condensed_terms_.first[condensed]; i < condensed_terms_.first[condensed + 1]; ++i) {
+    sum += derivative[condensed_terms_.values[i]] * x(condensed_terms_.unknowns[i]);
+  }
+  return sum;
+}
+
+void KktSystem::AddTransposed(size_t condensed, double factor, VectorX* x) const {
+  const double* derivative = jacobian();
+  for (int i = condensed_terms_.first[condensed]; i < condensed_terms_.first[condensed + 1]; ++i) {
+    (*x)(condensed_terms_.unknowns[i]) += derivative[condensed_terms_.values[i]] * factor;
+  }
+}
+
+// y = the whole matrix times x.
+void KktSystem::Multiply(const VectorX& x, VectorX* y) const {
+  matrix_.Multiply(x.data(), y->data());
+  for (size_t k = 0; k < condensed_.size(); ++k) {
+    const int place = kept() + static_cast<int>(k);
+    (*y)(place) = Product(k, x) - condensed_[k].own * x(place);
+    AddTransposed(k, x(place), y);
   }
 }
 
 // Solves the whole system with the factors of the reduced one.
 void KktSystem::SolveReduced(const VectorX& right, VectorX* solution) {
-  const double* derivative = jacobian();
-  for (int i = 0; i < variables_ + rows_; ++i) {
-    if (place_[i] >= 0) reduced_(place_[i]) = right(i);
+  solution->head(kept()) = right.head(kept());
+  for (size_t k = 0; k < condensed_.size(); ++k) {
+    AddTransposed(k, right(kept() + static_cast<int>(k)) / condensed_[k].compliance, solution);
   }
-  for (const Condensed& row : condensed_) {
-    const double share = right(variables_ + row.row) / row.compliance;
-    for (const int e : row.entries) reduced_(jacobian_pattern_.columns[e]) += derivative[e] * share;
-  }
-  factors_.Solve(reduced_.data());
-  for (int i = 0; i < variables_ + rows_; ++i) {
-    if (place_[i] >= 0) (*solution)(i) = reduced_(place_[i]);
-  }
-  for (const Condensed& row : condensed_) {
-    double sum = -right(variables_ + row.row);
-    for (const int e : row.entries) sum += derivative[e] * reduced_(jacobian_pattern_.columns[e]);
-    (*solution)(variables_ + row.row) = sum / row.compliance;
+  factors_.Solve(solution->data());
+  for (size_t k = 0; k < condensed_.size(); ++k) {
+    const int place = kept() + static_cast<int>(k);
+    (*solution)(place) = (Product(k, *solution) - right(place)) / condensed_[k].compliance;
   }
 }
 
@@ -188,16 +186,13 @@ bool KktSystem::BoundWeights() { return has_large_weights_ && !std::exchange(bou
 bool KktSystem::TryHarder() { return threshold_ > factored_threshold_ || BoundWeights(); }
 
 bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v) {
-  right_.head(variables_) = a;
-  right_.tail(rows_) = b;
-  for (int i = 0; i < variables_; ++i) {
-    if (fixed_[i] != 0) right_(i) = 0;
-  }
+  for (int i = 0; i < variables_; ++i) right_(place_[i]) = fixed_[i] != 0 ? 0 : a(i);
+  for (int r = 0; r < rows_; ++r) right_(place_[variables_ + r]) = b(r);
   const double size = right_.lpNorm<Eigen::Infinity>();
   SolveReduced(right_, &solution_);
   double error = 0, last_error = kInfinity;
   for (int trial = 0; trial <= kMostRefinements; ++trial) {
-    matrix_.Multiply(solution_, &residual_);
+    Multiply(solution_, &residual_);
     residual_ = right_ - residual_;
     const double scale = std::min(solution_.lpNorm<Eigen::Infinity>(), 1e6 * size) + size;
     error = scale > 0 ? residual_.lpNorm<Eigen::Infinity>() / scale : 0;
@@ -206,8 +201,10 @@ bool KktSystem::Solve(const VectorX& a, const VectorX& b, VectorX* u, VectorX* v
     SolveReduced(residual_, &correction_);
     solution_ += correction_;
   }
-  *u = solution_.head(variables_);
-  *v = solution_.tail(rows_);
+  u->resize(variables_);
+  v->resize(rows_);
+  for (int i = 0; i < variables_; ++i) (*u)(i) = solution_(place_[i]);
+  for (int r = 0; r < rows_; ++r) (*v)(r) = solution_(place_[variables_ + r]);
   if (error > fine_residual_) threshold_ = std::min(kLargestThreshold, 10 * threshold_);
   return solution_.allFinite() && error <= kPoorResidual;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/nlp/frontal_ldlt.h"
+#include "core/nlp/outer_products.h"
 #include "core/nlp/symmetric_matrix.h"
 
 namespace rollgait {
@@ -23,10 +24,13 @@ class KktSystem {
   KktSystem(const NlpProblem& problem, std::vector<char> fixed, const std::vector<int>& slack_rows,
             double fine_residual);
 
-  // Where the values of H and J go, in the order of the problem's patterns; kept from one factorisation to the next.
+  // Where the values of H and J go, in the order of the problem's patterns. TakeDerivatives is called when they are
+  // there.
   double* hessian() { return values_.data(); }
   double* jacobian() { return values_.data() + jacobian_start_; }
   const double* jacobian() const { return values_.data() + jacobian_start_; }
+
+  void TakeDerivatives();
 
   enum class Outcome { kRight, kWrongInertia, kSingular };
   // Factors the matrix. kRight: it has as many positive eigenvalues as unknowns and as many negative ones as rows.
@@ -54,38 +58,43 @@ class KktSystem {
   void set_threshold(double threshold) { threshold_ = threshold; }
 
  private:
-  // A row with a slack.
+  // A row with a slack; its entries are those of the same term of condensed_terms_.
   struct Condensed {
-    int row = 0;
-    std::vector<int> entries;  // of the Jacobian, that are not of fixed variables
-    double compliance = 0;     // d in the factors
+    explicit Condensed(int slack_row) : row(slack_row) {}
+    int row;
+    double own = 1;         // d
+    double compliance = 1;  // d in the factors
   };
 
-  static SparsityPattern MakePattern(const NlpProblem& problem);
-  std::vector<Condensed> FindCondensed(const std::vector<int>& slack_rows) const;
-  std::vector<int> PlacesWithout(const std::vector<Condensed>& condensed) const;
-  FrontalLdlt MakeFactors(const NlpProblem& problem);
+  std::vector<int> Places(const NlpProblem& problem) const;
+  OuterProducts CondensedTerms() const;
+  SparsityPattern MatrixPattern(const NlpProblem& problem) const;
+  std::vector<int> GroupsByPlace(const NlpProblem& problem) const;
+  int kept() const { return variables_ + rows_ - static_cast<int>(condensed_.size()); }
   Outcome FactoriseReduced();
-  void AssignReduced();
   bool BoundWeights();  // from now on; false if that changes nothing
+  // The product of the entries of a condensed row and x, by places.
+  double Product(size_t condensed, const VectorX& x) const;
+  void AddTransposed(size_t condensed, double factor, VectorX* x) const;
+  void Multiply(const VectorX& x, VectorX* y) const;
   void SolveReduced(const VectorX& right, VectorX* solution);
 
   int variables_, rows_;
   const SparsityPattern& jacobian_pattern_;
-  int jacobian_start_, primal_start_, dual_start_;
+  int jacobian_start_;
   std::vector<char> fixed_;
-  VectorX values_;                  // of H, of J and of the two diagonals
-  SymmetricMatrix matrix_;          // the same without what is fixed
-  std::vector<int> fixed_entries_;  // of the matrix, with a fixed variable
+  VectorX values_;  // of H and of J
+  std::vector<Condensed> condensed_;
+  // Where a variable and a row are in the vectors below: first what is factored, by elimination groups, then the
+  // condensed rows.
+  std::vector<int> place_;
+  OuterProducts condensed_terms_;  // unknowns by place, values by entry of the Jacobian
+  SymmetricMatrix matrix_;         // what is factored, without the products of the condensed rows
+  FrontalLdlt factors_;
   double fine_residual_, threshold_, factored_threshold_ = 0;
   bool bounds_weights_ = false, has_large_weights_ = false;  // of condensed rows
-  std::vector<Condensed> condensed_;
-  std::vector<int> place_;           // of an unknown among those that are factored; -1: condensed
-  std::vector<int> reduced_source_;  // entries of the matrix that are factored as they are
-  VectorX reduced_values_;           // those, then the products of the condensed rows
-  VectorX reduced_;                  // right-hand side and solution of what is factored
-  FrontalLdlt factors_;
-  VectorX right_, solution_, residual_, correction_;
+  VectorX weights_;                                          // of condensed rows, in the factors
+  VectorX right_, solution_, residual_, correction_;         // by place
 };
 
 }  // namespace rollgait

@@ -54,6 +54,7 @@ void NewtonSystem::SetElastic(const VectorX* curvature, const VectorX* complianc
 bool NewtonSystem::LeastSquaresMultipliers(const VectorX& objective_gradient, Multipliers* multipliers) {
   const int n = barrier_.variables();
   Eigen::Map<VectorX>(kkt_.hessian(), barrier_.problem().hessian_pattern().size()).setZero();
+  kkt_.TakeDerivatives();
   primal_diagonal_.setOnes();
   dual_diagonal_.setZero();
   b_.setZero();
@@ -149,6 +150,7 @@ bool NewtonSystem::Compute(const BarrierProblem::Point& point, const Multipliers
     if (barrier_.has_lower(i)) sigma_(i) += multipliers.lower(i) / (point.w(i) - barrier_.lower(i));
     if (barrier_.has_upper(i)) sigma_(i) += multipliers.upper(i) / (barrier_.upper(i) - point.w(i));
   }
+  kkt_.TakeDerivatives();
   kkt_.TrustFactors();
   do {
     if (!Factorise(mu)) return false;

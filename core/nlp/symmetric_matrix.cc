@@ -2,57 +2,60 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace rollgait {
-namespace {
-
-// Entries in the order of their keys, 0 to size − 1; equal ones stay in turn.
-template <typename Key>
-std::vector<int> SortedBy(const Key& key, int size, const std::vector<int>& entries) {
-  std::vector<int> next(size + 1, 0), sorted(entries.size());
-  for (const int e : entries) ++next[key(e) + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (const int e : entries) sorted[next[key(e)]++] = e;
-  return sorted;
-}
-
-}  // namespace
 
 SymmetricMatrix::SymmetricMatrix(int size, const SparsityPattern& pattern)
-    : size_(size), place_(pattern.size()), source_(pattern.size()), values_(VectorX::Zero(pattern.size())) {
+    : size_(size), first_(size + 1, 0), below_(size, 0) {
   const auto column_of = [&pattern](int e) { return std::min(pattern.rows[e], pattern.columns[e]); };
   const auto row_of = [&pattern](int e) { return std::max(pattern.rows[e], pattern.columns[e]); };
-  std::iota(source_.begin(), source_.end(), 0);
-  source_ = SortedBy(row_of, size, source_);
-  source_ = SortedBy(column_of, size, source_);
-  first_.assign(size + 1, 0);
-  below_.assign(size, 0);
-  pattern_.rows.reserve(pattern.size());
-  pattern_.columns.reserve(pattern.size());
-  for (int k = 0; k < pattern.size(); ++k) {
-    const int e = source_[k], column = column_of(e), row = row_of(e);
-    place_[e] = k;
+  // By columns first; those of one column are few, and lie close together in the pattern.
+  std::vector<int> next(size + 1, 0);
+  for (int e = 0; e < pattern.size(); ++e) {
+    if (column_of(e) >= 0) ++next[column_of(e) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<int> entries(next[size]);
+  for (int e = 0; e < pattern.size(); ++e) {
+    if (column_of(e) >= 0) entries[next[column_of(e)]++] = e;
+  }
+  const size_t count = entries.size() + size;
+  source_.reserve(count);
+  pattern_.rows.reserve(count);
+  pattern_.columns.reserve(count);
+  const auto add = [this](int source, int row, int column) {
+    source_.push_back(source);
     pattern_.Add(row, column);
-    ++first_[column + 1];
-    if (row == column) ++below_[column];
-  }
+  };
+  const auto earlier_row = [&](int a, int b) { return std::pair(row_of(a), a) < std::pair(row_of(b), b); };
+  auto entry = entries.begin();
   for (int j = 0; j < size; ++j) {
-    first_[j + 1] += first_[j];
-    below_[j] += first_[j];
+    const auto end = entries.begin() + next[j];  // the first of column j + 1
+    std::sort(entry, end, earlier_row);
+    first_[j] = pattern_.size();
+    add(-1, j, j);
+    for (; entry != end && row_of(*entry) == j; ++entry) add(*entry, j, j);
+    below_[j] = pattern_.size();
+    for (; entry != end; ++entry) add(*entry, row_of(*entry), j);
   }
+  first_[size] = pattern_.size();
+  values_ = VectorX::Zero(pattern_.size());
 }
 
 void SymmetricMatrix::Assign(const double* values) {
-  for (size_t k = 0; k < source_.size(); ++k) values_[static_cast<int>(k)] = values[source_[k]];
+  for (int j = 0; j < size_; ++j) {
+    for (int k = first_[j] + 1; k < first_[j + 1]; ++k) values_[k] = values[source_[k]];
+  }
 }
 
-void SymmetricMatrix::Multiply(const VectorX& x, VectorX* y) const {
+void SymmetricMatrix::Multiply(const double* x, double* y) const {
   const double* __restrict value = values_.data();
-  const double* __restrict in = x.data();
-  double* __restrict out = y->data();
+  const double* __restrict in = x;
+  double* __restrict out = y;
   const int* row = pattern_.rows.data();
-  y->setZero();
+  std::fill(y, y + size_, 0.0);
   for (int j = 0; j < size_; ++j) {
     const double factor = in[j];
     double sum = 0;

@@ -130,6 +130,42 @@ TEST(FrontalLdlt, AnyGroupingIsRight) {
 
 // Sparse enough that the children of a front reach differently far, and none of them everywhere; what an earlier
 // factorisation has left in the fronts must not show.
+// Terms w a aᵀ whose unknowns are of one group or of several, of weights that are far apart.
+TEST(FrontalLdlt, TakesOuterProducts) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    Sample sample = Chain(5, 4, 3, 3, static_cast<unsigned>(trial));
+    if (trial % 2 == 1) {
+      for (int& group : sample.groups) group = static_cast<int>(random() % 6);
+    }
+    OuterProducts products;
+    std::vector<double> vectors, weights;
+    for (int k = 0; k < 12; ++k) {
+      const int first = static_cast<int>(random() % static_cast<unsigned>(sample.size() - 20));
+      VectorX a = VectorX::Zero(sample.size());
+      const int entries = k % 5;  // none, too
+      for (int i = 0; i < entries; ++i) {
+        const int unknown = first + 4 * ((3 * i) % 5);
+        products.Add(unknown, static_cast<int>(vectors.size()));
+        vectors.push_back(uniform(random));
+        a(unknown) = vectors.back();
+      }
+      products.EndTerm();
+      weights.push_back(std::pow(10.0, 2 * uniform(random)));
+      sample.dense += weights.back() * a * a.transpose();
+    }
+    FrontalLdlt factors(sample.size(), sample.pattern, sample.groups, products);
+    for (int repetition = 0; repetition < 2; ++repetition) {
+      const auto inertia = factors.Factorise(sample.values.data(), 0.1, {vectors.data(), weights.data()});
+      const auto expected = EigenInertia(sample.dense);
+      EXPECT_EQ(inertia.negative, expected.negative) << trial;
+      EXPECT_EQ(inertia.positive, expected.positive) << trial;
+      EXPECT_LT(BackwardError(sample, &factors), 1e-13) << trial;
+    }
+  }
+}
+
 TEST(FrontalLdlt, ForgetsEarlierValues) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -21,6 +21,7 @@ class KktSystemTest : public ::testing::Test {
     const Eigen::Vector4d x(1.5, 4, 3, 2);
     const Eigen::Vector2d multipliers(0.7, -0.3);
     ASSERT_TRUE(problem_.Derivatives(x.data(), 1, multipliers.data(), kkt_->jacobian(), kkt_->hessian()));
+    kkt_->TakeDerivatives();
     dense_ = MatrixX::Zero(6, 6);
     const SparsityPattern &hessian = problem_.hessian_pattern(), &jacobian = problem_.jacobian_pattern();
     for (int e = 0; e < hessian.size(); ++e) {
