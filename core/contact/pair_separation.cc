@@ -92,17 +92,22 @@ class NewtonOnTheSphere {
   // Rounding of g and of the points, m.
   double Noise(const Separation& at) const { return kEpsilon * (offset_.norm() + at.r_1.norm() + at.r_2.norm()); }
 
-  // Near a flat face S can be so large that rounding of ν seems to explain any slope. Moves by a few roundings of ν and
-  // returns true if the slope is still there.
+  // Near a flat face S can be so large that rounding of ν seems to explain any slope. Such a slope turns round within a
+  // few roundings of ν: moves by as much along the components where it does not, and returns true if there is one.
   bool Probe(const Newton& newton, Separation* at) const {
-    const Eigen::Vector2d step =
-        (newton.slope.array().abs() > 2 * Noise(*at)).select(8 * kEpsilon * newton.slope.array().sign(), 0.0);
-    if (step.isZero(0)) return false;
-    Separation next = *at;
-    Evaluate((at->nu + newton.basis * step).normalized(), &next);
-    if (!(step.dot(Slope(next, newton.basis)) > 0.5 * step.dot(newton.slope))) return false;
-    *at = next;
-    return true;
+    const Eigen::Array2d sign = newton.slope.array().sign();
+    Eigen::Vector2d step = (newton.slope.array().abs() > 2 * Noise(*at)).select(8 * kEpsilon * sign, 0.0);
+    while (!step.isZero(0)) {
+      Separation next = *at;
+      Evaluate((at->nu + newton.basis * step).normalized(), &next);
+      const Eigen::Vector2d rest = (Slope(next, newton.basis).array() * sign > 0).select(step, 0.0);
+      if (rest == step) {
+        *at = next;
+        return true;
+      }
+      step = rest;
+    }
+    return false;
   }
 
   // Shortens the step until g grows by a part of what the slope promises (below rounding any step will do). With
@@ -126,12 +131,29 @@ class NewtonOnTheSphere {
         shortened = true;
       }
       if (!shortened && (grows || by_rounding)) {
-        *at = next;
+        *at = step == newton.step ? Lengthened(newton, at->nu, step, next) : next;
         return true;
       }
       if (!shortened) step /= 2;
     }
     return false;
+  }
+
+  // Where Newton's step from nu ends, at `next`, the slope should have vanished. A component that keeps more than half
+  // of it there doubles for as long as it does and g grows: at the tip of a pointed surface the curvature is large,
+  // over less than a step, and Newton's steps would creep.
+  Separation Lengthened(const Newton& newton, const Vector3& nu, Eigen::Vector2d step, Separation next) const {
+    const Eigen::Array2d sign = newton.slope.array().sign(), before = newton.slope.array().abs();
+    while (true) {
+      const Eigen::Array2d slope = Slope(next, newton.basis).array() * sign;
+      const Eigen::Vector2d longer = (slope > 0.5 * before).select(2 * step, step);
+      if (longer == step || longer.norm() > kLargestStep) return next;
+      Separation further = next;
+      Evaluate((nu + newton.basis * longer).normalized(), &further);
+      if (!(further.distance > next.distance + 8 * Noise(next))) return next;
+      step = longer;
+      next = further;
+    }
   }
 
   const PosedSurface& body_1_;

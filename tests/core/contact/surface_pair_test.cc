@@ -113,7 +113,8 @@ TEST(SurfacePairTest, AgreesWithRandomSearch) {
 
 TEST(SurfacePairTest, BoxesConvergeFaceToFaceAndCornerToFace) {
   ExtremeContacts extremes(203);
-  for (int i = 0; i < 2000; ++i) {
+  int most = 0;
+  for (int i = 0; i < 10000; ++i) {
     Two bodies;
     const double e[] = {0.05, 0.1, 0.3, 0.6, 1.0, 1.5, 1.95};
     bodies.surface_1 = Superellipsoid(extremes.random().Vector(0.2, 1), e[i % 7], e[i / 7 % 7]);
@@ -124,12 +125,14 @@ TEST(SurfacePairTest, BoxesConvergeFaceToFaceAndCornerToFace) {
     bodies.p_2 = i % 3 == 1 ? Vector3(4 * bodies.R_1.col(i % 3)) : Vector3(4 * extremes.random().Unit());
     const Separation at = FindSeparation(bodies.one(), bodies.two(), nullptr);
     EXPECT_TRUE(at.converged) << i << " after " << at.iterations;
+    most = std::max(most, at.iterations);
     EXPECT_EQ(at.state, State::kSeparated);
     for (int n = 0; n < 50; ++n) {
       const Vector3 other = (at.nu + extremes.Scaled(extremes.random().Unit(), 1e-6, 1)).normalized();
       EXPECT_LE(G(bodies.one(), bodies.two(), other) - at.distance, 1e-13) << i << " " << at.iterations;
     }
   }
+  EXPECT_LE(most, 200) << "half of what it may take; 103 in 400 000 other pairs";
 }
 
 // 1e-12 of their size apart, touching within rounding, and as much inside each other: the distance passes through zero.

@@ -29,8 +29,11 @@ SimulationScene SpinningEllipsoid(unsigned seed, double fastest) {
   body.inertia = Vector3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y()).asDiagonal();
   body.inertia /= 5;
   body.center_of_mass = random.Vector(-0.02, 0.02);
-  body.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(random.Uniform(0, 3), random.Unit()));
-  body.omega_body = random.Uniform(0.1, 1) * fastest * random.Unit();
+  // Draws in one order for every compiler.
+  const Vector3 axis = random.Unit();
+  body.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(random.Uniform(0, 3), axis));
+  const Vector3 direction = random.Unit();
+  body.omega_body = random.Uniform(0.1, 1) * fastest * direction;
   SimulationScene scene = SceneOf(body);
   scene.options.duration = 1;
   scene.options.output_step = 0.005;
