@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -92,22 +93,44 @@ class NewtonOnTheSphere {
   // Rounding of g and of the points, m.
   double Noise(const Separation& at) const { return kEpsilon * (offset_.norm() + at.r_1.norm() + at.r_2.norm()); }
 
-  // Near a flat face S can be so large that rounding of ν seems to explain any slope. Such a slope turns round within a
-  // few roundings of ν: moves by as much along the components where it does not, and returns true if there is one.
+  // Near a flat face S can be so large that rounding of ν seems to explain any slope, and at a bend within a few
+  // roundings of ν there is no one slope. Moves by as much along the shortest vector in the hull of the slopes that it
+  // has found, and returns true if the slope does not turn round there; false if the hull reaches the origin, as it
+  // does at a maximum of a concave function.
   bool Probe(const Newton& newton, Separation* at) const {
-    const Eigen::Array2d sign = newton.slope.array().sign();
-    Eigen::Vector2d step = (newton.slope.array().abs() > 2 * Noise(*at)).select(8 * kEpsilon * sign, 0.0);
-    while (!step.isZero(0)) {
+    const double noise = 2 * Noise(*at);
+    std::array<Eigen::Vector2d, 8> slopes;
+    slopes[0] = (newton.slope.array().abs() > noise).select(newton.slope, 0.0);
+    for (size_t count = 1; count < slopes.size(); ++count) {
+      const Eigen::Vector2d up = ShortestInHull(slopes, count);
+      if (up.norm() <= noise) return false;
       Separation next = *at;
-      Evaluate((at->nu + newton.basis * step).normalized(), &next);
-      const Eigen::Vector2d rest = (Slope(next, newton.basis).array() * sign > 0).select(step, 0.0);
-      if (rest == step) {
+      Evaluate((at->nu + newton.basis * (8 * kEpsilon * up.normalized())).normalized(), &next);
+      slopes[count] = Slope(next, newton.basis);
+      if (slopes[count].dot(up) > 0) {
         *at = next;
         return true;
       }
-      step = rest;
     }
     return false;
+  }
+
+  // Of the convex hull of the first `count` vectors; zero if it holds the origin. O(count²).
+  static Eigen::Vector2d ShortestInHull(const std::array<Eigen::Vector2d, 8>& vectors, size_t count) {
+    Eigen::Vector2d shortest = vectors[0];
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        const Eigen::Vector2d edge = vectors[i] - vectors[j];
+        const double part = edge.isZero(0) ? 0 : std::clamp(-vectors[j].dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+        const Eigen::Vector2d nearest = vectors[j] + part * edge;
+        if (nearest.squaredNorm() < shortest.squaredNorm()) shortest = nearest;
+      }
+    }
+    // All vectors lie beyond it as seen from the origin, unless they surround that.
+    for (size_t i = 0; i < count; ++i) {
+      if (vectors[i].dot(shortest) <= 0) return Eigen::Vector2d::Zero();
+    }
+    return shortest;
   }
 
   // Shortens the step until g grows by a part of what the slope promises (below rounding any step will do). With
@@ -140,8 +163,8 @@ class NewtonOnTheSphere {
   }
 
   // Where Newton's step from nu ends, at `next`, the slope should have vanished. A component that keeps more than half
-  // of it there doubles for as long as it does and g grows: at the tip of a pointed surface the curvature is large,
-  // over less than a step, and Newton's steps would creep.
+  // of it there doubles for as long as it does and g grows by more than its rounding: at the tip of a pointed surface
+  // the curvature is large, over less than a step, and Newton's steps would creep.
   Separation Lengthened(const Newton& newton, const Vector3& nu, Eigen::Vector2d step, Separation next) const {
     const Eigen::Array2d sign = newton.slope.array().sign(), before = newton.slope.array().abs();
     while (true) {

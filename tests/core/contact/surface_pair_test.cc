@@ -119,6 +119,10 @@ TEST(SurfacePairTest, BoxesConvergeFaceToFaceAndCornerToFace) {
     const double e[] = {0.05, 0.1, 0.3, 0.6, 1.0, 1.5, 1.95};
     bodies.surface_1 = Superellipsoid(extremes.random().Vector(0.2, 1), e[i % 7], e[i / 7 % 7]);
     bodies.surface_2 = Superellipsoid(extremes.random().Vector(0.2, 1), e[i / 3 % 7], e[i / 5 % 7]);
+    if (i % 5 == 4) {
+      bodies.surface_1 = bodies.surface_1.Rounded(extremes.random().LogUniform(1e-3, 1));
+      bodies.surface_2 = bodies.surface_2.Rounded(extremes.random().LogUniform(1e-3, 1));
+    }
     bodies.R_1 = extremes.Rotation();
     bodies.R_2 = i % 3 == 0 ? bodies.R_1 : extremes.Rotation();
     bodies.p_1.setZero();
