@@ -1,5 +1,6 @@
 // Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.
-//   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [--iterations] [CASE...]
+//   one_sided [--model human29] [--preset human] [--draft | --fine] [--slope 0] [--right] [--iterations]
+//             [CASE...]
 //   one_sided --help   the cases and what they change
 
 #include <algorithm>
@@ -22,32 +23,34 @@ constexpr double kDegree = std::numbers::pi / 180;
 struct Subject {
   const char* name;
   const char* what;
-  void (*change)(GaitRequest* request);
+  void (*change)(GaitRequest* request, const std::string& side);  // side: "_l" or "_r"
 };
 
 // A prosthetic foot of one ankle: a spring of 6 N m a degree with some damping in place of muscles, no inversion, and a
 // foot that is a tenth shorter.
-void PutProsthesis(GaitRequest* request) {
-  request->body.changes.strengths["ankle_l"] = 0;
-  request->body.changes.springs["ankle_l"] = {.stiffness = 6 / kDegree, .rest = 0, .damping = 2};
-  if (request->body.model == "human29") request->body.locked_joints["ankle_inversion_l"] = 0;
-  request->body.segment_lengths["foot_l"] = 0.245;
+void PutProsthesis(GaitRequest* request, const std::string& side) {
+  request->body.changes.strengths["ankle" + side] = 0;
+  request->body.changes.springs["ankle" + side] = {.stiffness = 6 / kDegree, .rest = 0, .damping = 2};
+  if (request->body.model == "human29") request->body.locked_joints["ankle_inversion" + side] = 0;
+  request->body.segment_lengths["foot" + side] = 0.245;
 }
 
 constexpr Subject kSubjects[] = {
-    {"half", "the body as it is, half cycle", [](GaitRequest* request) { request->cycle = Cycle::kHalf; }},
-    {"full", "the body as it is, full cycle", [](GaitRequest* request) { request->cycle = Cycle::kFull; }},
-    {"locked-ankle", "left ankle fixed at 0 degrees",
-     [](GaitRequest* request) { request->body.locked_joints["ankle_l"] = 0; }},
-    {"short-thigh", "left thigh of 0.402 m",
-     [](GaitRequest* request) { request->body.segment_lengths["thigh_l"] = 0.402; }},
-    {"load", "10 kg in the left hand",
-     [](GaitRequest* request) {
-       request->body.changes.loads.push_back({.segment = "hand_l", .mass = 10, .position = {}});
+    {"half", "the body as it is, half cycle",
+     [](GaitRequest* request, const std::string&) { request->cycle = Cycle::kHalf; }},
+    {"full", "the body as it is, full cycle",
+     [](GaitRequest* request, const std::string&) { request->cycle = Cycle::kFull; }},
+    {"locked-ankle", "an ankle fixed at 0 degrees",
+     [](GaitRequest* request, const std::string& side) { request->body.locked_joints["ankle" + side] = 0; }},
+    {"short-thigh", "a thigh of 0.402 m",
+     [](GaitRequest* request, const std::string& side) { request->body.segment_lengths["thigh" + side] = 0.402; }},
+    {"load", "10 kg in a hand",
+     [](GaitRequest* request, const std::string& side) {
+       request->body.changes.loads.push_back({.segment = "hand" + side, .mass = 10, .position = {}});
      }},
-    {"weak-knee", "left knee with 0.3 of its strength",
-     [](GaitRequest* request) { request->body.changes.strengths["knee_l"] = 0.3; }},
-    {"prosthesis", "left ankle a spring of 6 N m/deg without muscles, left foot of 0.245 m", PutProsthesis},
+    {"weak-knee", "a knee with 0.3 of its strength",
+     [](GaitRequest* request, const std::string& side) { request->body.changes.strengths["knee" + side] = 0.3; }},
+    {"prosthesis", "an ankle that is a spring of 6 N m/deg without muscles, its foot of 0.245 m", PutProsthesis},
 };
 
 void Print(const Subject& subject, const GaitSpec& spec, const MeasuredSolve& measured) {
@@ -86,8 +89,8 @@ int Help() {
   std::printf(
       "Gaits of bodies whose left and right differ, cold: verdict, CPU time and what the two sides do.\n"
       "  one_sided [--model human29] [--preset human|transport|torque] [--draft | --fine] [--slope DEGREES] "
-      "[--iterations] [CASE...]\n"
-      "Cases, all of them by default:\n");
+      "[--right] [--iterations] [CASE...]\n"
+      "Cases, all of them by default, of the left side, or of the right one:\n");
   for (const Subject& subject : kSubjects) std::printf("  %-13s %s\n", subject.name, subject.what);
   return 0;
 }
@@ -103,6 +106,7 @@ int Main(int argc, char** argv) {
   request.preset = Preset::kHuman;
   request.motion.speed = 1.3;
   std::vector<std::string> chosen;
+  std::string side = "_l";
   SolveControl control;
   ProgramTally tally;
   for (int i = 1; i < argc; ++i) {
@@ -113,6 +117,8 @@ int Main(int argc, char** argv) {
       request.accuracy.level = GaitRequest::AccuracyLevel::kFine;
     } else if (flag == "--draft") {
       request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+    } else if (flag == "--right") {
+      side = "_r";
     } else if (flag == "--iterations") {
       control.observer = PrintIteration;
     } else if (flag == "--model" && i + 1 < argc) {
@@ -137,7 +143,7 @@ int Main(int argc, char** argv) {
     for (const std::string& name : chosen) wanted = wanted || name == subject.name;
     if (!wanted) continue;
     GaitRequest of_subject = request;
-    subject.change(&of_subject);
+    subject.change(&of_subject, side);
     const Result<GaitSpec> spec = CheckRequest(of_subject);
     if (!spec.ok()) {
       std::printf("%-13s refused: %s %s\n", subject.name, spec.violations()[0].field.c_str(),

@@ -9,7 +9,8 @@
 namespace rollgait {
 
 // What a mirror in the plane y = 0 shows of a full cycle of four phases, begun half a cycle later, so that its first
-// step is made with the same foot as the spec's. `spec` is the request of the mirrored body. Planar models.
+// step is made with the same foot as the spec's. `spec` is the request of the mirrored body; which joints are
+// images of each other the body knows that its sides differ from (GaitSpec::symmetric). Planar models.
 inline Trajectory MirroredWalk(const Trajectory& walk, const GaitSpec& spec) {
   const Model& model = spec.symmetric->scene.model;
   Trajectory image = walk;
