@@ -39,7 +39,7 @@ struct Settings {
 //    within 900 with 1e-3. With powers μ = 1e-6: the multipliers are those of the last μ, and a larger one has to come
 //    down again, which takes a quarter of the iterations where few intervals are new. Where no interval is shorter than
 //    before, the solution is closest of all.
-//  * Steps from a start that is close to a solution are refined to kResidual, a third of what NewtonSystem takes as a
+//  * Steps from a start that is close to a solution are refined to kResidual, a third of what KktSystem takes as a
 //    solution at all; 55 requests of bench/one_sided and success_rate take 274 700 solutions (weighted by unknowns)
 //    where 1e-8 takes 353 800, and no more iterations (133 500, 137 200). With 1e-4 one request comes to no end.
 constexpr double kResidual = 3e-7;
