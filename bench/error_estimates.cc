@@ -96,7 +96,7 @@ std::optional<Truth> FindTruth(const GaitSpec& spec, const GaitSolution& answer,
     last = SolveFromCoarser(reference, *problem, start, mesh, &budget);
     truth.objectives.push_back(last.objective);
     if (Converged(last.termination) && last.trajectory) return true;
-    const MeshStatistics& mesh_of_it = last.meshes.back();
+    const MeshStatistics& mesh_of_it = budget.log().back();
     *why = std::string(name) + ", " + std::to_string(mesh_of_it.iterations) + " iterations, KKT error " +
            FormatNumber(mesh_of_it.kkt_error) + ": " + last.message;
     return false;

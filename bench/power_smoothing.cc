@@ -54,7 +54,9 @@ int Main(int argc, char** argv) {
     SolveBudget budget(spec, control);
     const MeasuredSolve at_once = Measure([&] {
       const auto problem = BuildProblem(spec);
-      return SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), &budget);
+      GaitSolution solution = SolveOnMeshes(spec, *problem, WalkingGuess(spec, *problem), RequestedMesh(spec), &budget);
+      solution.meshes = budget.log();
+      return solution;
     });
     std::printf("%8g | %5d %6.2f %9.4f %8.3f |", smoothing, run.iterations, run.cpu, run.solution.objective,
                 run.solution.step_length);

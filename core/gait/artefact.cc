@@ -22,7 +22,7 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
 
 // A coarse mesh may slip at half the speed and still lead to a motion that does not.
-bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
+bool IsBeyondRefinement(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }
 
 void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution) {
   solution->termination = Termination::kNumericalDifficulty;

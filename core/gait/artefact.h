@@ -9,8 +9,8 @@ namespace rollgait {
 // that exists on its mesh only.
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
-// True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion.
-bool LeadsAstray(const GaitSpec& spec, const GaitSolution& solution);
+// True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion of the body.
+bool IsBeyondRefinement(const GaitSpec& spec, const GaitSolution& solution);
 
 // What converged on every mesh is no motion of the body: says so, and where.
 void RefuseArtefact(const GaitSpec& spec, GaitSolution* solution);

@@ -27,10 +27,8 @@ FinerSolution AsFiner(const GaitSolution& solution) {
 GaitSolution SolveHalved(const GaitSpec& spec, const GaitSolution& solution, SolveBudget* budget) {
   GaitSpec finer = spec;
   if (!spec.max_error) LeaveTheRest(&finer);
-  GaitSolution halved = SolveFromCoarser(finer, *BuildProblem(finer), StartFrom(finer, solution),
-                                         Halved(MeshOf(*solution.trajectory)), budget);
-  for (MeshStatistics& mesh : halved.meshes) mesh.for_errors = true;
-  return halved;
+  return SolveFromCoarser(finer, *BuildProblem(finer), StartFrom(finer, solution), Halved(MeshOf(*solution.trajectory)),
+                          budget);
 }
 
 }  // namespace
@@ -82,12 +80,12 @@ GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBu
       solution.message += " The errors are not estimated: the time or the iterations are used up.";
       return solution;
     }
+    const size_t first = budget->log().size();
     GaitSolution halved = SolveHalved(spec, solution, budget);
-    PutBefore(solution.meshes, &halved);
+    budget->MarkForErrors(first, true);
     solution.wall_time = halved.wall_time;
     const bool is_solved = Converged(halved.termination) && halved.trajectory.has_value();
     if (!is_solved) {
-      solution.meshes = std::move(halved.meshes);
       if (halved.termination == Termination::kCancelled) solution.termination = Termination::kCancelled;
       solution.message += " The errors are not estimated: on the finer mesh, " + halved.message;
       return solution;
@@ -95,24 +93,19 @@ GaitSolution SolveForErrors(const GaitSpec& spec, GaitSolution solution, SolveBu
     solution.finer = AsFiner(halved);
     budget->Offer(spec, solution);
     if (!spec.max_error || WorstShareOf(*spec.max_error, EstimateErrors(spec.scene, solution, *solution.finer)) <= 1) {
-      solution.meshes = std::move(halved.meshes);
       return solution;
     }
     if (solution.within_requested_accuracy() && halved.verdict.kind == Verdict::Kind::kExceeded) {
-      solution.meshes = std::move(halved.meshes);
       solution.message += " A finer mesh brings smaller errors, but does not keep every bound.";
       return solution;
     }
     // The finer solution is the next answer; its programs were no mere estimate.
-    for (MeshStatistics& mesh : halved.meshes) mesh.for_errors = false;
+    budget->MarkForErrors(first, false);
     halved.note = std::move(solution.note);
     halved.warm_started = solution.warm_started;
     halved.used_multipliers = solution.used_multipliers;
-    if (!budget->Left()) {
-      // Its own errors cannot be told any more; those of the coarser one can.
-      solution.meshes = std::move(halved.meshes);
-      return solution;
-    }
+    // Without budget its own errors cannot be told any more; those of the coarser one can.
+    if (!budget->Left()) return solution;
     solution = std::move(halved);
   }
 }

@@ -18,14 +18,9 @@
 #include "core/transcription/collocation_nlp.h"
 
 namespace rollgait {
-
-void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution) {
-  solution->meshes.insert(solution->meshes.begin(), earlier.begin(), earlier.end());
-}
-
 namespace {
 
-// The program whose solution the next one starts from, and that solution's multipliers.
+// The NLP whose solution the next one starts from, and that solution's multipliers.
 struct Predecessor {
   std::unique_ptr<CollocationNlp> nlp;  // null: none
   NlpResult result;
@@ -63,9 +58,9 @@ bool IsDone(const GaitSolution& solution) { return solution.verdict.kind != Verd
 // The last refinement was to halve a slip that was too large, and did not. Where a joint meets its limit the
 // acceleration jumps, and the jump moves on from the intervals that were split to the next coarse one, where slipping
 // pays.
-bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& meshes) {
-  if (meshes.size() < 2) return false;
-  const double bound = spec.bounds[Criterion::kSlip], before = meshes.end()[-2].max_slip, now = meshes.back().max_slip;
+bool Stalled(const GaitSpec& spec, const std::vector<MeshStatistics>& log, size_t first) {
+  if (log.size() < first + 2) return false;
+  const double bound = spec.bounds[Criterion::kSlip], before = log.end()[-2].max_slip, now = log.back().max_slip;
   return before > bound && now > std::max(bound, 0.5 * before);
 }
 
@@ -93,7 +88,7 @@ Predecessor SolveOneMesh(const GaitSpec& spec, const OptimalControlProblem& prob
   return solved;
 }
 
-// The program that led to the solution on its mesh, as if this problem had been it: its rows and unknowns mean the
+// The NLP of the solution on its mesh, as if this problem had been it: its rows and unknowns mean the
 // same. None without multipliers, and where their numbers tell that it had other rows.
 Predecessor PredecessorOf(const GaitSpec& spec, const OptimalControlProblem& problem, const WarmStart& solution,
                           const Mesh& mesh) {
@@ -122,7 +117,7 @@ void Finish(const GaitSpec& spec, const OptimalControlProblem& problem, SolveBud
   if (finished.result.x.size() > 0 && finished.result.x.allFinite()) {
     Adopt(spec, problem, *finished.nlp, finished.result, solution, &statistics);
   }
-  solution->meshes.push_back(statistics);
+  budget->Record(statistics);
 }
 
 GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& problem, MotionGuess guess,
@@ -130,6 +125,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
                        SolveBudget* budget) {
   constexpr int kMostAdditions = 4;   // rounds that add constraints on the mesh as it is
   constexpr int kMostEdgeRounds = 3;  // the same for edges of friction pyramids, where nothing else is left to do
+  const size_t first = budget->log().size();
   GaitSolution solution;
   std::optional<GaitSolution> within;  // what a round of edges started from
   int refinements = 0, additions = 0, edge_rounds = 0;
@@ -144,7 +140,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
     MeshStatistics statistics = Describe(spec, settings.start, nlp, result);
     // A finer mesh that fails does not take back a real answer of the coarser one.
     const bool keep_previous =
-        !solution.meshes.empty() && !Converged(result.termination) && !IsArtefact(spec, solution);
+        budget->log().size() > first && !Converged(result.termination) && !IsArtefact(spec, solution);
     if (!keep_previous) {
       solution.termination = result.termination;
       solution.message = result.message;
@@ -153,7 +149,7 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
         Adopt(spec, problem, nlp, result, &solution, &statistics);
       }
     }
-    solution.meshes.push_back(statistics);
+    budget->Record(statistics);
     if (keep_previous) {
       remark = (within ? " With more edges of the friction pyramids it did not converge ("
                        : " The next finer mesh did not converge (") +
@@ -202,7 +198,8 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
       previous = {};
       continue;
     }
-    const Mesh finer = RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(spec, solution.meshes));
+    const Mesh finer =
+        RefineMesh(mesh, spec, *solution.trajectory, *solution.accuracy, Stalled(spec, budget->log(), first));
     const bool is_finer = finer.fractions != mesh.fractions;
     if (is_finer && TotalIntervals(finer) > kMostIntervals) {
       remark = WouldBeTooFine();
@@ -217,7 +214,6 @@ GaitSolution SolveFrom(const GaitSpec& spec, const OptimalControlProblem& proble
   }
   if (within && solution.verdict.kind == Verdict::Kind::kExceeded) {
     // More edges do not take back an answer within the bounds.
-    within->meshes = std::move(solution.meshes);
     solution = std::move(*within);
     remark = " With more edges of the friction pyramids not every bound was met.";
     is_rough = false;
@@ -270,8 +266,8 @@ GaitSolution SolveFromStored(const GaitSpec& spec, const OptimalControlProblem& 
   GaitSolution solution =
       SolveFrom(spec, problem, GuessFromTrajectory(trajectory), settings, std::move(previous), std::move(mesh),
                 IsBounded(spec) ? ConstraintsAfter(*spec.warm_start) : EdgesOf(spec.warm_start->added), budget);
-  solution.warm_started = true;
-  solution.used_multipliers = used_multipliers;
+  solution.warm_started = start_of == StartOf::kOtherRequest;  // what the request names
+  solution.used_multipliers = solution.warm_started && used_multipliers;
   return solution;
 }
 

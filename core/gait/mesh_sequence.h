@@ -8,11 +8,8 @@
 
 namespace rollgait {
 
-// The meshes of a solve that went before this one.
-void PutBefore(const std::vector<MeshStatistics>& earlier, GaitSolution* solution);
-
 // Solves the problem of the spec from a guess on `mesh`, and on finer meshes started from its solution until gap and
-// slip between the nodes are within the bounds of the request. One entry of GaitSolution::meshes for each program.
+// slip between the nodes are within the bounds of the request.
 GaitSolution SolveOnMeshes(const GaitSpec& spec, const OptimalControlProblem& problem, const MotionGuess& guess,
                            Mesh mesh, SolveBudget* budget);
 

@@ -6,6 +6,7 @@
 
 #include "core/gait/build_problem.h"
 #include "core/gait/mesh_sequence.h"
+#include "core/gait/parameter_continuation.h"
 #include "core/gait/power_smoothing.h"
 #include "core/gait/rate_costs.h"
 #include "core/gait/solver_settings.h"
@@ -58,20 +59,23 @@ GaitSolution ReleaseRates(const GaitSpec& spec, GaitSolution rated, SolveBudget*
   // human29, slope 20°: from 1e-7 at once to none takes more than 200 iterations, from 1e-10 it takes 27; from 1e-6 to
   // 1e-8 takes 179, by tenths 37.
   constexpr double kStep = 0.1, kLeastWeight = 3e-11;
-  GaitSolution last = std::move(rated);
-  for (double rate_weight = kFirstWeight; rate_weight > 0;) {
-    rate_weight = kStep * rate_weight < kLeastWeight ? 0 : kStep * rate_weight;
-    GaitSpec cheaper = rate_weight > 0 ? AsAStart(WithRatesAt(rate_weight, spec)) : spec;
-    if (rate_weight > 0) cheaper.max_refinements = 0;
-    cheaper.warm_start = StartFrom(spec, last);
-    GaitSolution solution = SolveFromNeighbour(cheaper, *BuildProblem(cheaper), kMostIterations, budget);
-    solution.note = last.note;
-    solution.warm_started = solution.used_multipliers = false;  // not from what the request named
-    PutBefore(last.meshes, &solution);
-    last = std::move(solution);
-    if (!Converged(last.termination)) break;
-  }
-  return last;
+  const ParameterContinuation continuation = {
+      .from = kFirstWeight,
+      .to = 0,
+      .first_step = kStep,
+      .least_step = kStep,
+      .advance = [](double weight, double step) { return step * weight < kLeastWeight ? 0 : step * weight; },
+      .shorten = [](double) { return 0.0; },
+      .solve =
+          [&](double weight, const GaitSolution& last) {
+            GaitSpec cheaper = weight > 0 ? AsAStart(WithRatesAt(weight, spec)) : spec;
+            if (weight > 0) cheaper.max_refinements = 0;
+            cheaper.warm_start = StartFrom(spec, last);
+            return SolveFromNeighbour(cheaper, *BuildProblem(cheaper), kMostIterations, budget);
+          },
+  };
+  ContinuationEnd end = Follow(continuation, std::move(rated), budget);
+  return end.failed ? std::move(*end.failed) : std::move(end.last);
 }
 
 }  // namespace rollgait

@@ -20,7 +20,7 @@ GaitSolution AddRates(const GaitSpec& spec, const GaitSolution& solution, SolveB
 
 // From the solution of WithRates(spec) to that of the spec, by tenths of the weight and at last without: each solution
 // is the warm start of the next, and the last one is refined as the spec asks. Where one does not converge: what came
-// of it. The meshes list every program from `rated` on. Pre-condition: `rated` has converged.
+// of it. Pre-condition: `rated` has converged.
 GaitSolution ReleaseRates(const GaitSpec& spec, GaitSolution rated, SolveBudget* budget);
 
 }  // namespace rollgait

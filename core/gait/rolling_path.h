@@ -19,7 +19,7 @@ struct RollingPath {
   std::vector<Vector3> forces;     // N, of the ground
 };
 
-// A closed loop (ellipse with unit half-axes, times `size`) on the way from start to end, and which way round to turn.
+// A closed loop (ellipse with unit half-axes, times `size`) between start and end, and which way round to turn.
 struct Detour {
   double size = 0;        // m; 0: straight
   double direction = 0;   // rad, of the loop's centre as seen from its start

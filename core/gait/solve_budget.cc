@@ -33,8 +33,14 @@ std::optional<Termination> SolveBudget::Cut() const {
   return std::nullopt;
 }
 
-void SolveBudget::Offer(const GaitSpec& spec, const GaitSolution& solution) const {
-  if (newest_ != nullptr) newest_->Offer(spec, solution, elapsed());
+void SolveBudget::MarkForErrors(size_t first, bool for_errors) {
+  for (size_t i = first; i < log_.size(); ++i) log_[i].for_errors = for_errors;
+}
+
+void SolveBudget::Offer(const GaitSpec& spec, GaitSolution solution) const {
+  if (newest_ == nullptr) return;
+  solution.meshes = log_;
+  newest_->Offer(spec, solution, elapsed());
 }
 
 SolveControl SolveBudget::ControlOf(const CollocationNlp& nlp, double scale) const {
@@ -63,7 +69,7 @@ void SolveBudget::Show(const IterationInfo& iteration, const CollocationNlp& nlp
 }
 
 NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
-  options.mesh = programs_++;
+  options.mesh = static_cast<int>(log_.size());
   options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
   options.max_wall_time_s = max_wall_time_ - elapsed();
   const SolveControl control = ControlOf(nlp, nlp.objective_scale() / units_.objective);

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/gait/gait_solver.h"
 #include "core/gait/gait_spec.h"
@@ -16,15 +18,21 @@ namespace rollgait {
 class NewestSolution;
 
 // What all nonlinear programs of one request share: observer and stop flag, the limits on iterations and time, and the
-// numbering of the programs (IterationInfo::mesh). Starts its clock when it is made.
+// log of the programs, whose places are their numbers (IterationInfo::mesh). Starts its clock when it is made.
 class SolveBudget {
  public:
   // Observers see objectives times `units.objective`, and iterates in seconds: what the specs that are solved count in
   // these units, of the request.
   SolveBudget(const GaitSpec& spec, const SolveControl& control, const Units& units = {});
 
-  // Solves the next program from `start`, as far as the budget goes, which is filled into the options.
+  // Solves the next program from `start`, as far as the budget goes, which is filled into the options. Record follows.
   NlpResult Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options);
+  // Puts a program that was run at the end of the log.
+  void Record(MeshStatistics program) { log_.push_back(std::move(program)); }
+  // Every program so far, in the order in which they were run, whatever came of them.
+  const std::vector<MeshStatistics>& log() const { return log_; }
+  // Says of the programs from `first` on whether they only estimate the errors of a solution.
+  void MarkForErrors(size_t first, bool for_errors);
   double elapsed() const;  // s, that of earlier processes included (SolveControl::journal)
   // False once the iterations or the time are used up, or the stop flag is set: what runs then ends at once.
   bool Left() const;
@@ -33,8 +41,8 @@ class SolveBudget {
 
   // Who is offered the solutions that follow; outlives the budget. Null, as at first: nobody.
   void OfferTo(NewestSolution* newest) { newest_ = newest; }
-  // A solution of a program of `spec`, which has converged.
-  void Offer(const GaitSpec& spec, const GaitSolution& solution) const;
+  // A solution of a program of `spec`, which has converged. Its programs are those of the log.
+  void Offer(const GaitSpec& spec, GaitSolution solution) const;
 
  private:
   // The control of one program, whose objective is this much larger than the request's.
@@ -48,7 +56,7 @@ class SolveBudget {
   NewestSolution* newest_ = nullptr;
   double max_wall_time_;
   int iterations_left_;
-  int programs_ = 0;
+  std::vector<MeshStatistics> log_;
 };
 
 }  // namespace rollgait

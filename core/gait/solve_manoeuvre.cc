@@ -12,7 +12,7 @@
 #include "core/gait/artefact.h"
 #include "core/gait/build_problem.h"
 #include "core/gait/initial_guess.h"
-#include "core/gait/mesh_ascent.h"
+#include "core/gait/mesh_continuation.h"
 #include "core/gait/meshes.h"
 #include "core/gait/rolling_path.h"
 
@@ -79,12 +79,8 @@ struct Charted {
   std::unique_ptr<OptimalControlProblem> problem;
 };
 
-void Append(const std::vector<MeshStatistics>& more, std::vector<MeshStatistics>* meshes) {
-  meshes->insert(meshes->end(), more.begin(), more.end());
-}
-
-// One sketch on the requested mesh, carried through charts. The statistics of all programs go to `meshes`.
-Attempt Try(const GaitSpec& spec, RollingPath path, SolveBudget* budget, std::vector<MeshStatistics>* meshes) {
+// One sketch on the requested mesh, carried through charts.
+Attempt Try(const GaitSpec& spec, RollingPath path, SolveBudget* budget) {
   GaitSpec rough = spec;
   LeaveTheRest(&rough);
   rough.bounds = NoBounds();
@@ -95,7 +91,6 @@ Attempt Try(const GaitSpec& spec, RollingPath path, SolveBudget* budget, std::ve
     const Charted charted(rough, path, *chart);
     attempt.solution =
         SolveOnMeshes(charted.spec, *charted.problem, GuessInChart(path, *chart), RequestedMesh(spec), budget);
-    Append(attempt.solution.meshes, meshes);
     attempt.solution.scene = charted.spec.scene;
     if (!attempt.solution.trajectory || !Converged(attempt.solution.termination)) break;
     attempt.within_chart = WithinChart(*attempt.solution.trajectory);
@@ -114,16 +109,14 @@ bool Better(const Attempt& a, const Attempt& b) {
   return a.solution.objective < b.solution.objective;
 }
 
-// The best of all sketches, on the requested mesh. Its solution's meshes are those of all of them.
+// The best of all sketches, on the requested mesh.
 Attempt FindBest(const GaitSpec& spec, SolveBudget* budget) {
   std::optional<Attempt> best;
-  std::vector<MeshStatistics> meshes;
   for (const Detour& detour : Detours(spec)) {
     if (best && !budget->Left()) break;
-    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget, &meshes);
+    Attempt attempt = Try(spec, SketchPath(spec, detour, GuessDuration(spec)), budget);
     if (!best || Better(attempt, *best)) best = std::move(attempt);
   }
-  best->solution.meshes = std::move(meshes);
   return std::move(*best);
 }
 
@@ -131,7 +124,7 @@ Attempt FindBest(const GaitSpec& spec, SolveBudget* budget) {
 GaitSolution Refine(const GaitSpec& spec, GaitSolution best, SolveBudget* budget) {
   const RollingPath path = PathOf(*best.scene, *best.trajectory);
   const Charted charted(spec, path, ChartOf(*best.scene));
-  GaitSolution refined = Ascend(charted.spec, *charted.problem, std::move(best), budget);
+  GaitSolution refined = SolveFromCoarse(charted.spec, *charted.problem, std::move(best), budget);
   refined.scene = charted.spec.scene;
   if (Converged(refined.termination) && !WithinChart(*refined.trajectory)) {
     refined.termination = Termination::kNumericalDifficulty;
@@ -141,10 +134,10 @@ GaitSolution Refine(const GaitSpec& spec, GaitSolution best, SolveBudget* budget
 }
 
 // What is left where no attempt is valid: the best one, and why it is no solution.
-GaitSolution Refused(Attempt best) {
+GaitSolution Refused(Attempt best, bool had_programs) {
   GaitSolution solution = std::move(best.solution);
   if (!solution.trajectory) {
-    if (solution.meshes.empty()) solution.message = "No chart of the orientation covers the way to the end.";
+    if (!had_programs) solution.message = "No chart of the orientation covers the way to the end.";
   } else if (Converged(solution.termination)) {
     solution.termination = Termination::kNumericalDifficulty;
     solution.message =
@@ -158,8 +151,10 @@ GaitSolution Refused(Attempt best) {
 
 // Sketches are compared on the mesh of `first`, the best of them is refined to the spec's.
 GaitSolution SearchSketches(const GaitSpec& spec, const GaitSpec& first, SolveBudget* budget) {
+  const size_t programs = budget->log().size();
   Attempt best = FindBest(first, budget);
-  return best.valid ? Refine(spec, std::move(best.solution), budget) : Refused(std::move(best));
+  if (best.valid) return Refine(spec, std::move(best.solution), budget);
+  return Refused(std::move(best), budget->log().size() > programs);
 }
 
 }  // namespace
@@ -168,10 +163,9 @@ GaitSolution SolveManoeuvre(const GaitSpec& spec, SolveBudget* budget) {
   const std::optional<GaitSpec> coarse = CoarseStart(spec);
   GaitSolution solution = SearchSketches(spec, coarse ? *coarse : spec, budget);
   if (coarse && !Converged(solution.termination) && budget->Left()) {
-    GaitSolution on_mesh = SearchSketches(spec, spec, budget);
-    PutBefore(solution.meshes, &on_mesh);
-    solution = std::move(on_mesh);
+    solution = SearchSketches(spec, spec, budget);
   }
+  solution.meshes = budget->log();
   solution.wall_time = budget->elapsed();
   return solution;
 }

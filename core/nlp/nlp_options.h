@@ -32,8 +32,8 @@ struct NlpOptions {
   double barrier_exponent = 1.5;  // θ_μ: the next μ is at least μ^θ_μ
   // Whether a step that bounds cut short is tried again with Gondzio's correction for centrality.
   bool recentre = false;
-  // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; from afar they cost
-  // iterations.
+  // Backward error at which the refinement of a Newton step ends. Near a solution coarser steps do; in a cold
+  // start they cost iterations.
   double step_residual = 1e-10;
   // δ_w of the first Hessian that must be shifted. A smaller one that does not do costs a factorisation more, a larger
   // one a good step.

@@ -36,11 +36,12 @@ v1::Intermediate Describe(const v1::SolveResult& solution) {
   intermediate.set_objective(solution.objective());
   intermediate.set_elapsed_s(solution.wall_time_s());
   if (solution.has_errors()) *intermediate.mutable_errors() = solution.errors();
-  if (solution.meshes().empty()) return intermediate;
-  const v1::MeshStatistics& mesh = *solution.meshes().rbegin();
-  *intermediate.mutable_intervals() = mesh.intervals();
-  intermediate.set_smoothing_w(mesh.smoothing_w());
-  intermediate.set_kkt_error(mesh.kkt_error());
+  const auto own = std::find_if(solution.meshes().rbegin(), solution.meshes().rend(),
+                                [](const v1::MeshStatistics& mesh) { return !mesh.for_errors(); });
+  if (own == solution.meshes().rend()) return intermediate;
+  *intermediate.mutable_intervals() = own->intervals();
+  intermediate.set_smoothing_w(own->smoothing_w());
+  intermediate.set_kkt_error(own->kkt_error());
   return intermediate;
 }
 

@@ -57,14 +57,9 @@ PHRASES = [
 ]
 
 # (pattern of paths, pattern of phrases, reason). Only names and comments of files that are being rebuilt.
-SEARCH = "the search over starts and meshes (core/gait) is being replaced by a state machine with plain names"
 COSTS = "core/ocp/costs is being replaced by one file for each cost; the names go with it"
 ALLOWED = [
-    (r"^(tests/)?core/gait/(CMakeLists\.txt|.*\.(cc|h))$",
-     r"mesh_ascent|MESH_ASCENT|Ascend|afar|Afar|LeadsAstray|astray|sharpen|[Tt]he program|on the way|nowhere|"
-     r"price|pays for|reached by|artefact", SEARCH),
     (r"^(core|tests/core)/(ocp|gait)/", r"price|Price|PRICE|pays? for", COSTS),
-    (r"^bench/|^core/nlp/nlp_options\.h$", r"afar|PowerPrice|power_price|price", SEARCH),
 ]
 
 # Also what a past release said.

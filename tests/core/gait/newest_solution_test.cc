@@ -20,7 +20,7 @@ struct Taken : SolutionSink {
   std::vector<GaitSolution> all;
 };
 
-// Refined at least once, with powers that are sharpened.
+// Refined at least once, with a smoothing of powers that is reduced.
 GaitRequest Refined() {
   GaitRequest request = Planar(0, Preset::kTransport, 12);
   request.accuracy.level = GaitRequest::AccuracyLevel::kStandard;
@@ -117,7 +117,10 @@ TEST(NewestSolution, IsOfTheCycleThatWasAskedFor) {
   ASSERT_TRUE(Converged(solution.termination)) << solution.message;
   ASSERT_FALSE(taken.all.empty());
   EXPECT_GT(solution.meshes.size(), taken.all.size());
-  for (const GaitSolution& one : taken.all) EXPECT_EQ(one.trajectory->cycle, Cycle::kFull);
+  for (const GaitSolution& one : taken.all) {
+    EXPECT_EQ(one.trajectory->cycle, Cycle::kFull);
+    EXPECT_EQ(one.meshes.front().cycle, Cycle::kHalf) << "the programs of the step are listed, too";
+  }
 }
 
 // Once a level has its errors they are what is left, not a finer level without.

@@ -33,8 +33,8 @@ GaitRequest Standard(double slope_degrees, Preset preset, int intervals) {
 
 std::vector<Path> Paths() {
   std::vector<Path> paths;
-  paths.push_back({"powers that are sharpened on finer meshes", Standard(0, Preset::kTransport, 12)});
-  paths.push_back({"a fine mesh by way of coarse ones", Draft(5, Preset::kHuman, 26)});
+  paths.push_back({"smoothing of powers that is reduced on finer meshes", Standard(0, Preset::kTransport, 12)});
+  paths.push_back({"a fine mesh after coarse ones", Draft(5, Preset::kHuman, 26)});
   paths.push_back({"one step and its mirror image", Standard(5, Preset::kTorque, 12)});
   paths.back().request.cycle = Cycle::kFull;
   paths.push_back({"a body whose sides differ", Draft(0, Preset::kTorque, 6)});

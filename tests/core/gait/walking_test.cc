@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/gait/optimizing_gait_solver.h"
-#include "core/gait/walking_search.h"
+#include "core/gait/slope_continuation.h"
 #include "core/validation/normative.h"
 
 namespace rollgait {
@@ -98,17 +98,16 @@ TEST(Starts, StopWhenTheyAreToldTo) {
 }
 
 // Continuation and the cold start are two ways to one optimum.
-TEST(Continuation, ReachesWhatTheColdStartFinds) {
+TEST(SlopeContinuation, ReachesWhatTheColdStartFinds) {
   GaitRequest request = Draft(12);  // 5, 10, 12
   request.preset = Preset::kHuman;
   request.starts = 1;
   const GaitSpec spec = CheckRequest(request).value();
   const SolveControl control;
   SolveBudget budget(spec, control);
-  std::vector<MeshStatistics> meshes;
-  const std::optional<GaitSolution> continued = SolveByContinuation(spec, &budget, &meshes);
+  const std::optional<GaitSolution> continued = SolveFromLevelGround(spec, &budget);
   ASSERT_TRUE(continued);
-  EXPECT_EQ(meshes.size(), 4u);
+  EXPECT_EQ(budget.log().size(), 4u);
   EXPECT_NE(continued->note.find("continuation"), std::string::npos);
   const GaitSolution cold = Solve(request);
   ASSERT_EQ(cold.termination, Termination::kOptimal);

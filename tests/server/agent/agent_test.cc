@@ -46,7 +46,7 @@ TEST_F(AgentTest, TellsEachSolutionAndKeepsTheNewest) {
   };
   ASSERT_TRUE(StepUntil(*agent, [&] { return told().size() == 3; }));
   EXPECT_EQ(told()[1].objective(), 2);
-  EXPECT_EQ(told()[1].intervals(0), 20);
+  EXPECT_EQ(told()[1].intervals(0), 20) << "of its own mesh, not of the one that its errors are estimated with";
   EXPECT_EQ(told()[1].verdict(), v1::VERDICT_EXCEEDED);
   EXPECT_EQ(ResultOf(Get(id)).objective(), 3) << "the newest one";
 }

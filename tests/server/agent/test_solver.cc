@@ -56,6 +56,9 @@ void SendSolution(int objective) {
   solution.set_objective(objective);
   solution.mutable_accuracy()->set_verdict(v1::VERDICT_EXCEEDED);
   solution.add_meshes()->add_intervals(10 * objective);
+  v1::MeshStatistics& finer = *solution.add_meshes();
+  finer.add_intervals(2 * 10 * objective);
+  finer.set_for_errors(true);
   Send(message);
 }
 

@@ -1,4 +1,4 @@
-#include "core/gait/mesh_ascent.h"
+#include "core/gait/mesh_continuation.h"
 
 #include <algorithm>
 #include <utility>
@@ -16,9 +16,9 @@ namespace {
 
 // Intervals of a step. A full cycle has two: with as many intervals in all as a half cycle, of which phases of 2 and 4
 // remained, squared torque and slopes led to motions that exist on that mesh only.
-constexpr int kMostFromAfar = 36;
-constexpr int kOuterGroups = 6;     // of half the size, at each end of a phase
-constexpr int kMostOnTheWay = 200;  // iterations of what is only a start; those that succeed take 4 to 130
+constexpr int kMostAtColdStart = 36;
+constexpr int kOuterGroups = 6;           // of half the size, at each end of a phase
+constexpr int kMostOfIntermediate = 200;  // iterations of what is only a start; those that succeed take 4 to 130
 
 int Intervals(const GaitSpec& spec) {
   int sum = 0;
@@ -43,18 +43,18 @@ GaitSpec WithHalfTheIntervals(GaitSpec spec) {
   return spec;
 }
 
-// How often the intervals of every phase are halved to be solved well from afar.
+// How often the intervals of every phase are halved for a cold start to converge well.
 int Halvings(const GaitSpec& spec) {
   // A phase has one interval at least, so many short phases have more in all however often they are halved.
   const int steps = spec.cycle == Cycle::kFull ? 2 : 1;
-  const int fewest = std::max(steps * kMostFromAfar, static_cast<int>(spec.phases.size()));
+  const int fewest = std::max(steps * kMostAtColdStart, static_cast<int>(spec.phases.size()));
   int halvings = 0;
   for (GaitSpec next = spec; Intervals(next) > fewest; next = WithHalfTheIntervals(std::move(next))) ++halvings;
   return halvings;
 }
 
 // What only leads to the spec's solution.
-GaitSpec OnTheWay(GaitSpec spec) {
+GaitSpec Intermediate(GaitSpec spec) {
   // The legs must be on their sides before the mesh is fine.
   const double overlap = spec.bounds[Criterion::kOverlap];
   spec.bounds = NoBounds();
@@ -100,21 +100,21 @@ Mesh Grouped(const GaitSpec& spec, int inner) {
 std::optional<GaitSpec> CoarseStart(const GaitSpec& spec) {
   const int halvings = Halvings(spec);
   if (halvings == 0) return std::nullopt;
-  GaitSpec coarse = OnTheWay(spec);
-  coarse.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
+  GaitSpec coarse = Intermediate(spec);
+  coarse.max_iterations = std::min(spec.max_iterations, kMostOfIntermediate);
   for (int i = 0; i < halvings; ++i) coarse = WithHalfTheIntervals(std::move(coarse));
   return coarse;
 }
 
-GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start,
-                    SolveBudget* budget) {
-  GaitSpec rough = OnTheWay(spec);
+GaitSolution SolveFromCoarse(const GaitSpec& spec, const OptimalControlProblem& problem, GaitSolution start,
+                             SolveBudget* budget) {
+  GaitSpec rough = Intermediate(spec);
   rough.kkt_tolerance = ToleranceOfStart(spec);
-  rough.max_iterations = std::min(spec.max_iterations, kMostOnTheWay);
+  rough.max_iterations = std::min(spec.max_iterations, kMostOfIntermediate);
   GaitSolution last = std::move(start);
   for (int halvings = std::max(Halvings(spec) - 1, 0); halvings >= 0; --halvings) {
     if (!Converged(last.termination)) return last;
-    if (LeadsAstray(spec, last)) {
+    if (IsBeyondRefinement(spec, last)) {
       last.termination = Termination::kNumericalDifficulty;
       last.message = "Only motions that exist on a coarse mesh were found: they slip between its nodes.";
       return last;
@@ -126,12 +126,8 @@ GaitSolution Ascend(const GaitSpec& spec, const OptimalControlProblem& problem, 
     GaitSolution solution =
         SolveFromCoarser(arrives ? spec : rough, problem, StartFrom(spec, last), std::move(mesh), budget);
     solution.note = last.note;
-    PutBefore(last.meshes, &solution);
-    if (!arrives && !Converged(solution.termination) && budget->Left()) {
-      // It leads nowhere: the next one starts from the one before it.
-      last.meshes = std::move(solution.meshes);
-      continue;
-    }
+    // Where an intermediate mesh does not converge, the next one starts from the one before it.
+    if (!arrives && !Converged(solution.termination) && budget->Left()) continue;
     last = std::move(solution);
   }
   return last;

@@ -1,5 +1,5 @@
-#ifndef ROLLGAIT_CORE_GAIT_SHARPENING_H_
-#define ROLLGAIT_CORE_GAIT_SHARPENING_H_
+#ifndef ROLLGAIT_CORE_GAIT_SMOOTHING_CONTINUATION_H_
+#define ROLLGAIT_CORE_GAIT_SMOOTHING_CONTINUATION_H_
 
 #include "core/gait/gait_solver.h"
 #include "core/gait/solve_budget.h"
@@ -11,11 +11,10 @@ namespace rollgait {
 inline double ColdSmoothing(const GaitSpec& spec) { return 40 * spec.similarity.power(); }
 
 // Follows a solution that converged with powers smoothed by ColdSmoothing to the spec: an eighth of the smoothing at a
-// time, each solution the warm start of the next; smaller steps where one does not converge. The meshes list every
-// program from `smooth` on. If the spec is not reached: what stopped the last step, and a message that says how far it
-// came.
-GaitSolution Sharpen(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget);
+// time, smaller steps where one does not converge. If the spec is not reached: what stopped the last step, and a
+// message that says how far it came.
+GaitSolution ReduceSmoothing(const GaitSpec& spec, GaitSolution smooth, SolveBudget* budget);
 
 }  // namespace rollgait
 
-#endif  // ROLLGAIT_CORE_GAIT_SHARPENING_H_
+#endif  // ROLLGAIT_CORE_GAIT_SMOOTHING_CONTINUATION_H_

@@ -1,4 +1,4 @@
-#include "core/gait/mesh_ascent.h"
+#include "core/gait/mesh_continuation.h"
 
 #include <gtest/gtest.h>
 
@@ -60,9 +60,9 @@ TEST(CoarseStart, LeavesEveryPhaseAnInterval) {
   for (const GaitSpec::Phase& phase : coarse->phases) EXPECT_EQ(phase.intervals, 1);
 }
 
-// The mesh on the way has intervals twice as long as the request's, but for six at both ends of both phases; with rates
-// alone but for the two that are known to be the request's at each end.
-TEST(Ascend, HasShortIntervalsAtTheEndsOfPhases) {
+// The intermediate mesh has intervals twice as long as the request's, but for six at both ends of both phases; with
+// rates alone but for the two that are known to be the request's at each end.
+TEST(SolveFromCoarse, HasShortIntervalsAtTheEndsOfPhases) {
   GaitRequest request = Fine(96);
   request.costs = {{cost::SquaredTorque{}, 1}};
   EXPECT_EQ(Solve(Check(request)).meshes[1].intervals, (std::vector<int>{6 + 18 + 6, 6 + 42 + 6}));
@@ -76,7 +76,7 @@ TEST(Ascend, HasShortIntervalsAtTheEndsOfPhases) {
 
 // The end is a solution of the spec's own NLP. Started from there it is found again, or left for a cheaper one beside
 // it, by less than 0.1 %: valleys of squared torque are flat.
-TEST(Ascend, EndsInASolutionOnTheRequestedMesh) {
+TEST(SolveFromCoarse, EndsInASolutionOnTheRequestedMesh) {
   const GaitSpec spec = Check(Fine(96));
   const GaitSolution solution = Solve(spec);
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
@@ -92,7 +92,7 @@ TEST(Ascend, EndsInASolutionOnTheRequestedMesh) {
 // The intermediate mesh, whose intervals are shorter at the ends of phases, starts with a barrier of 1e-3: fewer than
 // 92 iterations in all, where a warm start far from the bounds takes 104. The requested one, which has none that are
 // shorter, starts at 1e-4: 82, else 200.
-TEST(Ascend, MeshesStartCloseToTheirBounds) {
+TEST(SolveFromCoarse, MeshesStartCloseToTheirBounds) {
   int intermediate = 0, arriving = 0;
   for (const int intervals : {60, 72, 80, 90, 96}) {
     const GaitSolution solution = Solve(Check(Fine(intervals)));
@@ -106,7 +106,7 @@ TEST(Ascend, MeshesStartCloseToTheirBounds) {
 }
 
 // With powers it starts ten times closer: 45 iterations in all, 303 from as far as a neighbour.
-TEST(Ascend, WithPowersTheRequestedMeshStartsClosestOfAll) {
+TEST(SolveFromCoarse, WithPowersTheRequestedMeshStartsClosestOfAll) {
   int arriving = 0;
   for (const int intervals : {120, 144, 168, 192}) {
     GaitRequest request = Fine(intervals);
@@ -122,7 +122,7 @@ TEST(Ascend, WithPowersTheRequestedMeshStartsClosestOfAll) {
 
 // One on the way to 120 + 60 intervals goes round in circles. It is given up, and the next one starts from the one
 // before it.
-TEST(Ascend, LeavesOutAMeshThatLeadsNowhere) {
+TEST(SolveFromCoarse, LeavesOutAMeshThatLeadsNowhere) {
   GaitRequest request = Fine(120);
   request.costs.clear();
   request.preset = Preset::kTransport;
@@ -133,9 +133,9 @@ TEST(Ascend, LeavesOutAMeshThatLeadsNowhere) {
   for (const MeshStatistics& mesh : solution.meshes) EXPECT_LE(mesh.iterations, 200);
 }
 
-// Powers are sharpened on the coarsest mesh, where it is cheap and steps succeed; all finer ones are solved with the
-// spec's.
-TEST(Ascend, ClimbsWithTheSmoothingOfTheSpec) {
+// The smoothing of powers is reduced on the coarsest mesh, where it is cheap and steps succeed; all finer ones are
+// solved with the spec's.
+TEST(SolveFromCoarse, ClimbsWithTheSmoothingOfTheSpec) {
   GaitRequest request = Fine(60);
   request.costs.clear();
   request.preset = Preset::kTransport;
@@ -158,23 +158,23 @@ TEST(Ascend, ClimbsWithTheSmoothingOfTheSpec) {
 }
 
 // A start whose feet slip at more than half the speed is no start, and nothing is solved from there.
-TEST(Ascend, RefusesAStartThatLeadsAstray) {
+TEST(SolveFromCoarse, RefusesAStartBeyondRefinement) {
   const GaitSpec spec = Check(Fine(48));
   GaitSolution start = Solve(*CoarseStart(spec));
   ASSERT_EQ(start.termination, Termination::kOptimal) << start.message;
   start.accuracy->max_slip = 0.51 * start.speed;
-  ASSERT_TRUE(LeadsAstray(spec, start));
+  ASSERT_TRUE(IsBeyondRefinement(spec, start));
   const SolveControl control;
   SolveBudget budget(spec, control);
-  const GaitSolution refused = Ascend(spec, *BuildProblem(spec), start, &budget);
+  const GaitSolution refused = SolveFromCoarse(spec, *BuildProblem(spec), start, &budget);
   EXPECT_EQ(refused.termination, Termination::kNumericalDifficulty);
-  EXPECT_EQ(refused.meshes.size(), start.meshes.size());
+  EXPECT_TRUE(budget.log().empty());
   start.accuracy->max_slip = 0.49 * start.speed;
-  EXPECT_EQ(Ascend(spec, *BuildProblem(spec), start, &budget).termination, Termination::kOptimal);
+  EXPECT_EQ(SolveFromCoarse(spec, *BuildProblem(spec), start, &budget).termination, Termination::kOptimal);
 }
 
 // Where the iterations end on the way, no answer of a coarse mesh is passed off as the request's.
-TEST(Ascend, GivesNoCoarseAnswer) {
+TEST(SolveFromCoarse, GivesNoCoarseAnswer) {
   GaitRequest request = Fine(48);
   const GaitSolution whole = Solve(Check(request));
   ASSERT_EQ(whole.termination, Termination::kOptimal) << whole.message;

@@ -1,4 +1,4 @@
-#include "core/gait/sharpening.h"
+#include "core/gait/smoothing_continuation.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(PowerSmoothing, IsTheLeastOfAllTermsAndNoneWithoutPowers) {
 }
 
 // A cold solve comes down from much smoothing, and ends in a minimum of what was asked for.
-TEST(Sharpen, EndsInAMinimumOfTheRequest) {
+TEST(ReduceSmoothing, EndsInAMinimumOfTheRequest) {
   const GaitSolution solution = Solve(Draft(std::nullopt));
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
   ASSERT_GE(solution.meshes.size(), 2u);
@@ -60,7 +60,7 @@ TEST(Sharpen, EndsInAMinimumOfTheRequest) {
 }
 
 // The less smoothing the more of the energy counts; without any all of it.
-TEST(Sharpen, TheEnergyGrowsTowardsTheUnsmoothedOne) {
+TEST(ReduceSmoothing, TheEnergyGrowsTowardsTheUnsmoothedOne) {
   const GaitSolution much = Solve(Draft(40)), little = Solve(Draft(5));
   ASSERT_EQ(much.termination, Termination::kOptimal) << much.message;
   ASSERT_EQ(little.termination, Termination::kOptimal) << little.message;
@@ -72,12 +72,12 @@ TEST(Sharpen, TheEnergyGrowsTowardsTheUnsmoothedOne) {
   EXPECT_GT(hidden(much), 2 * hidden(little));
   EXPECT_GT(hidden(little), 0);
   EXPECT_EQ(much.costs[1].value, much.costs[1].unsmoothed);
-  // Sharper prices find cheaper gaits, by the energy that is paid in the end.
+  // With less smoothing gaits are cheaper by the energy that is spent in the end.
   EXPECT_LT(little.costs[0].unsmoothed, much.costs[0].unsmoothed);
 }
 
 // Nothing is passed off as the answer if the smoothing asked for is not reached.
-TEST(Sharpen, SaysHowFarItCame) {
+TEST(ReduceSmoothing, SaysHowFarItCame) {
   GaitRequest request = Draft(5);
   const GaitSolution whole = Solve(request);
   ASSERT_EQ(whole.termination, Termination::kOptimal) << whole.message;
