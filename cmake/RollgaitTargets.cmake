@@ -90,7 +90,7 @@ set(ROLLGAIT_TEST_TIMEOUT 1800)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(ROLLGAIT_NUMERIC_TESTS "^tests/(core|conformance|paper|reference_check)")
 else()
-  set(ROLLGAIT_NUMERIC_TESTS "^tests/core/(contact|multibody|nlp|simulation)")
+  set(ROLLGAIT_NUMERIC_TESTS "^tests/core/(contact|known_answers|multibody|nlp|simulation|transcription)")
 endif()
 
 # Options of the sources of tests themselves: what they test is in libraries, with all optimisation. Without it, or with little of it
