@@ -89,6 +89,7 @@ struct GaitSolution {
   double constraint_violation = 0;
   std::vector<CostValue> costs;
   std::vector<UnmetConstraint> unmet_constraints;
+  // Every program so far, of a solution that is given back or offered (SolveBudget::log); empty inside a search.
   std::vector<MeshStatistics> meshes;
   double speed = 0, step_length = 0;               // m/s, m; of a manoeuvre along x
   std::optional<SolutionMultipliers> multipliers;  // present with a trajectory of a gait

@@ -70,7 +70,7 @@ void SolveBudget::Show(const IterationInfo& iteration, const CollocationNlp& nlp
 
 NlpResult SolveBudget::Run(CollocationNlp& nlp, const NlpStart& start, NlpOptions options) {
   options.mesh = static_cast<int>(log_.size());
-  options.max_iterations = std::max(1, std::min(options.max_iterations, iterations_left_));
+  options.max_iterations = std::min(options.max_iterations, iterations_left_);
   options.max_wall_time_s = max_wall_time_ - elapsed();
   const SolveControl control = ControlOf(nlp, nlp.objective_scale() / units_.objective);
   NlpResult result = control_.journal != nullptr ? control_.journal->Solve(nlp, start, options, control)

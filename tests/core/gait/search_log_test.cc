@@ -138,6 +138,26 @@ TEST_P(SearchLog, AProgramWhoseTimeIsUpIsTheLastAndTheSearchSaysSo) {
   EXPECT_EQ(solution.meshes.back().termination, Termination::kTimeLimit);
 }
 
+// Also where a program uses up the last one by converging: what follows ends before its first.
+TEST_P(SearchLog, TheIterationsOfTheRequestAreNotExceeded) {
+  Seen whole;
+  const GaitSolution finished = Search(path.request, &whole);
+  int all = 0;
+  for (size_t program = 0; program + 1 < finished.meshes.size(); ++program) {
+    all += finished.meshes[program].iterations;
+    GaitRequest request = path.request;
+    request.solver_limits.max_iterations = all;
+    Seen seen;
+    const GaitSolution solution = Search(request, &seen);
+    SCOPED_TRACE(std::string(path.name) + ", program " + std::to_string(program));
+    ExpectComplete(solution, seen);
+    EXPECT_LE(seen.sum(), all);
+    // An answer of a coarser mesh says that no finer one followed.
+    EXPECT_TRUE(!Converged(solution.termination) || solution.message.find("did not converge") != std::string::npos)
+        << solution.message;
+  }
+}
+
 TEST_P(SearchLog, AProgramThatUsesUpTheIterationsIsTheLastAndSaysSo) {
   Seen whole;
   const GaitSolution finished = Search(path.request, &whole);

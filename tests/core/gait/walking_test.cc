@@ -115,6 +115,25 @@ TEST(SlopeContinuation, ReachesWhatTheColdStartFinds) {
   EXPECT_LT(continued->objective, cold.objective * (1 + 1e-5));
 }
 
+// Stopped on the way it has no answer, and the log ends with the program that was stopped.
+TEST(SlopeContinuation, EndsWithTheBudget) {
+  GaitRequest request = Draft(12);
+  request.preset = Preset::kHuman;
+  request.starts = 1;
+  const GaitSpec spec = CheckRequest(request).value();
+  StopFlag stop;
+  SolveControl control;
+  control.stop = &stop;
+  control.observer = [&](const IterationInfo& info) {
+    if (info.mesh == 2 && info.index == 1) stop.Request();
+  };
+  SolveBudget budget(spec, control);
+  EXPECT_FALSE(SolveFromLevelGround(spec, &budget));
+  ASSERT_EQ(budget.log().size(), 3u);
+  EXPECT_EQ(budget.log().back().termination, Termination::kCancelled);
+  EXPECT_NEAR(budget.log().back().slope, 10 * std::numbers::pi / 180, 1e-12);
+}
+
 TEST(Preset, HumanWalksOnAllSlopes) {
   for (const double slope : {-10.0, 0.0, 10.0}) {
     GaitRequest request = Draft(slope);
