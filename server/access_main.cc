@@ -14,6 +14,7 @@
 
 #include "server/access/access_store.h"
 #include "server/base/clock.h"
+#include "server/command_error.h"
 #include "server/store/fair_order.h"
 #include "server/store/open_store.h"
 
@@ -57,17 +58,12 @@ int64_t Lifetime(const std::string& text) {
   return seconds >= 1 && seconds <= 36'500 * kDay ? seconds : -1;
 }
 
-int Report(const Error& error) {
-  std::fprintf(stderr, "rollgaitd: %s\n", error.message.c_str());
-  return error.code == ErrorCode::kInvalidArgument ? 2 : error.code == ErrorCode::kNotFound ? 7 : 1;
-}
-
 int CreateToken(AccessStore& store, const Arguments& arguments) {
   NewToken token = arguments.token;
   token.scopes = ParseScopes(arguments.scopes).value_or(0);
   token.lifetime_s = Lifetime(arguments.expires);
   const Outcome<Token> made = store.CreateToken(token);
-  if (!made.ok()) return Report(made.error());
+  if (!made.ok()) return ReportError(made.error());
   std::fprintf(stderr, "token %s of tenant %s; this is the only time that it is shown:\n", made.value().id.c_str(),
                token.tenant.c_str());
   std::printf("%s\n", made.value().Text().c_str());
@@ -76,7 +72,7 @@ int CreateToken(AccessStore& store, const Arguments& arguments) {
 
 int ListTokens(AccessStore& store, const Arguments&) {
   const Outcome<std::vector<TokenRecord>> tokens = store.ListTokens();
-  if (!tokens.ok()) return Report(tokens.error());
+  if (!tokens.ok()) return ReportError(tokens.error());
   std::printf("%-16s  %-20s  %-16s  %-20s  %-20s  %-20s  %s\n", "id", "tenant", "scopes", "created", "expires",
               "revoked", "note");
   for (const TokenRecord& token : tokens.value()) {
@@ -89,7 +85,7 @@ int ListTokens(AccessStore& store, const Arguments&) {
 
 int RevokeToken(AccessStore& store, const Arguments& arguments) {
   const Outcome<TokenRecord> token = store.RevokeToken(arguments.id);
-  if (!token.ok()) return Report(token.error());
+  if (!token.ok()) return ReportError(token.error());
   std::printf("%s revoked at %s\n", token.value().id.c_str(), Time(token.value().revoke_time_us).c_str());
   return 0;
 }
@@ -107,7 +103,7 @@ int SetTenant(AccessStore& store, const Arguments& arguments) {
     limits.weight = limits.weight.value_or(-1);
   }
   const Outcome<Done> set = store.SetTenant(arguments.tenant, limits);
-  return set.ok() ? 0 : Report(set.error());
+  return set.ok() ? 0 : ReportError(set.error());
 }
 
 std::string Text(const std::optional<int>& limit) { return limit ? std::to_string(*limit) : "default"; }
@@ -115,12 +111,12 @@ std::string TextMiB(const std::optional<int64_t>& bytes) { return bytes ? std::t
 
 int ListTenants(AccessStore& store, const Arguments&) {
   const Outcome<std::vector<std::string>> names = store.ListTenants();
-  if (!names.ok()) return Report(names.error());
+  if (!names.ok()) return ReportError(names.error());
   std::printf("%-20s  %10s  %11s  %11s  %13s  %15s  %14s  %7s\n", "tenant", "max queued", "max running", "max watches",
               "creates per s", "max simulations", "max storage MB", "weight");
   for (const std::string& name : names.value()) {
     const Outcome<TenantOverrides> limits = store.FindTenant(name);
-    if (!limits.ok()) return Report(limits.error());
+    if (!limits.ok()) return ReportError(limits.error());
     const TenantOverrides& of = limits.value();
     char rate[32] = "default";
     if (of.creates_per_s) std::snprintf(rate, sizeof(rate), "%g", *of.creates_per_s);
@@ -133,7 +129,7 @@ int ListTenants(AccessStore& store, const Arguments&) {
 
 int ShowAudit(AccessStore& store, const Arguments& arguments) {
   const Outcome<std::vector<AuditRow>> rows = store.LastAudit(arguments.rows);
-  if (!rows.ok()) return Report(rows.error());
+  if (!rows.ok()) return ReportError(rows.error());
   for (auto row = rows.value().rbegin(); row != rows.value().rend(); ++row) {
     std::printf("%s  tenant=%s token=%s peer=%s  %s %s  %s  %s\n", Time(row->time_us).c_str(),
                 row->actor.tenant.c_str(), row->actor.token_id.c_str(), row->actor.peer.c_str(), row->action.c_str(),
@@ -293,9 +289,9 @@ std::optional<int> RunAccessCommand(int argc, char** argv) {
   if (arguments.store.empty()) std::filesystem::create_directories(arguments.data_dir, failure);
   const SystemClock clock;
   const Outcome<StoreLocation> location = LocateStore(arguments.store, arguments.data_dir);
-  if (!location.ok()) return Report(location.error());
+  if (!location.ok()) return ReportError(location.error());
   const auto store = OpenStore(location.value(), clock);
-  if (!store.ok()) return Report(store.error());
+  if (!store.ok()) return ReportError(store.error());
   AccessStore access(store.value()->database(), clock);
   return chosen(access, arguments);
 }

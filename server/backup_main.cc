@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/command_error.h"
 #include "server/store/sqlite_backup.h"
 #include "server/store/store_location.h"
 
@@ -18,13 +19,8 @@ namespace {
 constexpr char kPostgres[] =
     "the solves are in PostgreSQL: its own tools copy it while it serves, `pg_dump -Fc` and `pg_restore`";
 
-int Report(const Error& error) {
-  std::fprintf(stderr, "rollgaitd: %s\n", error.message.c_str());
-  return error.code == ErrorCode::kNotFound ? 7 : 1;
-}
-
 int Finish(const Outcome<StoreCopy>& copy, const std::string& path) {
-  if (!copy.ok()) return Report(copy.error());
+  if (!copy.ok()) return ReportError(copy.error());
   std::printf("%s  %" PRId64 " solves, %" PRId64 " results, %.1f MiB, schema version %d\n", path.c_str(),
               copy.value().solves, copy.value().results, static_cast<double>(copy.value().bytes) / (1 << 20),
               copy.value().schema_version);

@@ -3,6 +3,7 @@
 #define ROLLGAIT_CLIENT_FORMATS_GROUND_H_
 
 #include <Eigen/Core>
+#include <string>
 
 #include "rollgait/v1/solve.pb.h"
 

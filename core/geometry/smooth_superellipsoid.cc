@@ -11,7 +11,7 @@ namespace rollgait {
 namespace {
 
 // Derivatives 0 … 4 of f(p) = p^r.
-std::array<double, 5> Power(double p, double r) {
+std::array<double, 5> PowersOf(double p, double r) {
   std::array<double, 5> f;
   f[0] = std::pow(p, r);
   for (int n = 1; n < 5; ++n) f[n] = f[n - 1] * (r - n + 1) / p;
@@ -145,13 +145,13 @@ void SmoothSuperellipsoid::Evaluate(const Vector3& nu, int order, SupportJet* je
     square.h = factors.dot(nu.cwiseAbs2());
     square.x = 2 * factors.cwiseProduct(nu);
     square.S = (2 * factors).asDiagonal();
-    AddComposed(Power(square.h, exponent), square, order, sum);
+    AddComposed(PowersOf(square.h, exponent), square, order, sum);
   };
   add(0, q_2_ / 2, &around);
   add(1, q_2_ / 2, &around);
-  AddComposed(Power(around.h, q_1_ / q_2_), around, order, &whole);
+  AddComposed(PowersOf(around.h, q_1_ / q_2_), around, order, &whole);
   add(2, q_1_ / 2, &whole);
-  AddComposed(Power(whole.h, 1 / q_1_), whole, order, &result);
+  AddComposed(PowersOf(whole.h, 1 / q_1_), whole, order, &result);
   jet->order = order;
   jet->h = scale_ * result.h;
   jet->x = scale_ * result.x;

@@ -24,7 +24,7 @@ std::vector<std::string> WalkingNames(const std::variant<Bodies...>*) {
   std::vector<std::string> names;
   const auto add = [&names](const auto* body) {
     using Body = std::remove_cvref_t<decltype(*body)>;
-    if constexpr (Walks<Body>) names.push_back(Body::kWalks);
+    if constexpr (Walks<Body>) names.emplace_back(Body::kWalks);
   };
   (add(static_cast<const Bodies*>(nullptr)), ...);
   return names;

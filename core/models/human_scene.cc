@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-bool IsBase(const Joint& joint) { return joint.name.starts_with("base_"); }
+bool IsNamedBase(const Joint& joint) { return joint.name.starts_with("base_"); }
 
 // Which switch of the selection fixes a joint, null if none does.
 const char* FixedBy(const Joint& joint, const BodySelection& selection) {
@@ -33,7 +33,7 @@ const char* FixedBy(const Joint& joint, const BodySelection& selection) {
 // What is wrong with locking a joint of the full human, empty if nothing is.
 std::string LockProblem(const Joint& joint, double angle, const BodySelection& selection) {
   std::ostringstream message;
-  if (IsBase(joint)) {
+  if (IsNamedBase(joint)) {
     message << "belongs to the floating base, which cannot be locked; use `sagittal` for a walk in the plane";
   } else if (const char* fixed = FixedBy(joint, selection)) {
     message << "is fixed already by `" << fixed << "`"
@@ -56,7 +56,7 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
     if (joint < 0) {
       std::vector<std::string> known;
       for (const Joint& each : model.joints()) {
-        if (!IsBase(each) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
+        if (!IsNamedBase(each) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
       }
       violations->push_back({field, NoSuchJoint(name, known)});
       continue;

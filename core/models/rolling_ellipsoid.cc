@@ -11,9 +11,9 @@
 namespace rollgait {
 namespace {
 
-constexpr double kSizeMin = 0.01, kSizeMax = 10;   // m
-constexpr double kMassMin = 1e-3, kMassMax = 1e6;  // kg
-constexpr double kRatioMax = 20;                   // of the semi-axes
+constexpr double kSizeMin = 0.01, kSizeMax = 10;           // m
+constexpr double kBodyMassMin = 1e-3, kBodyMassMax = 1e6;  // kg
+constexpr double kRatioMax = 20;                           // of the semi-axes
 
 Matrix3 Rotation(double angle, const Vector3& axis) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
 
@@ -36,7 +36,7 @@ Violations Check(const RollingEllipsoid& body, bool has_moments) {
   } else if (body.semi_axes.maxCoeff() > kRatioMax * body.semi_axes.minCoeff()) {
     Refuse("semi_axes_m", body.semi_axes.transpose(), "the longest may be at most 20 times the shortest", &violations);
   }
-  if (!(body.mass >= kMassMin && body.mass <= kMassMax)) {
+  if (!(body.mass >= kBodyMassMin && body.mass <= kBodyMassMax)) {
     Refuse("mass_kg", body.mass, "must be between 0.001 and 1e6 kg", &violations);
   }
   const Vector3& moments = body.moments;

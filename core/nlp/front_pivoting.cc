@@ -10,7 +10,7 @@ namespace rollgait {
 namespace {
 
 // Columns are brought up to date with the pivots when they are looked at, and all of them every so many pivots.
-constexpr int kBlock = 16;
+constexpr int kPivotBlock = 16;
 // Below this a column counts as zero: its unknown has no equation left in this front.
 constexpr double kZeroColumn = 1e-250;
 
@@ -30,7 +30,7 @@ class Elimination {
         continue;
       }
       found_.count += order;
-      if (found_.count - flushed_ >= kBlock) UpdateAll();
+      if (found_.count - flushed_ >= kPivotBlock) UpdateAll();
       tried = 0;
     }
     UpdateAll();

@@ -9,7 +9,7 @@ namespace rollgait {
 namespace {
 
 constexpr std::align_val_t kHugePage{size_t{2} << 20};
-constexpr size_t kBlock = 2 * static_cast<size_t>(kHugePage) / sizeof(double);
+constexpr size_t kBlockEntries = 2 * static_cast<size_t>(kHugePage) / sizeof(double);
 
 size_t RoundedUp(size_t count, size_t unit) { return (count + unit - 1) / unit * unit; }
 
@@ -26,7 +26,7 @@ double* PanelStore::Take(size_t count) {
     used_ = 0;
   }
   if (current_ == blocks_.size()) {
-    const size_t size = RoundedUp(std::max(count, kBlock), kBlock), bytes = size * sizeof(double);
+    const size_t size = RoundedUp(std::max(count, kBlockEntries), kBlockEntries), bytes = size * sizeof(double);
     auto* data = static_cast<double*>(::operator new(bytes, kHugePage));
     blocks_.push_back({std::unique_ptr<double[], Free>(data), size});
     madvise(data, bytes, MADV_HUGEPAGE);  // an advice: small pages do, too

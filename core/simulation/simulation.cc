@@ -14,7 +14,6 @@
 namespace rollgait {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Samples in a step from which the continuous extension, with its check, takes fewer evaluations than a step for each.
 constexpr long kSamplesToInterpolate = 2;
 
@@ -47,7 +46,8 @@ class SimulationRun {
  private:
   void Loop() {
     // Those before the end: a multiple of the step that rounding puts before the end is the end.
-    samples_ = std::lround(std::ceil(scene_.options.duration / scene_.options.output_step * (1 - 4 * kEpsilon)));
+    samples_ = std::lround(std::ceil(scene_.options.duration / scene_.options.output_step *
+                                     (1 - 4 * std::numeric_limits<double>::epsilon())));
     if (!Settle() || !EmitSample(t_, x_)) return;
     ++next_sample_;
     const double end = scene_.options.duration;

@@ -44,7 +44,7 @@ std::vector<Certificate> Certificates(const std::string& pem) {
 
 int NoPassphrase(char*, int, int, void*) { return -1; }
 
-std::string Text(const ASN1_TIME* time) {
+std::string TimeText(const ASN1_TIME* time) {
   const Memory memory(BIO_new(BIO_s_mem()), BIO_free);
   ASN1_TIME_print(memory.get(), time);
   char* bytes = nullptr;
@@ -72,9 +72,10 @@ Outcome<TlsMaterial> ReadTlsFiles(const TlsFiles& files) {
   const ASN1_TIME* const from = X509_get0_notBefore(chain.front().get());
   const ASN1_TIME* const until = X509_get0_notAfter(chain.front().get());
   if (X509_cmp_current_time(until) < 0)
-    return Refuse("--tls-cert", files.cert, "expired on " + Text(until) + "; renew it");
+    return Refuse("--tls-cert", files.cert, "expired on " + TimeText(until) + "; renew it");
   if (X509_cmp_current_time(from) > 0) {
-    return Refuse("--tls-cert", files.cert, "is valid from " + Text(from) + " only; is this machine's clock right?");
+    return Refuse("--tls-cert", files.cert,
+                  "is valid from " + TimeText(from) + " only; is this machine's clock right?");
   }
   if (!files.client_ca.empty()) {
     Outcome<std::string> ca = Read("--tls-client-ca", files.client_ca);
