@@ -126,6 +126,14 @@ struct Fault {
   int runs = 2;  // in the end, that came to an iteration
 };
 
+Fault AllThree() {
+  return {"kill -9 of all three", [](Outlived& outlived) {
+            outlived.daemon().Kill();
+            KillAgents(outlived.data_dir());
+            outlived.Start();
+          }};
+}
+
 std::vector<Fault> Faults() {
   const auto kill_solver = [](Outlived& outlived) {
     const std::vector<nlohmann::json> claims = outlived.Logged("solve.claimed");
@@ -148,12 +156,7 @@ std::vector<Fault> Faults() {
          outlived.Start();
        },
        1},
-      {"kill -9 of all three",
-       [=](Outlived& outlived) {
-         outlived.daemon().Kill();
-         KillAgents(outlived.data_dir());
-         outlived.Start();
-       }},
+      AllThree(),
       {"SIGTERM of rollgaitd",
        [](Outlived& outlived) {
          EXPECT_EQ(outlived.daemon().Terminate(), 0);
@@ -169,7 +172,7 @@ int Extra(const Place& before, const nlohmann::json& goes_on) {
 }
 
 // Prints a row for each fault.
-void ExpectToOutliveFaults(const v1::SolveSpec& spec) {
+void ExpectToOutlive(const v1::SolveSpec& spec, const std::vector<Fault>& faults) {
   Outlived whole(spec);
   const auto start = std::chrono::steady_clock::now();
   whole.ReadUntil(SIZE_MAX);
@@ -179,7 +182,7 @@ void ExpectToOutliveFaults(const v1::SolveSpec& spec) {
   const size_t count = whole.places().size();
   ASSERT_GT(count, 20u);
   std::printf("undisturbed: %zu iterations, %d programs, %.1f s\n", count, expected.meshes_size(), seconds);
-  for (const Fault& fault : Faults()) {
+  for (const Fault& fault : faults) {
     SCOPED_TRACE(fault.name);
     Outlived outlived(spec);
     outlived.ReadUntil(2 * count / 3);
@@ -204,13 +207,19 @@ void ExpectToOutliveFaults(const v1::SolveSpec& spec) {
   }
 }
 
-TEST(OutlivingTest, ASolveGoesOnAfterEveryFault) { ExpectToOutliveFaults(Request(v1::Accuracy::LEVEL_STANDARD)); }
+TEST(OutlivingTest, ASolveOfOneProgramGoesOnAfterEveryFault) {
+  ExpectToOutlive(Request(v1::Accuracy::LEVEL_DRAFT), Faults());
+}
+
+TEST(OutlivingTest, ASolveGoesOnInALaterProgram) {
+  ExpectToOutlive(Request(v1::Accuracy::LEVEL_STANDARD), {AllThree()});
+}
 
 // For the table of docs/explanation/life_of_a_request.md: takes minutes.
 TEST(OutlivingTest, DISABLED_ALongSolveGoesOnAfterEveryFault) {
   v1::SolveSpec spec = Request(v1::Accuracy::LEVEL_FINE);
   spec.mutable_accuracy()->set_estimate_errors(true);
-  ExpectToOutliveFaults(spec);
+  ExpectToOutlive(spec, Faults());
 }
 
 // What is damaged in the spool costs time, and nothing else.
