@@ -10,7 +10,7 @@ CONSTRAINTS = "core/ocp/constraints/"
 PROGRAMS = {
     VALIDATION: ["core.validation.unit_tests"],
     TRANSCRIPTION: ["core.transcription.unit_tests"],
-    CONSTRAINTS: ["core.ocp.unit_tests", "core.ocp.separation_test"],
+    CONSTRAINTS: ["core.ocp.unit_tests"],
 }
 
 
