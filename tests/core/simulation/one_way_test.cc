@@ -61,9 +61,16 @@ TEST(OneWay, BodiesThatLeaveTheGroundAreNotHeld) {
 }
 
 // The same bodies with Coulomb friction slide before they would have to pull, and have a way on.
+// The address sanitizer slows them twentyfold, and sees what it sees in the first ones.
+#ifdef ROLLGAIT_ADDRESS_SANITIZER
+constexpr unsigned kScenes = 20;
+#else
+constexpr unsigned kScenes = 100;
+#endif
+
 TEST(OneWay, ALimitOfFrictionLeavesAWayOn) {
-  int ended = 0;
-  for (unsigned seed = 1; seed <= 100; ++seed) {
+  unsigned ended = 0;
+  for (unsigned seed = 1; seed <= kScenes; ++seed) {
     SimulationScene scene = SpinningEllipsoid(seed, 30);
     scene.contacts[0].friction = 0.5;
     scene.contacts[0].friction_loss = FrictionLoss::kSlide;
@@ -73,7 +80,7 @@ TEST(OneWay, ALimitOfFrictionLeavesAWayOn) {
     EXPECT_NE(outcome.report.end, SimulationEnd::kRollingImpossible) << seed;
     ended += outcome.report.end == SimulationEnd::kDuration;
   }
-  EXPECT_GE(ended, 90);
+  EXPECT_GE(10 * ended, 9 * kScenes);
 }
 
 // A plate on a grid of feet, turned by `tilt` (rad) and dropped.
