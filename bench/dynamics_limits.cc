@@ -115,7 +115,7 @@ void MassRatio() {
     std::vector<Joint> joints(2);
     for (int i = 0; i < 2; ++i) {
       Joint& joint = joints[static_cast<size_t>(i)];
-      joint.name = i == 0 ? "x0" : "x1", joint.type = JointType::kPrismatic, joint.axis = Vector3::UnitX();
+      joint.name = "x" + std::to_string(i), joint.type = JointType::kPrismatic, joint.axis = Vector3::UnitX();
       joint.parent = i - 1, joint.mass = i == 0 ? m_1 : m_2, joint.inertia = Matrix3::Identity();
     }
     ContactDynamics dynamics(BodyDynamics(Model::Create(joints).value()), {});

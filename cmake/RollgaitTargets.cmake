@@ -42,11 +42,6 @@ endif()
 # keeps the check.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   target_compile_options(rollgait_options INTERFACE -Wno-array-bounds -Wno-stringop-overflow)
-  # Where the standard library is precompiled, g++ warns of what it leaves alone elsewhere (bench/CMakeLists.txt has an example). Which
-  # warnings these are is known of g++ 12 alone: with later ones they do not end a build.
-  if(ROLLGAIT_PRECOMPILE)
-    target_compile_options(rollgait_options INTERFACE -Wno-error)
-  endif()
 endif()
 target_include_directories(rollgait_options INTERFACE "${PROJECT_SOURCE_DIR}")
 if(ROLLGAIT_SANITIZE)

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-bool IsNamedBase(const Joint& joint) { return joint.name.starts_with("base_"); }
-
 // Which switch of the selection fixes a joint, null if none does.
 const char* FixedBy(const Joint& joint, const BodySelection& selection) {
   const bool lateral = joint.kind().is_slide() ? joint.axis.y() != 0 : joint.axis.y() == 0;
@@ -33,7 +31,7 @@ const char* FixedBy(const Joint& joint, const BodySelection& selection) {
 // What is wrong with locking a joint of the full human, empty if nothing is.
 std::string LockProblem(const Joint& joint, double angle, const BodySelection& selection) {
   std::ostringstream message;
-  if (IsNamedBase(joint)) {
+  if (IsOfBase(joint.role)) {
     message << "belongs to the floating base, which cannot be locked; use `sagittal` for a walk in the plane";
   } else if (const char* fixed = FixedBy(joint, selection)) {
     message << "is fixed already by `" << fixed << "`"
@@ -56,7 +54,7 @@ std::map<std::string, double> CheckLocks(const Model& model, const BodySelection
     if (joint < 0) {
       std::vector<std::string> known;
       for (const Joint& each : model.joints()) {
-        if (!IsNamedBase(each) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
+        if (!IsOfBase(each.role) && FixedBy(each, selection) == nullptr) known.push_back(each.name);
       }
       violations->push_back({field, NoSuchJoint(name, known)});
       continue;

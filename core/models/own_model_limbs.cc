@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kMirrorTolerance = 1e-6;  // of masses and inertias; of lengths times the leg
 
-bool IsBase(const Joint& joint) { return joint.role >= JointRole::kBaseForward && joint.role <= JointRole::kBasePitch; }
-
 void CheckLimits(int index, OwnModelCheck* check) {
   const Joint& joint = check->own.joints[index];
   if (!(joint.position_max > joint.position_min && std::isfinite(joint.position_max - joint.position_min))) {
@@ -148,7 +146,7 @@ void CheckOwnJoints(double leg_length, OwnModelCheck* check) {
   for (int i = 0; i < static_cast<int>(check->own.joints.size()); ++i) {
     const Joint& joint = check->own.joints[i];
     is_driven = is_driven || joint.actuated;
-    if (IsBase(joint)) continue;
+    if (IsOfBase(joint.role)) continue;
     CheckLimits(i, check);
     CheckRole(i, check);
   }
@@ -200,7 +198,7 @@ void CheckOwnFeet(double leg_length, OwnModelCheck* check) {
     }
     double* const sole = contact.side == BodySide::kLeft ? &left : &right;
     *sole = std::min(*sole, check->Lowest(contact));
-    if (IsBase(own.joints[contact.joint])) {
+    if (IsOfBase(own.joints[contact.joint].role)) {
       check->Refuse("contacts", c, "joint", "of \"", contact.name, "\" is a joint of the base; a foot hangs on a leg");
     }
   }

@@ -27,6 +27,9 @@ enum class JointRole {
   kElbowFlexion,
 };
 
+// Whether a joint is one of the floating base.
+constexpr bool IsOfBase(JointRole role) { return role >= JointRole::kBaseForward && role <= JointRole::kBasePitch; }
+
 // What ligaments and stretched muscles exert on a joint; core/models/passive_torque.h has the curves.
 enum class PassiveKind {
   kNone,

@@ -74,7 +74,7 @@ class Sources:
 
 
 def gives(include, header):
-    return include == header or include.startswith(NAMES[header][1] or ("\0",))
+    return include == header or include.startswith(NAMES[header][1])
 
 
 def lacks(sources, name, header, without=()):
