@@ -83,6 +83,9 @@ function(rollgait_library)
   endif()
 endfunction()
 
+# The longest tests have a property COST, an order of about their seconds: ctest begins with them, so that they are not what is waited
+# for at the end.
+#
 # s; ends a test that hangs, and nothing else: with sanitizers on a busy machine the slowest take minutes.
 set(ROLLGAIT_TEST_TIMEOUT 1800)
 
