@@ -1,11 +1,11 @@
 #include "client/formats/link_shapes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "client/failure.h"
 #include "client/formats/body_links.h"
+#include "client/principal_axes.h"
 #include "client/report/kinematics.h"
 
 namespace rollgait::client {
@@ -33,10 +33,7 @@ LinkShape ShapeOf(LinkShape::Kind kind, const Placed& placed, const v1::Model& m
 // A homogeneous ellipsoid has the moments m (b² + c²)/5 ….
 LinkShape InertiaEllipsoid(const v1::Model& model, int joint) {
   const LinkMass body = MassOf(model.joints(joint));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.inertia);
-  Eigen::Matrix3d axes = eigen.eigenvectors();
-  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
-  const Eigen::Vector3d& moments = eigen.eigenvalues();
+  const auto [moments, axes] = PrincipalAxesOf(body.inertia);
   Eigen::Vector3d semi_axes;
   for (int k = 0; k < 3; ++k) {
     semi_axes(k) = std::sqrt(std::max(0.0, 2.5 / body.mass * (moments.sum() - 2 * moments(k))));

@@ -1,6 +1,5 @@
 #include "client/formats/mjcf.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "client/formats/link_shapes.h"
 #include "client/formats/xml_writer.h"
 #include "client/joint_kinds.h"
+#include "client/principal_axes.h"
 
 namespace rollgait::client {
 namespace {
@@ -71,13 +71,11 @@ class MjcfWriter {
 
   // By principal moments: MuJoCo finds those of a full tensor to nine digits only.
   void WriteInertia(const LinkMass& body) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.inertia);
-    Eigen::Matrix3d axes = eigen.eigenvectors();
-    if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+    const PrincipalAxes principal = PrincipalAxesOf(body.inertia);
     xml_.Empty("inertial", {{"pos", Exact(body.center_of_mass)},
-                            {"quat", ExactQuaternion(axes)},
+                            {"quat", ExactQuaternion(principal.axes)},
                             {"mass", Exact(body.mass)},
-                            {"diaginertia", Exact(Eigen::Vector3d(eigen.eigenvalues()))}});
+                            {"diaginertia", Exact(principal.moments)}});
   }
 
   // `frame`: the joint's in the axes of the body.

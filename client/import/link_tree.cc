@@ -1,6 +1,5 @@
 #include "client/import/link_tree.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "client/failure.h"
+#include "client/principal_axes.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -73,7 +73,7 @@ class TreeFinisher {
       tree_.RefuseLink(link.name, "its mass is 0, but its inertia is not; give a mass, or no inertia");
     }
     require_near("the centre of mass", mass.center);
-    const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
+    const Eigen::Vector3d moments = PrincipalAxesOf(mass.inertia).moments;
     if (!(moments(0) >= -1e-6 * moments.cwiseAbs().maxCoeff())) {
       tree_.RefuseLink(link.name, "its inertia has the principal moment " + FormatNumber(moments(0)) +
                                       " kg m²; none may be negative");

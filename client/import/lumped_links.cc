@@ -1,7 +1,5 @@
 #include "client/import/lumped_links.h"
 
-#include <Eigen/Eigenvalues>
-
 namespace rollgait::client {
 
 Pose Compose(const Pose& a, const Pose& b) { return {a.rotation * b.rotation, a.position + a.rotation * b.position}; }
@@ -41,10 +39,6 @@ MassProperties Lump(const std::vector<MassProperties>& masses) {
     sum.inertia += part.inertia + part.mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
   }
   return sum;
-}
-
-Eigen::Vector3d PrincipalMoments(const MassProperties& mass) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 }  // namespace rollgait::client

@@ -22,9 +22,6 @@ MassProperties Placed(const MassProperties& mass, const Pose& place);
 // centre of mass by the parallel-axis theorem. One body alone is returned to the bit; without mass: zero.
 MassProperties Lump(const std::vector<MassProperties>& masses);
 
-// Principal moments about the centre of mass, kg m², in ascending order.
-Eigen::Vector3d PrincipalMoments(const MassProperties& mass);
-
 }  // namespace rollgait::client
 
 #endif  // ROLLGAIT_CLIENT_IMPORT_LUMPED_LINKS_H_

@@ -2,11 +2,11 @@
 
 #include <tinyxml2.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstring>
 
 #include "client/import/lumped_links.h"
+#include "client/principal_axes.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -142,10 +142,10 @@ MassProperties BoundedMass(const MjcfCompiler& compiler, const MassProperties& m
   MassProperties bounded = mass;
   bounded.mass = std::max(mass.mass, compiler.bound_mass);
   if (!(compiler.bound_inertia > 0) && !compiler.balance_inertia) return bounded;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(mass.inertia);
-  Eigen::Vector3d moments = eigen.eigenvalues().cwiseMax(compiler.bound_inertia);
+  const PrincipalAxes principal = PrincipalAxesOf(mass.inertia);
+  Eigen::Vector3d moments = principal.moments.cwiseMax(compiler.bound_inertia);
   if (compiler.balance_inertia && moments(0) + moments(1) < moments(2)) moments.setConstant(moments.mean());
-  bounded.inertia = eigen.eigenvectors() * moments.asDiagonal() * eigen.eigenvectors().transpose();
+  bounded.inertia = principal.axes * moments.asDiagonal() * principal.axes.transpose();
   return bounded;
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstring>
 
+#include "client/rotation_of_z.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -162,7 +163,7 @@ bool MjcfElement::IsLimited(const char* limited, const char* range) const {
 }
 
 Eigen::Matrix3d TurnOfZ(const MjcfElement& element, const Eigen::Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Direction(element, direction)).toRotationMatrix();
+  return RotationOfZTo(Direction(element, direction));
 }
 
 Eigen::Matrix3d MjcfElement::Euler(const std::vector<double>& angles) const {

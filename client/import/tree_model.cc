@@ -16,6 +16,7 @@
 #include "client/import/side_file.h"
 #include "client/import/tree_file.h"
 #include "client/import/tree_limits.h"
+#include "client/principal_axes.h"
 #include "client/text.h"
 
 namespace rollgait::client {
@@ -231,7 +232,7 @@ class ModelMaker {
       const MassProperties mass = Lump(parts[static_cast<size_t>(i)]);
       v1::Joint& joint = *result_.model.mutable_joints(i);
       RequireName("link", joint.link_name());
-      const Eigen::Vector3d moments = PrincipalMoments(mass);
+      const Eigen::Vector3d moments = PrincipalAxesOf(mass.inertia).moments;
       if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-6)) {
         tree_.RefuseLink(joint.link_name(), "with what is merged into it, it has the principal moments " +
                                                 FormatNumber(moments(0)) + ", " + FormatNumber(moments(1)) + " and " +

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "client/failure.h"
+#include "client/rotation_of_z.h"
 
 namespace rollgait::client {
 namespace {
@@ -182,7 +183,7 @@ class Drawing {
                     sides_[link],
                     ShapeKind::kDrawn,
                     {}};
-    shape.pose.rotation = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), end).toRotationMatrix();
+    shape.pose.rotation = RotationOfZTo(end);
     shapes_.push_back(shape);
   }
 
