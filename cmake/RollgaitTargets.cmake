@@ -89,12 +89,9 @@ endfunction()
 # s; ends a test that hangs, and nothing else: with sanitizers on a busy machine the slowest take minutes.
 set(ROLLGAIT_TEST_TIMEOUT 1800)
 
-# Folders of tests that compute with Eigen. In Debug those whose slowest tests take 4 to 100 times as long without optimisation (seconds
-# alone: 39, 79, 37 and 123 in place of 3, 1, 2 and 29); others wait for core, and gain a tenth or nothing.
-set(ROLLGAIT_NUMERIC_TESTS "^tests/(core|conformance|paper|reference_check)")
-if(CMAKE_BUILD_TYPE STREQUAL "Debug")
-  set(ROLLGAIT_NUMERIC_TESTS "^tests/core/(contact|multibody|nlp|transcription)")
-endif()
+# Folders of tests that compute with Eigen themselves: those of core whose slowest tests take 4 to 100 times as long without optimisation
+# (in Debug, seconds alone: 39, 79, 37 and 123 in place of 3, 1, 2 and 29); others wait for core, and gain a tenth or nothing.
+set(ROLLGAIT_NUMERIC_TESTS "^tests/(core/(contact|multibody|nlp|transcription)|paper|reference_check)")
 
 # Options of the sources of tests themselves: what they test is in libraries, with all optimisation. Without it, or with little of it
 # where they compute, half of their time to compile.

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <thread>
@@ -6,8 +7,6 @@
 #include "tests/faults/faults.h"
 
 namespace rollgait::faults {
-
-using Clock = std::chrono::steady_clock;
 
 FaultyServer::FaultyServer(server::Daemon::Options options) : options_(std::move(options)) {
   if (options_.data_dir.empty()) options_.data_dir = directory_.path() + "/data";
@@ -21,15 +20,15 @@ FaultyServer::FaultyServer(server::Daemon::Options options) : options_(std::move
 
 double FaultyServer::Restart() {
   past_.push_back(std::move(daemon_));
-  const Clock::time_point start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   daemon_ = std::make_unique<server::Daemon>(options_);
   if (daemon_->address() != address_) throw std::runtime_error("rollgaitd did not start again on " + address_);
   SecondsToAnswer(address_);
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 double SecondsToAnswer(const std::string& address) {
-  const Clock::time_point start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const std::unique_ptr<Stub> stub = Connect(address);
   Await("an answer of " + address, [&] {
     grpc::ClientContext context;
@@ -37,13 +36,13 @@ double SecondsToAnswer(const std::string& address) {
     v1::ServerInfo info;
     return stub->GetServerInfo(&context, {}, &info).ok();
   });
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Await(const std::string& what, const std::function<bool()>& condition) {
-  const Clock::time_point deadline = Clock::now() + std::chrono::minutes(2);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   while (!condition()) {
-    if (Clock::now() > deadline) throw std::runtime_error("waited two minutes for " + what);
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("waited two minutes for " + what);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
