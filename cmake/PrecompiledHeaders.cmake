@@ -4,7 +4,7 @@
 # That every file includes what it uses is not the compiler's to see then; tests/style/check_includes.py does.
 
 set(ROLLGAIT_PRECOMPILE "" CACHE STRING
-  "Precompile the headers of the standard library, Eigen, gRPC, the messages and GoogleTest: empty, TESTS or ALL")
+  "Precompile the headers of the standard library, Eigen, gRPC, the messages, CLI11, JSON and GoogleTest: empty, TESTS or ALL")
 set_property(CACHE ROLLGAIT_PRECOMPILE PROPERTY STRINGS "" TESTS ALL)
 
 set(ROLLGAIT_PRECOMPILED_STANDARD <functional> <memory> <optional> <random> <string> <variant> <vector>)
@@ -33,7 +33,8 @@ if(ROLLGAIT_PRECOMPILE)
   # Lists of one function's arguments: a keyword that comes again goes on.
   set(eigen HEADERS <Eigen/Dense> LIBRARIES Eigen3::Eigen)
   set(messages ${eigen} HEADERS <rollgait/v1/gait_service.pb.h> LIBRARIES rollgait::proto_messages)
-  set(wire ${eigen} HEADERS <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h> LIBRARIES rollgait::proto)
+  set(wire ${eigen} HEADERS <grpcpp/grpcpp.h> <rollgait/v1/gait_service.grpc.pb.h> <CLI/CLI.hpp> <nlohmann/json.hpp>
+    LIBRARIES rollgait::proto)
   if(ROLLGAIT_PRECOMPILE STREQUAL "ALL")
     rollgait_precompiled(core ${eigen} OPTIONS ${ROLLGAIT_COMPUTES})
     rollgait_precompiled(server ${messages})

@@ -29,6 +29,9 @@ NAMES = {
     "grpcpp/grpcpp.h": (r"\bgrpc::\w+", ("grpcpp/", "rollgait/v1/gait_service.grpc.pb.h")),
     "rollgait/v1/gait_service.pb.h": (r"\bv1::\w+", ("rollgait/v1/", "server/base/wire.pb.h")),
     "rollgait/v1/gait_service.grpc.pb.h": (r"\bv1::GaitService\b", ()),
+    # Headers declare CLI::App, CLI::Option and CLI::Error by themselves.
+    "CLI/CLI.hpp": (r"\bCLI::(?!(App|Option|Error)\b)\w+|(->|\.)add_(option|flag|subcommand)\w*\(", ()),
+    "nlohmann/json.hpp": (r"\bnlohmann::\w+", ("nlohmann/json_fwd.hpp",)),
     "gmock/gmock.h": (r"\b(EXPECT_THAT|ASSERT_THAT|MATCHER_P?|MOCK_METHOD)\(", ()),
     "gtest/gtest.h": (r"^(TEST|TEST_F|TEST_P|TYPED_TEST)\(|\b(EXPECT|ASSERT)_(EQ|NE|LT|LE|GT|GE|TRUE|FALSE|NEAR)\(", ("gmock/gmock.h",)),
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/gait/judge_solution.h"
+#include "core/nlp/termination.h"
 #include "tests/core/gait/planar_errors.h"
 
 namespace rollgait {
@@ -138,7 +139,8 @@ TEST_P(SearchLog, AProgramWhoseTimeIsUpIsTheLastAndTheSearchSaysSo) {
   EXPECT_EQ(solution.meshes.back().termination, Termination::kTimeLimit);
 }
 
-// Also where a program uses up the last one by converging: what follows ends before its first.
+// Also where a program uses up the last one by converging or by failing: what follows ends before its first, and since
+// the whole search converges, no part of it says that there is no gait.
 TEST_P(SearchLog, TheIterationsOfTheRequestAreNotExceeded) {
   Seen whole;
   const GaitSolution finished = Search(path.request, &whole);
@@ -152,6 +154,8 @@ TEST_P(SearchLog, TheIterationsOfTheRequestAreNotExceeded) {
     SCOPED_TRACE(std::string(path.name) + ", program " + std::to_string(program));
     ExpectComplete(solution, seen);
     EXPECT_LE(seen.sum(), all);
+    EXPECT_TRUE(Converged(solution.termination) || solution.termination == Termination::kIterationLimit)
+        << WordOf(solution.termination) << ": " << solution.message;
     // An answer of a coarser mesh says that no finer one followed.
     EXPECT_TRUE(!Converged(solution.termination) || solution.message.find("did not converge") != std::string::npos)
         << solution.message;

@@ -74,7 +74,8 @@ TEST_F(FrictionTest, PyramidsLieWithinTheCone) {
   for (const auto& added : edge_sets_) {
     int admitted = 0;
     for (int trial = 0; trial < 20000; ++trial) {
-      const Vector3 force(kMu * number(random), kMu * number(random), number(random));
+      const double x = kMu * number(random), y = kMu * number(random), z = number(random);
+      const Vector3 force(x, y, z);
       if (Least(At(force, added)) < 0) continue;
       ++admitted;
       EXPECT_LE(force.head<2>().norm(), kMu * force.z() + 1e-15);
