@@ -44,6 +44,11 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   target_compile_options(rollgait_options INTERFACE -Wno-array-bounds -Wno-stringop-overflow)
 endif()
+# Later versions of clang than 14 tell of a function that g++ 12's std::stable_sort calls and C++20 deprecates, and take the captures
+# that clang 14 needs, [&axes = axes] of a structured binding, for names that hide others.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 15)
+  target_compile_options(rollgait_options INTERFACE -Wno-deprecated-declarations -Wno-shadow)
+endif()
 target_include_directories(rollgait_options INTERFACE "${PROJECT_SOURCE_DIR}")
 if(ROLLGAIT_SANITIZE)
   target_compile_options(rollgait_options INTERFACE
