@@ -194,27 +194,15 @@ GaitSolution SearchCold(const GaitSpec& spec, SolveBudget* budget) {
   return LeavesRatesFree(spec) ? SearchWithoutRates(spec, budget) : SearchByMeshes(spec, Otherwise::kContinue, budget);
 }
 
-GaitSolution SearchWarmThenCold(const GaitSpec& spec, SolveBudget* budget) {
+}  // namespace
+
+GaitSolution SearchGait(const GaitSpec& spec, SolveBudget* budget) {
   if (!spec.warm_start) return SearchCold(spec, budget);
   GaitSolution warm = SolveFromWarmStart(spec, *BuildProblem(spec), MostIterations::kFromWarmStart, budget);
   if (Converged(warm.termination) || !budget->Left()) return warm;
   GaitSolution cold = SearchCold(spec, budget);
   cold.note += " Started afresh, since the warm start did not converge (" + warm.message + ")";
   return cold;
-}
-
-}  // namespace
-
-GaitSolution SearchGait(const GaitSpec& spec, SolveBudget* budget) {
-  GaitSolution solution = SearchWarmThenCold(spec, budget);
-  const bool failed =
-      solution.termination == Termination::kInfeasible || solution.termination == Termination::kNumericalDifficulty;
-  if (failed && !budget->Left()) {
-    // A program that failed with the last iteration says nothing of those that would have followed.
-    solution.termination = budget->Cut().value_or(Termination::kIterationLimit);
-    solution.message = Explain(solution.termination) + " The last program before it: " + solution.message;
-  }
-  return solution;
 }
 
 }  // namespace rollgait

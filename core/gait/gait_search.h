@@ -14,8 +14,7 @@ namespace rollgait {
 //   all others                             a coarse mesh, then finer ones; powers smoothed first; on slopes that the
 //                                          starts do not reach, from level ground
 // What each way leads through are continuations (parameter_continuation.h) in the smoothing of powers, the weight of
-// rates, the slope and the mesh. The budget's log has every program. Where the budget is used up, a failure of the last
-// program is told as the limit, with what the program said behind it.
+// rates, the slope and the mesh. The budget's log has every program.
 GaitSolution SearchGait(const GaitSpec& spec, SolveBudget* budget);
 
 }  // namespace rollgait

@@ -30,6 +30,7 @@ std::optional<UnmetConstraint> FindContradiction(const GaitSpec& spec) {
 
 GaitSolution SearchWithErrors(const GaitSpec& spec, SolveBudget* budget) {
   GaitSolution solution = SearchGait(spec, budget);
+  budget->TellLimit(&solution);
   return spec.estimate_errors && Converged(solution.termination) ? SolveForErrors(spec, std::move(solution), budget)
                                                                  : solution;
 }
@@ -71,7 +72,11 @@ GaitSolution OptimizingGaitSolver::Solve(const GaitSpec& spec, const SolveContro
     solution.unmet_constraints = {*contradiction};
     return solution;
   }
-  if (spec.manoeuvre) return SolveManoeuvre(spec, &budget);
+  if (spec.manoeuvre) {
+    GaitSolution solution = SolveManoeuvre(spec, &budget);
+    budget.TellLimit(&solution);
+    return solution;
+  }
   GaitSolution solution = SearchInUnits(units, spec, control.solutions, &budget);
   if (solution.finer) {
     solution.errors = EstimateErrors(spec.scene, solution, *solution.finer);

@@ -6,6 +6,7 @@
 #include "core/gait/newest_solution.h"
 #include "core/nlp/solve_journal.h"
 #include "core/nlp/solve_nlp.h"
+#include "core/nlp/termination.h"
 
 namespace rollgait {
 
@@ -31,6 +32,14 @@ std::optional<Termination> SolveBudget::Cut() const {
   if (control_.stop != nullptr && control_.stop->requested()) return Termination::kCancelled;
   if (elapsed() >= max_wall_time_) return Termination::kTimeLimit;
   return std::nullopt;
+}
+
+void SolveBudget::TellLimit(GaitSolution* solution) const {
+  const bool failed =
+      solution->termination == Termination::kInfeasible || solution->termination == Termination::kNumericalDifficulty;
+  if (!failed || Left()) return;
+  solution->termination = Cut().value_or(Termination::kIterationLimit);
+  solution->message = Explain(solution->termination) + " The last program before it: " + solution->message;
 }
 
 void SolveBudget::MarkForErrors(size_t first, bool for_errors) {

@@ -39,6 +39,10 @@ class SolveBudget {
   // Why nothing is left whatever the iterations: the stop flag is set, or the time is up.
   std::optional<Termination> Cut() const;
 
+  // Of a search that failed when nothing was left: that its limit was reached, with what its last program said behind
+  // it, since other starts, meshes or ways might have followed. Leaves every other solution as it is.
+  void TellLimit(GaitSolution* solution) const;
+
   // Who is offered the solutions that follow; outlives the budget. Null, as at first: nobody.
   void OfferTo(NewestSolution* newest) { newest_ = newest; }
   // A solution of a program of `spec`, which has converged. Its programs are those of the log.

@@ -1,6 +1,7 @@
 // Optimal control of a rolling ball against closed forms, Pontryagin's principle, symmetry and re-integration.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -223,6 +224,26 @@ TEST(Outcome, HasteThatFrictionCannotGiveIsNotSolved) {
   EXPECT_NE(solution.termination, Termination::kOptimal);
   EXPECT_FALSE(solution.within_requested_accuracy());
   EXPECT_FALSE(solution.unmet_constraints.empty());
+}
+
+// Sketches that are left may still lead there, whatever came of the first ones.
+TEST(Outcome, WithoutIterationsLeftNothingSaysThatThereIsNoMotion) {
+  GaitRequest ellipsoid = RollTo(0.4, 0.1, 2, {0, 0, kPi / 2});
+  ellipsoid.body.rolling_body.emplace().semi_axes = Vector3(0.13, 0.1, 0.09);
+  for (GaitRequest request : {ellipsoid, RollTo(0, 0, 1, {kPi / 2, 0, 0}), RollTo(0.3, 0.2, 1, {1, 0.4, -0.3})}) {
+    request.accuracy.level = GaitRequest::AccuracyLevel::kDraft;
+    const GaitSolution whole = Solve(request);
+    ASSERT_EQ(whole.termination, Termination::kOptimal) << whole.message;
+    ASSERT_GE(whole.meshes.size(), 2u);
+    int used = 0;
+    for (size_t program = 0; program + 1 < std::min<size_t>(whole.meshes.size(), 4); ++program) {
+      used += whole.meshes[program].iterations;
+      request.solver_limits.max_iterations = used;
+      const GaitSolution cut = Solve(request);
+      EXPECT_TRUE(Converged(cut.termination) || cut.termination == Termination::kIterationLimit)
+          << "program " << program << ": " << cut.message;
+    }
+  }
 }
 
 TEST(Outcome, IsTheSameEveryTimeAndCanBeCancelled) {
