@@ -6,8 +6,9 @@
 
 namespace rollgait::client {
 
-// R with R e_z = direction / |direction| and the smallest angle, by Rodrigues' formula. About e_x for -e_z, where every
-// horizontal axis would do (MuJoCo's `zaxis` takes the same). `direction` is finite and not zero, of any length.
+// R with R e_z = direction / |direction| and the smallest angle, by Rodrigues' formula. Within 1e-7 rad of e_z it is
+// the identity, and within 1e-7 rad of -e_z half a turn about e_x, as for `zaxis` of MuJoCo. `direction` is finite and
+// not zero, of any length.
 Eigen::Matrix3d RotationOfZTo(const Eigen::Vector3d& direction);
 
 }  // namespace rollgait::client

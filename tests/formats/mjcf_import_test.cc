@@ -175,6 +175,22 @@ TEST(MjcfImportTest, EveryFormOfOrientationSizeAndUnitIsReadAlike) {
   ExpectSameInertia("twisted.xml", kTwistedBody, BareSide(), {}, TwistedUpright());
 }
 
+// Next to -e_z any horizontal axis turns e_z there, and the bodies beyond differ.
+TEST(MjcfImportTest, AnAxisThatPointsDownTurnsAsInMujoco) {
+  for (const std::string zaxis : {"0 0 -1", "1.2246e-16 0 -2", "3e-6 4e-6 -1", "0.002 0 -3", "0 0 2"}) {
+    SCOPED_TRACE(zaxis);
+    const std::string text = R"(<mujoco><worldbody><body name="trunk" pos="0 0 1"><freejoint name="root"/>
+      <geom type="box" size="0.1 0.15 0.3" mass="8"/>
+      <body name="leg" pos="0.02 0.1 -0.3" zaxis=")" +
+                             zaxis + R"("><joint name="hip" axis="0 1 0" limited="true" range="-60 60"/>
+        <geom type="box" size="0.04 0.05 0.2" pos="0.03 0.01 0.2" mass="3"/></body></body></worldbody></mujoco>)";
+    v1::ModelSideFile side = BareSide();
+    side.add_joints()->set_name("hip");
+    side.mutable_joints(0)->set_actuated(false);
+    ExpectSameInertia("down.xml", text, side);
+  }
+}
+
 TEST(MjcfImportTest, LockedJointsAreFixedWhereTheSideFileSays) {
   v1::ModelSideFile side = BareSide();
   const std::map<std::string, double> fixed = {{"twist", 0.4}, {"slide", 0.1}};
