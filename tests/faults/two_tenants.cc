@@ -118,6 +118,7 @@ class GoodTenant {
     const Clock::time_point asked = Clock::now();
     const grpc::Status made = stub.CreateSolve(CallAs(token_, kDeadline).get(), request, &solve);
     phase->latencies[kCreate].Add(stalls_.RanSince(asked));
+    const Clock::time_point answered = Clock::now();
     if (!made.ok()) return Refused("CreateSolve", made, phase), "";
     names_.insert(solve.name());
 
@@ -130,10 +131,12 @@ class GoodTenant {
     for (bool first = true; stream->Read(&event); first = false) {
       if (first) phase->latencies[kFirstEvent].Add(stalls_.RanSince(start));
       if (!event.has_finished()) continue;
-      const std::chrono::duration<double> waited(Seconds(event.finished().start_time()) -
-                                                 Seconds(event.finished().create_time()));
-      phase->latencies[kWaiting].Add(std::chrono::duration_cast<std::chrono::nanoseconds>(waited) -
-                                     stalls_.Between(asked, Clock::now()));
+      const auto waited = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+          Seconds(event.finished().start_time()) - Seconds(event.finished().create_time())));
+      // It was made before the answer, so it did not wait for longer than this after it; what came later is not
+      // waiting.
+      const Clock::time_point latest_start = std::min(answered + waited, Clock::now());
+      phase->latencies[kWaiting].Add(std::max(Clock::duration::zero(), waited - stalls_.Between(asked, latest_start)));
     }
     const grpc::Status watched = stream->Finish();
     if (!watched.ok()) return Refused("WatchSolve", watched, phase), "";
