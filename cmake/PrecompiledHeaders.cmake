@@ -1,6 +1,6 @@
-# ROLLGAIT_PRECOMPILE: whose headers of other projects are parsed once for all targets. ALL is for clang, with which presets compile. TESTS is for g++: it takes an
-# eighth off the time of tests, and of libraries and programs a twentieth, which is what their headers cost to precompile; and g++ 12
-# finds more of the faults that are none (GCC bug 105651) where the standard library is precompiled.
+# ROLLGAIT_PRECOMPILE: whose headers of other projects are parsed once for all targets. ALL is for clang, with which presets compile.
+# TESTS is for g++: it takes an eighth off the time of tests, and of libraries and programs a twentieth, which is what their headers cost
+# to precompile; and g++ 12 finds more of the faults that are none (GCC bug 105651) where the standard library is precompiled.
 # That every file includes what it uses is not the compiler's to see then; tests/style/check_includes.py does.
 
 set(ROLLGAIT_PRECOMPILE "" CACHE STRING
