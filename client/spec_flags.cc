@@ -187,7 +187,7 @@ void AddSpecFlags(CLI::App& command, SpecFlags& flags) {
   add("--starts", flags.starts, "Numerics", "Guesses to start from; the cheapest solution is kept, [1, 32]");
   add("--warm-start", flags.warm_start, "Numerics",
       "Start from a stored solve, solves/ID, or from the nearest one: nearest");
-  add("--scheme", flags.scheme, "Numerics", "Collocation scheme: " + Listed(SchemeWords()));
+  add("--scheme", flags.scheme, "Numerics", "Collocation, or direct multiple shooting: " + Listed(SchemeWords()));
   add("--solver", flags.solver, "Numerics", "interior-point, or ipopt for the same search by Ipopt alone");
   add("--intervals", flags.intervals, "Numerics", "Mesh intervals of a single-support phase, [1, 1000]");
   add("--double-intervals", flags.double_intervals, "Numerics", "Mesh intervals of a double-support phase, [1, 1000]");

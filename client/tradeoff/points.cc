@@ -20,7 +20,8 @@ constexpr SchemeOrder kOrders[] = {
     {v1::Discretization::SCHEME_RADAU2, 3},          {v1::Discretization::SCHEME_RADAU3, 5},
     {v1::Discretization::SCHEME_HERMITE_SIMPSON, 4}, {v1::Discretization::SCHEME_RADAU4, 7},
     {v1::Discretization::SCHEME_RADAU5, 9},          {v1::Discretization::SCHEME_LOBATTO4, 6},
-    {v1::Discretization::SCHEME_LOBATTO5, 8}};
+    {v1::Discretization::SCHEME_LOBATTO5, 8},        {v1::Discretization::SCHEME_SHOOTING_CONSTANT, 4},
+    {v1::Discretization::SCHEME_SHOOTING_LINEAR, 4}};
 
 constexpr double kLeastTolerance = 1e-12, kMostTolerance = 1e-2;  // of the service
 

@@ -19,7 +19,14 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
 
 }  // namespace
 
-bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.2, spec, solution); }
+// Energy that appears from nothing, or vanishes, over the work of the motion. On coarse meshes of motions that finer
+// ones have it is up to a seventh.
+constexpr double kForeignEnergy = 0.5;
+
+bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) {
+  return SlipsBy(0.2, spec, solution) ||
+         (solution.accuracy && solution.accuracy->energy_balance_error_relative > kForeignEnergy);
+}
 
 // A coarse mesh may slip at half the speed and still lead to a motion that does not.
 bool IsBeyondRefinement(const GaitSpec& spec, const GaitSolution& solution) { return SlipsBy(0.5, spec, solution); }

@@ -5,8 +5,8 @@
 
 namespace rollgait {
 
-// True if the surfaces slip between nodes at a fair part of the speed of the motion: the optimiser has found a motion
-// that exists on its mesh only.
+// True if the surfaces slip between nodes at a fair part of the speed of the motion, or if half of its work comes from
+// nothing: the optimiser has found a motion that exists on its mesh only.
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution);
 
 // True beyond half the speed: not even a finer mesh, started from there, is likely to find a motion of the body.

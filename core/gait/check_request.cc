@@ -5,6 +5,7 @@
 #include "core/gait/default_speed.h"
 #include "core/gait/gait_spec.h"
 #include "core/gait/presets.h"
+#include "core/gait/rate_costs.h"
 #include "core/gait/request_check.h"
 #include "core/models/sides_alike.h"
 
@@ -183,6 +184,12 @@ Result<GaitSpec> Check(const GaitRequest& given, Symmetric with) {
     check.Range("motion.duty_factor", *request.motion.duty_factor, {0.5, 0.95}, true);
   }
   std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, similarity, check);
+  if (HasRates(costs) && !HasRatesOfEfforts(request.discretization.scheme)) {
+    check.Add("discretization.scheme",
+              std::string("has efforts that are constant in every interval, and the cost has a term of rates, which "
+                          "would keep them from ever changing; take ") +
+                  TraitsOf(Scheme::kShootingLinear).word + ", or leave the term out");
+  }
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);
   std::vector<Joint> joints = CheckLimits(request, known, similarity, check);

@@ -22,7 +22,7 @@ constexpr double kSafety = 0.5;
 constexpr double kGoodEnough = 0.8;
 
 // Order in h of a measure of one interval, for the scheme of two points and for those of three and more. Source: orders
-// of the polynomials (slip: that of the velocity; forces: that of the efforts) and of the end of a step, each less one
+// of the polynomials (forces: that of the efforts) and of the end of a step, each less one
 // where a joint may meet its limit or a force its bound inside of the interval, since the higher order is lost there.
 // 0: a finer mesh is not what it takes.
 struct MeasureOrder {
@@ -30,9 +30,9 @@ struct MeasureOrder {
   double two_points, more;
 };
 constexpr MeasureOrder kOrders[] = {
-    {Criterion::kSlip, 2, 3},           {Criterion::kPenetration, 2, 3},    {Criterion::kOverlap, 2, 3},
-    {Criterion::kPositionDefect, 3, 4}, {Criterion::kVelocityDefect, 2, 3}, {Criterion::kPull, 2, 2},
-    {Criterion::kFriction, 2, 2},       {Criterion::kEnergy, 3, 4},
+    {Criterion::kPenetration, 2, 3},    {Criterion::kOverlap, 2, 3}, {Criterion::kPositionDefect, 3, 4},
+    {Criterion::kVelocityDefect, 2, 3}, {Criterion::kPull, 2, 2},    {Criterion::kFriction, 2, 2},
+    {Criterion::kEnergy, 3, 4},
 };
 
 // How often a measure is what it may be. Bodies are kept further apart at the points than they must be, and only what
@@ -43,32 +43,58 @@ double ExcessOf(Criterion criterion, double measure, double bound) {
   return (kClearance + measure) / (kClearance + bound);
 }
 
-// Largest change of the gap of an active contact over an interval, m. The gap is the sum of these, so each may have its
-// share of the bound.
-double GapDrift(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase,
-                int interval) {
-  constexpr int kGapSamples = 8;
-  double drift = 0;
-  BodyDynamics::State state;
-  for (int contact : trajectory.phases[phase].contacts) {
-    double least = kInfinity, most = -kInfinity;
-    for (int i = 0; i <= kGapSamples; ++i) {
-      const MotionSample sample = Sample(trajectory, phase, interval, static_cast<double>(i) / kGapSamples);
-      dynamics.ComputeState(sample.position, sample.velocity, &state);
-      const RollingContact rolling = ComputeRollingContact(scene.contacts[contact], state);
-      least = std::min(least, rolling.gap);
-      most = std::max(most, rolling.gap);
-    }
-    drift = std::max(drift, most - least);
-  }
-  return drift;
-}
-
 int Parts(double excess, double order) {
   if (excess <= kGoodEnough) return 1;
   if (excess == kInfinity) return kPartsOfUnknown;
   return static_cast<int>(
       std::clamp(std::ceil(std::pow(excess / kSafety, 1 / order)), 2.0, static_cast<double>(kMostParts)));
+}
+
+// What an interval does to its active contacts, each the worst of them.
+struct ContactDrift {
+  double gap = 0;   // largest change, m. The gap is the sum of these, so each may have its share of the bound
+  double slip = 0;  // change from its start to its end, m/s, of which the slip is the sum where nodes may slip
+  double bow = 0;   // how far the slip within it is from the line between its ends, m/s
+};
+
+ContactDrift DriftOf(const Scene& scene, const BodyDynamics& dynamics, const Trajectory& trajectory, int phase,
+                     int interval) {
+  constexpr int kDriftSamples = 8;
+  ContactDrift drift;
+  BodyDynamics::State state;
+  for (int contact : trajectory.phases[phase].contacts) {
+    double least = kInfinity, most = -kInfinity;
+    Vector3 slips[kDriftSamples + 1];
+    for (int i = 0; i <= kDriftSamples; ++i) {
+      const MotionSample sample = Sample(trajectory, phase, interval, static_cast<double>(i) / kDriftSamples);
+      dynamics.ComputeState(sample.position, sample.velocity, &state);
+      const RollingContact rolling = ComputeRollingContact(scene.contacts[contact], state);
+      least = std::min(least, rolling.gap);
+      most = std::max(most, rolling.gap);
+      slips[i] = rolling.slip;
+    }
+    drift.gap = std::max(drift.gap, most - least);
+    const Vector3 change = slips[kDriftSamples] - slips[0];
+    drift.slip = std::max(drift.slip, change.norm());
+    for (int i = 0; i <= kDriftSamples; ++i) {
+      drift.bow = std::max(drift.bow, (slips[i] - slips[0] - i * change / kDriftSamples).norm());
+    }
+  }
+  return drift;
+}
+
+// Parts that an interval needs for what contacts do in it. Collocation holds them at rest at the nodes: slip within an
+// interval is its own. With an explicit method slip at the nodes, and with it the gap, is what all intervals before
+// have added: each may add its share of the slip that neither bound forbids.
+int PartsForContacts(const GaitSpec& spec, const ContactDrift& drift, double slip, double duration, size_t intervals,
+                     double orders_less) {
+  const double share = 1.0 / static_cast<double>(intervals);
+  const double gap_bound = spec.bounds[Criterion::kGap], slip_bound = spec.bounds[Criterion::kSlip];
+  if (TraitsOf(spec.scheme).is_collocation()) {
+    return std::max(Parts(drift.gap / (share * gap_bound), 4 - orders_less), Parts(slip / slip_bound, 3 - orders_less));
+  }
+  const double allowed = std::min(slip_bound, gap_bound / duration);
+  return std::max(Parts(drift.slip / (share * allowed), 4), Parts(drift.bow / allowed, 3));
 }
 
 }  // namespace
@@ -87,18 +113,20 @@ Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajec
                 bool stalled) {
   const BodyDynamics dynamics(spec.scene.model);
   const bool has_two_points = TraitsOf(spec.scheme).points.size() == 2;
+  const auto measure_of = [&report](size_t interval, Criterion criterion) {
+    // An interval that could not be integrated has no measures.
+    return interval < report.intervals.size() ? report.intervals[interval][criterion] : kInfinity;
+  };
   Mesh finer;
   size_t interval = 0;
   for (size_t p = 0; p < mesh.fractions.size(); ++p) {
-    const double share = spec.bounds[Criterion::kGap] / static_cast<double>(mesh.fractions[p].size());
     std::vector<int> parts;
     for (size_t k = 0; k < mesh.fractions[p].size(); ++k, ++interval) {
-      const double drift = GapDrift(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
-      int count = Parts(drift / share, has_two_points ? 3 : 4);
+      const ContactDrift drift = DriftOf(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
+      int count = PartsForContacts(spec, drift, measure_of(interval, Criterion::kSlip), trajectory.phases[p].duration,
+                                   mesh.fractions[p].size(), has_two_points ? 1 : 0);
       for (const MeasureOrder& order : kOrders) {
-        // An interval that could not be integrated has no measures.
-        const double measure =
-            interval < report.intervals.size() ? report.intervals[interval][order.criterion] : kInfinity;
+        const double measure = measure_of(interval, order.criterion);
         const double excess = ExcessOf(order.criterion, measure, spec.bounds[order.criterion]);
         count = std::max(count, Parts(excess, has_two_points ? order.two_points : order.more));
       }

@@ -43,7 +43,7 @@ GaitSpec AsAStart(GaitSpec spec) {
 }  // namespace
 
 bool LeavesRatesFree(const GaitSpec& spec) {
-  return TorqueWeight(spec) > 0 && !HasRates(spec) && !LeastSmoothing(spec);
+  return TorqueWeight(spec) > 0 && !HasRates(spec) && !LeastSmoothing(spec) && HasRatesOfEfforts(spec.scheme);
 }
 
 GaitSpec WithRates(const GaitSpec& spec) { return AsAStart(WithRatesAt(kFirstWeight, spec)); }

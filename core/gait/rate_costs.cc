@@ -4,8 +4,8 @@
 
 namespace rollgait {
 
-bool HasRates(const GaitSpec& spec) {
-  return std::any_of(spec.costs.begin(), spec.costs.end(),
+bool HasRates(const std::vector<GaitSpec::CostTerm>& costs) {
+  return std::any_of(costs.begin(), costs.end(),
                      [](const GaitSpec::CostTerm& cost) { return TraitsOf(cost.term).is_rate; });
 }
 

@@ -46,7 +46,7 @@ Violations CheckWarmStart(const GaitSpec& spec, const Trajectory& trajectory) {
                          ", or of a request with cycle CYCLE_FULL"
                        : "; " + HowToMatch(trajectory.cycle)));
   }
-  if (trajectory.scheme != spec.scheme)
+  if (trajectory.scheme != ReturnedAs(spec.scheme))
     return refuse("has another discretization.scheme; it must be that of this request");
   if (trajectory.phases.size() != spec.phases.size()) {
     return refuse("has " + std::to_string(trajectory.phases.size()) + " phases, this request has " +

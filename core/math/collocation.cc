@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "core/base/check.h"
+
 namespace rollgait {
 namespace {
 
@@ -46,9 +48,21 @@ Tableau CollocationTableau(const VectorX& c, int order) {
   Tableau tableau;
   tableau.c = c;
   tableau.order = order;
+  tableau.effort_degree = s - 1;
   tableau.A.resize(s, s);
   for (int i = 0; i < s; ++i) tableau.A.row(i) = LagrangeIntegrals(c, c(i)).transpose();
   tableau.b = LagrangeIntegrals(c, 1);
+  return tableau;
+}
+
+Tableau ExplicitTableau(const VectorX& c, const std::vector<double>& stages, int order, int effort_degree) {
+  const Eigen::Index s = c.size();
+  ROLLGAIT_CHECK(static_cast<Eigen::Index>(stages.size()) == s * (s - 1) / 2);
+  Tableau tableau{MatrixX::Zero(s, s), LagrangeIntegrals(c, 1), c, order, effort_degree, true};
+  auto next = stages.begin();
+  for (Eigen::Index i = 1; i < s; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) tableau.A(i, j) = *next++;
+  }
   return tableau;
 }
 

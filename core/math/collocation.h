@@ -7,27 +7,35 @@
 
 namespace rollgait {
 
-// A collocation Runge–Kutta scheme with s points for  q̈ = a  on one interval of length h:
+// A Runge–Kutta scheme with s points (stages) for  q̈ = a  on one interval of length h:
 //   v_i = v₀ + h Σ A_ij a_j,  q_i = q₀ + h c_i v₀ + h² Σ (A²)_ij a_j,  v_e = v₀ + h Σ b_j a_j,  q_e likewise with bᵀA.
 struct Tableau {
-  MatrixX A;  // s × s
-  VectorX b;  // s, positive
-  VectorX c;  // s, ascending, last 1
-  int order;  // classical order of the scheme
+  MatrixX A;                 // s × s
+  VectorX b;                 // s, positive
+  VectorX c;                 // s, ascending, last 1
+  int order;                 // classical order of the scheme
+  int effort_degree;         // most that the degree of efforts in an interval may be
+  bool is_explicit = false;  // A is zero but below its diagonal: the state of a stage follows from the stages before it
   int points() const { return static_cast<int>(c.size()); }
+  // Efforts of an explicit method that change within intervals do not jump between those of a phase: with jumps at
+  // every node the optimiser follows the errors of the steps.
+  bool joins_efforts() const { return is_explicit && effort_degree > 0; }
   // The first point is the node itself (Lobatto): its state is not new, only its acceleration is.
   bool starts_at_node() const { return c(0) == 0; }
 };
 
 // The tableau with points c (distinct, ascending): A, b by integrating the Lagrange polynomials through them.
 Tableau CollocationTableau(const VectorX& c, int order);
+// An explicit scheme with points c; `stages`: what A has below its diagonal, row by row. b interpolates: the quadrature
+// through c.
+Tableau ExplicitTableau(const VectorX& c, const std::vector<double>& stages, int order, int effort_degree);
 
 // Values of the Lagrange polynomials through the points c at θ, and of their first and second integrals from 0.
 VectorX LagrangeValues(const VectorX& c, double theta);
 VectorX LagrangeIntegrals(const VectorX& c, double theta);
 VectorX LagrangeSecondIntegrals(const VectorX& c, double theta);
 
-// The same scheme with what is linear eliminated. The interval's unknowns per coordinate are the node states q₀, v₀,
+// A scheme with what is linear eliminated. The interval's unknowns per coordinate are the node states q₀, v₀,
 // q_e, v_e and the accelerations of the first s − 2 points ("sources", in this order); position, velocity and
 // acceleration of every point are linear in them for a given h:
 //   z_i = Σ_src  value(i, src) · h^power(src) · source,   exact by construction: no collocation or continuity rows

@@ -135,7 +135,7 @@ Interval OptimalControlProblem::EffortBounds(int phase, int effort) const {
 }
 
 std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstraints(
-    int phase, bool at_node, const std::vector<int>& separated) const {
+    int phase, PointKind kind, const std::vector<int>& separated) const {
   std::vector<std::unique_ptr<PointConstraint>> constraints;
   const PointLayout layout = Layout(phase);
   const auto active = ActiveContacts(phase);
@@ -148,7 +148,7 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
         std::make_unique<DynamicsConstraint>(model, contacts, active, layout, force_size(), effort_size()));
   }
   for (const ActiveContact& contact : active) {
-    if (at_node) {
+    if (kind != PointKind::kCollocation) {
       constraints.push_back(std::make_unique<RollingAccelerationConstraint>(model, seen, contact.contact, layout));
     } else {
       constraints.push_back(std::make_unique<RollingVelocityConstraint>(model, seen, contact.contact, layout));
@@ -156,13 +156,14 @@ std::vector<std::unique_ptr<PointConstraint>> OptimalControlProblem::PointConstr
   }
   auto shares = MakeForceShares(contacts, active, layout, force_size());
   if (shares) constraints.push_back(std::move(shares));
-  // At a node that belongs to the interval before as well, gaps and distances are bounded there.
-  for (int c = 0; !at_node && c < static_cast<int>(contacts.size()); ++c) {
+  // Of a node gaps and distances are bounded in the interval before.
+  if (kind == PointKind::kNode) return constraints;
+  for (int c = 0; c < static_cast<int>(contacts.size()); ++c) {
     if (Contains(phases[phase].active, c)) continue;
     constraints.push_back(
         std::make_unique<GapConstraint>(model, contacts, c, layout, GapConstraint::Kind::kClearance, swing_clearance));
   }
-  for (size_t s = 0; !at_node && s < separated.size(); ++s) {
+  for (size_t s = 0; s < separated.size(); ++s) {
     const BodyPair& pair = pairs[separated[s]];
     constraints.push_back(
         std::make_unique<SeparationConstraint>(model, bodies[pair.first], bodies[pair.second], layout, pair_clearance));

@@ -9,6 +9,7 @@
 #include "core/contact/body_surface.h"
 #include "core/ocp/added_constraints.h"
 #include "core/ocp/cost_description.h"
+#include "core/ocp/point_kind.h"
 
 namespace rollgait {
 
@@ -122,10 +123,8 @@ struct OptimalControlProblem {
   // What the effort of an actuated joint (its place in Model::actuated) may be in a phase, N m (N).
   Interval EffortBounds(int phase, int effort) const;
 
-  // Rows at every collocation point of a phase. at_node: the point is a node whose velocity is known to roll already
-  // (first point of a Lobatto scheme). The last rows keep the pairs
-  // `separated` apart.
-  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, bool at_node,
+  // Rows at every point of the scheme. The last ones keep the pairs `separated` apart.
+  std::vector<std::unique_ptr<PointConstraint>> PointConstraints(int phase, PointKind kind,
                                                                  const std::vector<int>& separated = {}) const;
   // Rows at the first node of a phase: new contacts touch and are at rest, after a jump all contacts are; prescribed
   // contact points.

@@ -11,7 +11,7 @@ CollocationNlp::~CollocationNlp() = default;
 CollocationNlp::CollocationNlp(const OptimalControlProblem& problem, Scheme scheme, const Mesh& mesh,
                                AddedConstraints added)
     : problem_(problem),
-      scheme_kind_(scheme),
+      returned_(ReturnedPointsOf(scheme)),
       scheme_(TableauOf(scheme)),
       mesh_(mesh),
       added_(std::move(added)),

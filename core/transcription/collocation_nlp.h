@@ -18,6 +18,7 @@
 #include "core/transcription/jump_rows.h"
 #include "core/transcription/layout.h"
 #include "core/transcription/linear_rows.h"
+#include "core/transcription/returned_points.h"
 
 namespace rollgait {
 
@@ -121,7 +122,7 @@ class CollocationNlp : public NlpProblem {
   double* DenominatorHessian(const double* x, double factor, double* values);
 
   const OptimalControlProblem& problem_;
-  Scheme scheme_kind_;
+  ReturnedPoints returned_;
   EliminatedScheme scheme_;
   Mesh mesh_;
   AddedConstraints added_;
@@ -137,8 +138,7 @@ class CollocationNlp : public NlpProblem {
   int rows_ = 0, first_entry_row_ = 0, first_jump_row_ = 0, first_linear_row_ = 0;
   VectorX lower_, upper_, row_lower_, row_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
-  // The scaled objective in walking: it keeps the curvature of one node of a fine mesh well above the regularisation
-  // that Ipopt adds.
+  // The scaled objective in walking: the curvature of one node of a fine mesh stays well above what Ipopt adds.
   static constexpr double kTypicalScaled = 100;
   double objective_scale_ = 1;
 

@@ -1,6 +1,6 @@
 // The order in which the Newton system of a CollocationNlp is eliminated. For each interval in turn
 //  * the efforts of each point with the rows that hold them: leaves, which touch the two nodes, the forces of their
-//    point and, where rates of efforts are paid for, the efforts of the points beside them;
+//    point and, where rates of efforts cost something or efforts do not jump, the efforts of the points beside them;
 //  * the forces of the points but the first, with the rows that hold them;
 //  * the node before the interval with what remains. Rate costs tie the efforts of the first point to the interval
 //    before; as leaves they would carry all that the chain of nodes carries, so they then go with the node.
@@ -20,7 +20,8 @@ EliminationGroups CollocationNlp::elimination_groups() const {
   const auto assign = [&groups](int first, int end, int group) {
     std::fill(groups.variables.begin() + first, groups.variables.begin() + end, group);
   };
-  const bool tied = std::any_of(problem_.costs.begin(), problem_.costs.end(),
+  const bool tied = scheme_.tableau().joins_efforts() ||
+                    std::any_of(problem_.costs.begin(), problem_.costs.end(),
                                 [](const CostDescription& cost) { return cost.IsRateOf(RateCost::Of::kEfforts); });
   for (int k = 0; k < layout_.intervals(); ++k) {
     const int first = k * per_interval, between = first + points, node = first + points + 1;

@@ -86,11 +86,10 @@ void CollocationNlp::ShareForces(int p, double* forces) const {
 }
 
 Trajectory CollocationNlp::Extract(const double* x) {
-  const int s = scheme_.points();
   Trajectory trajectory;
-  trajectory.scheme = scheme_kind_;
-  trajectory.points_per_interval = s;
-  for (int i = 0; i < s; ++i) trajectory.point_fractions.push_back(scheme_.tableau().c(i));
+  trajectory.scheme = returned_.scheme;
+  trajectory.points_per_interval = static_cast<int>(returned_.fractions.size());
+  trajectory.point_fractions.assign(returned_.fractions.begin(), returned_.fractions.end());
   trajectory.cycle = CycleOf(problem_);
   trajectory.duration = duration(x);
   trajectory.displacement = x[layout_.displacement()];
@@ -128,7 +127,7 @@ CoarseMotion CollocationNlp::ExtractCoarse(const double* x, int most_of_a_phase)
 }
 
 TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double start) {
-  const int n = problem_.model.size(), s = scheme_.points();
+  const int n = problem_.model.size(), s = static_cast<int>(returned_.fractions.size());
   const int efforts = static_cast<int>(problem_.model.actuated().size());
   const int count = layout_.intervals_in(p), first = layout_.first_interval(p);
   const auto active = problem_.ActiveContacts(p);
@@ -147,17 +146,24 @@ TrajectoryPhase CollocationNlp::ExtractPhase(const double* x, int p, double star
     phase.node_positions.col(k) = Eigen::Map<const VectorX>(node, n);
     phase.node_velocities.col(k) = Eigen::Map<const VectorX>(node + n, n);
   }
-  for (int column = 0; column < count * s; ++column) {
-    const int k = first + column / s, i = column % s;
-    const VectorX& z = blocks_[p]->PointState(x + layout_.node(k), Step(x, k), i);
-    const double fraction = layout_.start(k) + scheme_.tableau().c(i) * layout_.length(k);
-    phase.point_times.push_back(start + phase.duration * fraction);
-    phase.point_accelerations.col(column) = z.segment(2 * n, n);
-    phase.point_efforts.col(column) = z.segment(3 * n, efforts);
+  MatrixX points(blocks_[p]->PointState(x + layout_.node(first), Step(x, first), 0).size(), scheme_.points());
+  for (int k = first; k < first + count; ++k) {
+    for (int i = 0; i < scheme_.points(); ++i) {
+      points.col(i) = blocks_[p]->PointState(x + layout_.node(k), Step(x, k), i);
+    }
+    const int column = (k - first) * s;
+    for (int i = 0; i < s; ++i) {
+      const double fraction = layout_.start(k) + returned_.fractions(i) * layout_.length(k);
+      phase.point_times.push_back(start + phase.duration * fraction);
+    }
+    phase.point_accelerations.middleCols(column, s) =
+        points.middleRows(2 * n, n) * returned_.acceleration_map.transpose();
+    const MatrixX controls = points.bottomRows(points.rows() - 3 * n) * returned_.control_map.transpose();
+    phase.point_efforts.middleCols(column, s) = controls.topRows(efforts);
     for (size_t c = 0; c < active.size(); ++c) {
       for (size_t d = 0; d < active[c].directions.size(); ++d) {
-        phase.point_forces(3 * static_cast<int>(c) + active[c].directions[d], column) =
-            z(3 * n + efforts + active[c].offset + static_cast<int>(d));
+        phase.point_forces.row(3 * static_cast<int>(c) + active[c].directions[d]).segment(column, s) =
+            controls.row(efforts + active[c].offset + static_cast<int>(d));
       }
     }
   }

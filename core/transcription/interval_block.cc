@@ -56,7 +56,7 @@ void IntervalBlock::UpdateWorkspace(int i, bool dynamics, bool second) {
     contact.Update(workspace_->tree);
     if (second) contact.UpdateSecond();
   }
-  if (!points_[i].at_node) return;
+  if (!points_[i].goes_on_rolling) return;
   for (int c : active_contacts_) {
     workspace_->dual_contacts[c].Update(workspace_->tree);
     if (second) workspace_->dual_contacts[c].UpdateSecond();

@@ -70,8 +70,8 @@ class IntervalBlock {
     std::vector<PointConstraint*> constraints;
     int first_row = 0;
     int rows = 0;
-    bool at_node = false;
-    VectorX row_factor;  // 1 / natural size
+    bool goes_on_rolling = false;  // contacts have rows of accelerations
+    VectorX row_factor;            // 1 / natural size
     // Jacobian entries of (q, v, a): row, coordinate, source; of (τ, f): (row, z index).
     struct StateEntry {
       int row, coordinate, source;

@@ -61,9 +61,9 @@ IntervalPathRows::IntervalPathRows(const OptimalControlProblem& problem, const A
                                    const EliminatedScheme& scheme, const Locals& locals, const VectorX& scale)
     : from_points_(BernsteinFromValues(scheme.tableau().c)), scale_(scale) {
   AddForces(problem, phase, added.Edges(phase), locals);
-  if (problem.phases[phase].effort_degree) {
-    AddDegree(problem, *problem.phases[phase].effort_degree, scheme.tableau().c, locals);
-  }
+  AddDegree(problem,
+            std::min(problem.phases[phase].effort_degree.value_or(scheme.points()), scheme.tableau().effort_degree),
+            scheme.tableau().c, locals);
   if (phase >= static_cast<int>(added.between.size())) return;
   const BoundedBetween& between = added.between[phase];
   const std::vector<int>& actuated = problem.model.actuated();

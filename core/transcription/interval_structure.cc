@@ -22,9 +22,10 @@ IntervalBlock::IntervalBlock(const OptimalControlProblem& problem, const AddedCo
       layout_(problem.Layout(phase)),
       points_count_(scheme.points()),
       controls_(layout_.efforts + layout_.forces),
-      regular_(problem.PointConstraints(phase, false, added.separated)),
+      regular_(problem.PointConstraints(
+          phase, scheme.tableau().is_explicit ? PointKind::kStage : PointKind::kCollocation, added.separated)),
       active_contacts_(problem.phases[phase].active) {
-  if (scheme.tableau().starts_at_node()) at_node_ = problem.PointConstraints(phase, true);
+  if (scheme.tableau().starts_at_node()) at_node_ = problem.PointConstraints(phase, PointKind::kNode);
   for (const CostDescription& cost : problem.costs) costs_.push_back(cost.integrand());
   local_size_ = 4 * layout_.n + (points_count_ - 2) * layout_.n + points_count_ * controls_;
   scale_ = VectorX::Ones(local_size_);
@@ -59,8 +60,9 @@ void IntervalBlock::BuildPoints() {
   int largest = 0;
   for (int i = 0; i < points_count_; ++i) {
     Point point;
-    point.at_node = i == 0 && !at_node_.empty();
-    for (const auto& constraint : point.at_node ? at_node_ : regular_) {
+    const bool is_node = i == 0 && !at_node_.empty();
+    point.goes_on_rolling = is_node || scheme_.tableau().is_explicit;
+    for (const auto& constraint : is_node ? at_node_ : regular_) {
       point.constraints.push_back(constraint.get());
       point.rows += constraint->rows();
     }

@@ -131,7 +131,9 @@ void AddContinuityRows(const OptimalControlProblem& problem, const DecisionLayou
   };
   for (const PointLink& link : ConsecutivePoints(layout, scheme.tableau().c)) {
     if (link.ratio != 0) continue;
-    if (efforts) {
+    const bool changes_contacts = link.wraps || layout.phase(link.from_interval) != link.phase;
+    const bool is_constant = problem.phases[link.phase].effort_degree == 0;
+    if (efforts || (scheme.tableau().joins_efforts() && !changes_contacts && !is_constant)) {
       const std::vector<Change> changes = EffortChanges(problem, layout, link);
       for (size_t j = 0; j < changes.size(); ++j) {
         add("continuous effort " + problem.model.joint(problem.model.actuated()[j]).name, "N m", changes[j],
@@ -139,7 +141,7 @@ void AddContinuityRows(const OptimalControlProblem& problem, const DecisionLayou
       }
     }
     // Where contacts change, forces do.
-    if (!forces || link.wraps || layout.phase(link.from_interval) != link.phase) continue;
+    if (!forces || changes_contacts) continue;
     for (auto& [name, change] : ForceChanges(problem, layout, link)) {
       add("continuous force " + name, "N", std::move(change), problem.force_size());
     }

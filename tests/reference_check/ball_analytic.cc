@@ -9,7 +9,7 @@
 #include "tests/support/rolling_scenes.h"
 
 namespace rollgait::reference {
-namespace {
+namespace ball_analytic {
 
 constexpr double kTolerance = 1e-12;  // of the integration
 // Nothing grows: errors of the integration and of the data's rounding to double at the start add up linearly in time.
@@ -108,7 +108,7 @@ void CheckCase(Fields item, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace ball_analytic
 
 bool IsBallAnalytic(const Document& document) {
   if (!document.json.is_object() || !document.json.contains("cases")) return false;
@@ -119,7 +119,7 @@ bool IsBallAnalytic(const Document& document) {
 void CheckBallAnalytic(const Document& document, Report* report) {
   Fields root(document.json, "file");
   root.Skip("description");
-  for (Fields& item : root.List("cases")) CheckCase(item, report);
+  for (Fields& item : root.List("cases")) ball_analytic::CheckCase(item, report);
   root.Finish();
 }
 

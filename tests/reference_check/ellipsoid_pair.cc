@@ -13,7 +13,7 @@
 #include "tests/reference_check/families.h"
 
 namespace rollgait::reference {
-namespace {
+namespace ellipsoid_pair {
 
 struct Body {
   Vector3 axes;
@@ -95,10 +95,12 @@ void CheckCase(Fields item, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace ellipsoid_pair
 
 bool IsEllipsoidPair(const Document& document) { return FirstCaseHas(document, "semi_axes_1", "normal_1_to_2"); }
 
-void CheckEllipsoidPair(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
+void CheckEllipsoidPair(const Document& document, Report* report) {
+  CheckCases(document, ellipsoid_pair::CheckCase, report);
+}
 
 }  // namespace rollgait::reference

@@ -8,7 +8,7 @@
 #include "tests/reference_check/families.h"
 
 namespace rollgait::reference {
-namespace {
+namespace ellipsoid_plane {
 
 constexpr double kGravity = 9.81;  // m/s², along −n
 
@@ -135,10 +135,12 @@ void CheckCase(Fields item, Report* all) {
   expect.Finish();
 }
 
-}  // namespace
+}  // namespace ellipsoid_plane
 
 bool IsEllipsoidPlane(const Document& document) { return FirstCaseHas(document, "plane_omega", "S_world"); }
 
-void CheckEllipsoidPlane(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
+void CheckEllipsoidPlane(const Document& document, Report* report) {
+  CheckCases(document, ellipsoid_plane::CheckCase, report);
+}
 
 }  // namespace rollgait::reference

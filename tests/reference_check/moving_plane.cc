@@ -5,7 +5,7 @@
 #include "tests/reference_check/trajectory.h"
 
 namespace rollgait::reference {
-namespace {
+namespace moving_plane {
 
 constexpr char kColumns[] =
     "t,qw,qx,qy,qz,wbx,wby,wbz,px,py,pz,gx,gy,gz,vgx,vgy,vgz,Fx,Fy,Fz,nx,ny,nz,pdotx,pdoty,pdotz,Ekin,Epot";
@@ -46,7 +46,7 @@ void CheckCase(Fields item, const std::string& directory, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace moving_plane
 
 bool IsMovingPlane(const Document& document) {
   const Json item = TypicalCase(document);
@@ -55,7 +55,7 @@ bool IsMovingPlane(const Document& document) {
 
 void CheckMovingPlane(const Document& document, Report* report) {
   const Json cases = CasesOf(document);
-  for (const Json& item : cases) CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
+  for (const Json& item : cases) moving_plane::CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
 }
 
 }  // namespace rollgait::reference

@@ -12,7 +12,7 @@
 #include "tests/support/passive_walker.h"
 
 namespace rollgait::reference {
-namespace {
+namespace passive_walkers {
 
 constexpr double kFixedPoint = 2e-11, kEigenvalue = 1e-8;
 // The limit of massless feet: what feet of m and 2 m give, extrapolated to 0. Feet of this many hip masses change the
@@ -231,7 +231,7 @@ void CheckCase(Fields item, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace passive_walkers
 
 bool IsPassiveWalkers(const Document& document) {
   if (!document.json.is_object() || !document.json.contains("cases")) return false;
@@ -243,7 +243,7 @@ bool IsPassiveWalkers(const Document& document) {
 void CheckPassiveWalkers(const Document& document, Report* report) {
   Fields root(document.json, "file");
   root.Skip("description");
-  for (Fields& item : root.List("cases")) CheckCase(item, report);
+  for (Fields& item : root.List("cases")) passive_walkers::CheckCase(item, report);
   root.Finish();
 }
 

@@ -9,7 +9,7 @@
 #include "tests/reference_check/trajectory.h"
 
 namespace rollgait::reference {
-namespace {
+namespace rattleback {
 
 constexpr char kColumns[] = "t,qw,qx,qy,qz,wbx,wby,wbz,px,py,gx,gy,gz,vgx,vgy,vgz,Fx,Fy,Fz,Ekin,Epot,E";
 constexpr double kSearchStep = 0.001;  // s
@@ -121,7 +121,7 @@ void CheckCase(Fields item, const std::string& directory, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace rattleback
 
 bool IsRattleback(const Document& document) {
   const Json item = TypicalCase(document);
@@ -130,7 +130,7 @@ bool IsRattleback(const Document& document) {
 
 void CheckRattleback(const Document& document, Report* report) {
   const Json cases = CasesOf(document);
-  for (const Json& item : cases) CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
+  for (const Json& item : cases) rattleback::CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
 }
 
 }  // namespace rollgait::reference

@@ -17,7 +17,7 @@
 #include "tests/reference_check/jet.h"
 
 namespace rollgait::reference {
-namespace {
+namespace rolling_derivatives {
 
 constexpr int kVariables = 9;
 using Number = Jet<kVariables>;
@@ -204,10 +204,12 @@ void CheckCase(Fields item, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace rolling_derivatives
 
 bool IsRollingDerivatives(const Document& document) { return FirstCaseHas(document, "com_in_body", "omega_dot_body"); }
 
-void CheckRollingDerivatives(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
+void CheckRollingDerivatives(const Document& document, Report* report) {
+  CheckCases(document, rolling_derivatives::CheckCase, report);
+}
 
 }  // namespace rollgait::reference

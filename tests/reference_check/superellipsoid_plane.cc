@@ -12,7 +12,7 @@
 #include "tests/reference_check/families.h"
 
 namespace rollgait::reference {
-namespace {
+namespace superellipsoid_plane {
 
 void CheckCase(Fields item, Report* all) {
   CaseReport report(all, "superellipsoid_plane", item.Text("family") + " " + item.Get("id").dump());
@@ -74,10 +74,12 @@ void CheckCase(Fields item, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace superellipsoid_plane
 
 bool IsSuperellipsoidPlane(const Document& document) { return FirstCaseHas(document, "eps1", "body_point"); }
 
-void CheckSuperellipsoidPlane(const Document& document, Report* report) { CheckCases(document, CheckCase, report); }
+void CheckSuperellipsoidPlane(const Document& document, Report* report) {
+  CheckCases(document, superellipsoid_plane::CheckCase, report);
+}
 
 }  // namespace rollgait::reference

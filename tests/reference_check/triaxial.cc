@@ -2,7 +2,7 @@
 #include "tests/reference_check/trajectory.h"
 
 namespace rollgait::reference {
-namespace {
+namespace triaxial {
 
 constexpr char kColumns[] = "t,qw,qx,qy,qz,wbx,wby,wbz,px,py,gx,gy,gz,vgx,vgy,vgz,Fx,Fy,Fz,Ekin,Epot,E";
 
@@ -27,7 +27,7 @@ void CheckCase(Fields item, const std::string& directory, Report* all) {
   item.Finish();
 }
 
-}  // namespace
+}  // namespace triaxial
 
 bool IsTriaxial(const Document& document) {
   const Json item = TypicalCase(document);
@@ -36,7 +36,7 @@ bool IsTriaxial(const Document& document) {
 
 void CheckTriaxial(const Document& document, Report* report) {
   const Json cases = CasesOf(document);
-  for (const Json& item : cases) CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
+  for (const Json& item : cases) triaxial::CheckCase(Fields(item, "case"), DirectoryOf(document.path), report);
 }
 
 }  // namespace rollgait::reference

@@ -14,6 +14,15 @@ inline std::vector<Scheme> EveryScheme() {
   return schemes;
 }
 
+// Those of collocation: the schemes of trajectories.
+inline std::vector<Scheme> EveryCollocation() {
+  std::vector<Scheme> schemes;
+  for (const SchemeTraits& traits : Schemes()) {
+    if (traits.is_collocation()) schemes.push_back(traits.scheme);
+  }
+  return schemes;
+}
+
 }  // namespace rollgait
 
 #endif  // ROLLGAIT_TESTS_SUPPORT_EVERY_SCHEME_H_

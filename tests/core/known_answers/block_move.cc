@@ -13,6 +13,7 @@ KnownProblem BlockMove() {
   AddCost(known.problem.get(), 12, [](const FormulaPoint& z) { return z.u(0) * z.u(0); });
   known.guess = StraightGuess({1}, {0, 0}, {1, 0}, {0});
   for (const SchemeTraits& traits : Schemes()) {
+    if (traits.effort_degree < 1) continue;
     known.runs.push_back({traits.scheme, Mesh::Uniform({4})});  // efforts are linear: exact
   }
   return known;

@@ -20,6 +20,7 @@ KnownProblem BrysonDenham() {
   for (BoundedBetween& phase : known.added.between) phase.range = {0};
   known.guess = StraightGuess({0.3, 0.4, 0.3}, {0, 1}, {0, -1}, {0});
   for (const SchemeTraits& traits : Schemes()) {
+    if (traits.effort_degree < 1) continue;
     known.runs.push_back({traits.scheme, Mesh::Uniform({1, 1, 1})});  // efforts are linear in every phase: exact
   }
   return known;

@@ -11,13 +11,14 @@ namespace {
 
 double Power(double t, int p) { return p == 0 ? 1 : std::pow(t, p); }
 
-class CollocationTest : public ::testing::TestWithParam<Scheme> {
+class SchemeTest : public ::testing::TestWithParam<Scheme> {
  protected:
   const Tableau tableau_ = TableauOf(GetParam());
 };
+class CollocationTest : public SchemeTest {};
 
 // Σ b_j c_j^(k−1) = 1/k up to the order of the scheme, and not beyond.
-TEST_P(CollocationTest, QuadratureHasItsOrder) {
+TEST_P(SchemeTest, QuadratureHasItsOrder) {
   for (int k = 1; k <= tableau_.order + 1; ++k) {
     double sum = 0;
     for (int j = 0; j < tableau_.points(); ++j) sum += tableau_.b(j) * Power(tableau_.c(j), k - 1);
@@ -82,7 +83,7 @@ TEST_P(CollocationTest, EliminationIsExactForPolynomials) {
   }
 }
 
-TEST_P(CollocationTest, DerivativesByTheStepMeetDifferences) {
+TEST_P(SchemeTest, DerivativesByTheStepMeetDifferences) {
   const EliminatedScheme scheme(tableau_);
   const double h = 0.3, step = 1e-5;
   int present = 0;
@@ -104,7 +105,8 @@ TEST_P(CollocationTest, DerivativesByTheStepMeetDifferences) {
   EXPECT_GT(present, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, CollocationTest, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, SchemeTest, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, CollocationTest, ::testing::ValuesIn(EveryCollocation()));
 
 TEST(Collocation, TableauxOfTheBooks) {
   Eigen::Matrix2d radau;

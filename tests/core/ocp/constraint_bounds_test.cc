@@ -49,8 +49,8 @@ TEST_P(ConstraintBoundsTest, EquationsAreEquationsAndSidesAreSides) {
   const GaitSpec spec = CheckRequest(request).value();
   const auto problem = BuildProblem(spec);
   for (int phase = 0; phase < static_cast<int>(problem->phases.size()); ++phase) {
-    for (bool at_node : {false, true}) {
-      for (const auto& constraint : problem->PointConstraints(phase, at_node)) Check(*constraint);
+    for (const PointKind kind : {PointKind::kCollocation, PointKind::kNode, PointKind::kStage}) {
+      for (const auto& constraint : problem->PointConstraints(phase, kind)) Check(*constraint);
     }
     for (const auto& constraint : problem->EntryConstraints(phase)) Check(*constraint);
     if (!problem->Jumps(phase)) continue;

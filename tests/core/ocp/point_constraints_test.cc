@@ -119,8 +119,8 @@ class PointConstraintsTest : public ::testing::TestWithParam<Body> {
 TEST_P(PointConstraintsTest, DerivativesOfTheRowsOfEveryPhase) {
   int checked = 0;
   for (int phase = 0; phase < static_cast<int>(problem_->phases.size()); ++phase) {
-    for (bool at_node : {false, true}) {
-      for (const auto& constraint : problem_->PointConstraints(phase, at_node)) {
+    for (const PointKind kind : {PointKind::kCollocation, PointKind::kNode, PointKind::kStage}) {
+      for (const auto& constraint : problem_->PointConstraints(phase, kind)) {
         CheckDerivatives(*constraint, problem_->Layout(phase).size());
         ++checked;
       }
@@ -166,7 +166,7 @@ TEST_P(PointConstraintsTest, RollingRowsOfAPhaseAreIndependent) {
     for (int j = 0; j < layout.n; ++j) z(j) = problem_->model.joint(j).name.starts_with("knee") ? 0.3 : 0.02 * j;
     MatrixX rolling(0, layout.size());
     int shares = 0;
-    for (const auto& constraint : problem_->PointConstraints(phase, false)) {
+    for (const auto& constraint : problem_->PointConstraints(phase, PointKind::kCollocation)) {
       if (constraint->Name(0).starts_with("share")) shares += constraint->rows();
       if (!constraint->Name(0).starts_with("rolling")) continue;
       MatrixX rows = MatrixX::Zero(constraint->rows(), layout.size());

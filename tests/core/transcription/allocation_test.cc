@@ -24,8 +24,7 @@ TEST(AllocationCounter, SeesVectorsAndMatrices) {
 class AllocationTest : public ::testing::TestWithParam<Scheme> {};
 
 TEST_P(AllocationTest, EvaluationsAllocateNothing) {
-  GaitRequest request = PlanarRequestWithEveryTerm();
-  request.discretization.scheme = GetParam();
+  GaitRequest request = PlanarRequestWithEveryTerm(GetParam());
   request.ground_contact.touch_down = GaitRequest::TouchDown::kPlastic;  // every row there is
   const auto spec = CheckRequest(request);
   ASSERT_TRUE(spec.ok());

@@ -58,9 +58,11 @@ TEST_P(ExchangeTest, PointsLieOnThePolynomials) {
   }
 }
 
+class CollocationExchangeTest : public ExchangeTest {};
+
 // At the stage positions that Trajectory names, the equations of motion hold to the tolerance of the solve; at q(t)
 // they do not, where the two differ.
-TEST_P(ExchangeTest, EquationsOfMotionHoldAtStagePositions) {
+TEST_P(CollocationExchangeTest, EquationsOfMotionHoldAtStagePositions) {
   const GaitSpec spec = Spec(Cycle::kHalf);
   const GaitSolution solution = OptimizingGaitSolver().Solve(spec, SolveControl());
   ASSERT_EQ(solution.termination, Termination::kOptimal);
@@ -105,6 +107,7 @@ TEST_P(ExchangeTest, EquationsOfMotionHoldAtStagePositions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, ExchangeTest, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, CollocationExchangeTest, ::testing::ValuesIn(EveryCollocation()));
 
 }  // namespace
 }  // namespace rollgait

@@ -92,10 +92,13 @@ Mesh UnevenMesh(int pairs) {
 }
 
 class KnownAnswersTest : public ::testing::TestWithParam<Scheme> {};
+class CollocatedAnswersTest : public KnownAnswersTest {};
+class LinearEffortsTest : public KnownAnswersTest {};  // of degree 1 or more in an interval
+class ShootingAnswersTest : public KnownAnswersTest {};
 
 // Double integrator from rest to rest with least ∫ u² dt: u = m (6 D/T²)(1 − 2 t/T), cost 12 m² D²/T³. Efforts are
-// linear and u² is quadratic, so every scheme has exact efforts, cost and node states on every mesh.
-TEST_P(KnownAnswersTest, DoubleIntegratorWithLeastEffort) {
+// linear and u² is quadratic, so every scheme that has such efforts has exact ones, cost and node states on every mesh.
+TEST_P(LinearEffortsTest, DoubleIntegratorWithLeastEffort) {
   const double distance = 0.7;
   const auto problem = MassOnRail(distance, {0, 0, -9.81});
   CollocationNlp nlp(*problem, GetParam(), UnevenMesh(2));
@@ -180,7 +183,7 @@ class TrackedSine {
 // Node states converge with the order of the scheme. The odd leading term of the cost's error is a total derivative
 // along the motion and vanishes over a period, so that the cost gains an order with the Radau schemes. That of order 9
 // takes coarser meshes, on which rounding does not show, but further terms of the error do.
-TEST_P(KnownAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
+TEST_P(CollocatedAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
   const SchemeTraits& traits = TraitsOf(GetParam());
   const bool is_highest = traits.order == 9;
   const int pairs = is_highest ? 4 : 8;
@@ -193,7 +196,7 @@ TEST_P(KnownAnswersTest, TrackedSineConvergesWithTheOrderOfTheScheme) {
 }
 
 // ∫ (dτ/dt)² of τ = sin ωt over a period, T ω²/2, by differences: error of second order in the step.
-TEST_P(KnownAnswersTest, EffortRateOfASine) {
+TEST_P(LinearEffortsTest, EffortRateOfASine) {
   const auto problem = MassOnRail(0, {0, 0, -9.81});
   CostDescription rate;
   rate.term = RateCost{RateCost::Of::kEfforts, VectorX::Constant(1, 3.0)};
@@ -213,7 +216,24 @@ TEST_P(KnownAnswersTest, EffortRateOfASine) {
   EXPECT_LT(error(16), 0.01);
 }
 
+// The least cost with efforts of a degree in every interval exceeds that with free ones by the square of what the
+// efforts differ by, h^(degree + 1). Node states follow the mean of the efforts, which is exact.
+TEST_P(ShootingAnswersTest, CostOfATrackedSineConvergesWithTheDegreeOfTheEfforts) {
+  const auto coarse = TrackedSine(GetParam(), UnevenMesh(8)).Measure();
+  const auto fine = TrackedSine(GetParam(), UnevenMesh(16)).Measure();
+  EXPECT_NEAR(std::log2(coarse.cost / fine.cost), 2 * (TraitsOf(GetParam()).effort_degree + 1), 0.1);
+  EXPECT_LT(fine.cost, 1e-2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, KnownAnswersTest, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, CollocatedAnswersTest, ::testing::ValuesIn(EveryCollocation()));
+INSTANTIATE_TEST_SUITE_P(Schemes, LinearEffortsTest, ::testing::ValuesIn([] {
+                           std::vector<Scheme> schemes = EveryScheme();
+                           std::erase_if(schemes, [](Scheme scheme) { return !HasRatesOfEfforts(scheme); });
+                           return schemes;
+                         }()));
+INSTANTIATE_TEST_SUITE_P(Schemes, ShootingAnswersTest,
+                         ::testing::Values(Scheme::kShootingConstant, Scheme::kShootingLinear));
 
 }  // namespace
 }  // namespace rollgait

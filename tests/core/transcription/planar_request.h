@@ -7,9 +7,10 @@
 
 namespace rollgait {
 
-// A planar walk with every kind of row and cost term, weighted to similar size.
-inline GaitRequest PlanarRequestWithEveryTerm() {
+// A planar walk with every kind of row and cost term that the scheme allows, weighted to similar size.
+inline GaitRequest PlanarRequestWithEveryTerm(Scheme scheme = Scheme::kRadau2) {
   GaitRequest request;
+  request.discretization.scheme = scheme;
   request.body.model = "planar";
   request.slope = 0.1;
   request.motion.speed = 1.3;
@@ -34,6 +35,9 @@ inline GaitRequest PlanarRequestWithEveryTerm() {
     });
     if (!given) request.costs.push_back({Term{}, 1.0});
   });
+  if (!HasRatesOfEfforts(scheme)) {
+    std::erase_if(request.costs, [](const GaitRequest::CostTerm& cost) { return TraitsOf(cost.term).is_rate; });
+  }
   return request;
 }
 

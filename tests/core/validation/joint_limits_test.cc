@@ -140,7 +140,7 @@ TEST_P(JointLimits, NaNIsPastEveryLimit) {
   EXPECT_EQ(Judge()[Criterion::kJointVelocity].value, kInfinity);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, JointLimits, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, JointLimits, ::testing::ValuesIn(EveryCollocation()));
 
 }  // namespace
 }  // namespace rollgait

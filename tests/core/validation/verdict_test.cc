@@ -211,7 +211,7 @@ TEST_P(VerdictTest, NaNIsNeverWithin) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, VerdictTest, ::testing::ValuesIn(EveryScheme()));
+INSTANTIATE_TEST_SUITE_P(Schemes, VerdictTest, ::testing::ValuesIn(EveryCollocation()));
 
 }  // namespace
 }  // namespace rollgait
