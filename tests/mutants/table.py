@@ -169,6 +169,12 @@ MUTANTS = [
     ("positions may jump at a touch-down", TRANSCRIPTION + "linear_rows.cc", "{layout.end_node(layout.first_interval(p) - 1) + j, -1.0}", "{layout.end_node(layout.first_interval(p) - 1) + j, 0.0}"),
     ("mirror_sign is left out of a jump", TRANSCRIPTION + "jump_rows.cc", "const double sign = mirrors ? joint.mirror_sign : 1;", "const double sign = 1;"),
     ("a jump takes the same side's velocity", TRANSCRIPTION + "jump_rows.cc", "mirrors && joint.mirror_joint >= 0 ? joint.mirror_joint : j", "j"),
+    ("stages of an explicit method hold velocities", TRANSCRIPTION + "interval_structure.cc", "scheme.tableau().is_explicit ? PointKind::kStage", "false ? PointKind::kStage"),
+    ("the dense output of a step misses its end", TRANSCRIPTION + "returned_points.cc", "3 * velocity * tableau.A - 0.5 * first", "3 * velocity * tableau.A"),
+    ("returned controls are those of the first stage", TRANSCRIPTION + "returned_points.cc", "LagrangeValues(tableau.c, returned.fractions(r))", "LagrangeValues(tableau.c, 0)"),
+    ("linear efforts of shooting jump", TRANSCRIPTION + "linear_rows.cc", "scheme.tableau().joins_efforts() &&", "false &&"),
+    ("constant efforts of a phase are joined", TRANSCRIPTION + "linear_rows.cc", "problem.phases[link.phase].effort_degree == 0", "false"),
+    ("shooting's efforts have any degree", TRANSCRIPTION + "interval_path_rows.cc", ", scheme.tableau().effort_degree)", ", scheme.points())"),
     ("an impulse has the size of a force", TRANSCRIPTION + "jump_rows.cc", "problem.impulse_size()", "problem.force_size()"),
 
     # Constraints at an instant.

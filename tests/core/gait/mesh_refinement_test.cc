@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -97,6 +98,37 @@ TEST_F(MeshRefinementTest, CutsWhatWasNotMeasured) {
   const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
   EXPECT_EQ(finer.fractions[0], mesh_.fractions[0]);
   EXPECT_EQ(finer.fractions[1].size(), 4 * mesh_.fractions[1].size());
+}
+
+// With an explicit method a foot that begins to slip in one interval slips in all after it. That interval is cut, the
+// others do not add to the slip; collocation, of which an interval's slip is its own, cuts what is measured.
+TEST_F(MeshRefinementTest, CutsWhereTheSlipOfAnExplicitMethodBegins) {
+  spec_->bounds = StandardBounds();
+  spec_->bounds[Criterion::kGap] = spec_->bounds[Criterion::kSlip] = 1;
+  report_.intervals.assign(report_.intervals.size(), CriterionValues());
+  const int place = 2, forward = spec_->scene.model.Find(JointRole::kBaseForward), s = trajectory_->points_per_interval;
+  TrajectoryPhase& phase = trajectory_->phases[1];
+  const double slip = 2;  // m/s, from the end of that interval on
+  const double length = phase.node_times[place + 1] - phase.node_times[place];
+  phase.point_accelerations.row(forward).segment(place * s, s).array() += slip / length;
+  for (int k = place + 1; k < phase.node_velocities.cols(); ++k) phase.node_velocities(forward, k) += slip;
+  const size_t first = mesh_.fractions[0].size(), count = mesh_.fractions[1].size();
+  for (size_t k = place; k < count; ++k) report_.intervals[first + k][Criterion::kSlip] = slip;
+  const auto cut_intervals = [&](Scheme scheme) {
+    spec_->scheme = scheme;
+    const Mesh finer = RefineMesh(mesh_, *spec_, *trajectory_, report_, false);
+    EXPECT_EQ(finer.fractions[0], mesh_.fractions[0]);
+    EXPECT_EQ(finer.fractions[1][place], mesh_.fractions[1][place] / (scheme == Scheme::kRadau2 ? 2 : 3));
+    size_t cut = 0, next = 0;
+    for (const double fraction : mesh_.fractions[1]) {
+      const double ratio = fraction / finer.fractions[1][next];
+      next += static_cast<size_t>(std::lround(ratio));
+      cut += ratio > 1.5 ? 1 : 0;
+    }
+    return cut;
+  };
+  EXPECT_EQ(cut_intervals(Scheme::kShootingConstant), 1u);
+  EXPECT_EQ(cut_intervals(Scheme::kRadau2), count - place);
 }
 
 TEST_F(MeshRefinementTest, CutsWholePhasesWhenItHasStalled) {

@@ -225,6 +225,21 @@ TEST_P(ShootingAnswersTest, CostOfATrackedSineConvergesWithTheDegreeOfTheEfforts
   EXPECT_LT(fine.cost, 1e-2);
 }
 
+// Linear efforts do not jump between intervals, unless the phase holds them constant.
+TEST_P(ShootingAnswersTest, RowsJoinLinearEfforts) {
+  for (const std::optional<int> degree : {std::optional<int>(), std::optional<int>(0)}) {
+    const auto problem = MassOnRail(0.7, {0, 0, -9.81});
+    problem->phases[0].effort_degree = degree;
+    const CollocationNlp nlp(*problem, GetParam(), Mesh::Uniform({4}));
+    const VectorX x = nlp.MakeStart(Resting());
+    int joined = 0;
+    for (int row = 0; row < nlp.constraints(); ++row) {
+      joined += nlp.Describe(x.data(), row).name.rfind("continuous effort", 0) == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(joined, GetParam() == Scheme::kShootingLinear && !degree ? 3 : 0);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, KnownAnswersTest, ::testing::ValuesIn(EveryScheme()));
 INSTANTIATE_TEST_SUITE_P(Schemes, CollocatedAnswersTest, ::testing::ValuesIn(EveryCollocation()));
 INSTANTIATE_TEST_SUITE_P(Schemes, LinearEffortsTest, ::testing::ValuesIn([] {

@@ -2,6 +2,8 @@
 // forward dynamics by which trajectories are judged.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/contact/constrained_dynamics.h"
 #include "core/gait/optimizing_gait_solver.h"
 #include "core/trajectory/sampling.h"
@@ -62,9 +64,13 @@ TEST_P(ShootingTest, EveryIntervalIsOneStepOfTheMethod) {
 TEST_P(ShootingTest, EffortsHaveTheirDegreeInEveryInterval) {
   const GaitSolution solution = OptimizingGaitSolver().Solve(CheckRequest(Request()).value(), SolveControl());
   ASSERT_EQ(solution.termination, Termination::kOptimal) << solution.message;
-  double steepest = 0;
+  double steepest = 0, jump = 0;
   for (const TrajectoryPhase& phase : solution.trajectory->phases) {
     for (int column = 0; column < phase.point_efforts.cols(); column += 3) {
+      if (column > 0) {
+        jump = std::max(jump,
+                        (phase.point_efforts.col(column) - phase.point_efforts.col(column - 1)).cwiseAbs().maxCoeff());
+      }
       const VectorX first = phase.point_efforts.col(column), middle = phase.point_efforts.col(column + 1),
                     last = phase.point_efforts.col(column + 2);
       EXPECT_LT((first - 2 * middle + last).cwiseAbs().maxCoeff(), 1e-3) << column;  // N m
@@ -73,8 +79,10 @@ TEST_P(ShootingTest, EffortsHaveTheirDegreeInEveryInterval) {
   }
   if (GetParam() == Scheme::kShootingConstant) {
     EXPECT_LT(steepest, 1e-3);
+    EXPECT_GT(jump, 1);
   } else {
     EXPECT_GT(steepest, 1);
+    EXPECT_LT(jump, 1e-3);  // within phases
   }
 }
 
