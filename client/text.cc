@@ -77,6 +77,8 @@ std::string SchemeName(v1::Discretization::Scheme scheme) {
        {std::pair("SCHEME_RADAU", "Radau IIA, "), std::pair("SCHEME_LOBATTO", "Lobatto IIIA, ")}) {
     if (name.rfind(prefix, 0) == 0) return family + name.substr(std::string(prefix).size()) + " points";
   }
+  const std::string shooting = "SCHEME_SHOOTING_";
+  if (name.rfind(shooting, 0) == 0) return "direct multiple shooting, " + Words(name, shooting) + " efforts";
   return scheme == v1::Discretization::SCHEME_HERMITE_SIMPSON ? "Hermite–Simpson" : Words(name, "SCHEME_");
 }
 

@@ -28,6 +28,12 @@ std::string SlopeLabel(double slope_rad) {
   return (number == "0" ? "" : degrees > 0 ? "+" : "−") + number + "°";
 }
 
+// The scheme that was asked for: trajectories of direct multiple shooting are returned as those of Hermite–Simpson.
+v1::Discretization::Scheme SchemeOf(const v1::Solve& solve) {
+  const v1::Discretization::Scheme asked = solve.spec().discretization().scheme();
+  return asked == v1::Discretization::SCHEME_UNSPECIFIED ? solve.result().trajectory().scheme() : asked;
+}
+
 // One label a solve: the slope; with the speed, then with the name, where that is needed to tell them apart.
 std::vector<std::string> Labels(const std::vector<ReportedSolve>& solves) {
   std::vector<std::string> labels;
@@ -232,7 +238,7 @@ json SolveData(const ReportedSolve& reported, const std::string& label) {
           {"wall_s", result.wall_time_s()},
           {"wall", FormatDuration(result.wall_time_s())},
           {"build", result.solver_build()},
-          {"scheme", SchemeName(result.trajectory().scheme())},
+          {"scheme", SchemeName(SchemeOf(solve))},
           {"costs", CostTable(result)},
           {"accuracy", result.has_accuracy() ? AccuracyTable(solve) : json::array()},
           {"meshes", MeshTable(solve)},

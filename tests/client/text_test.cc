@@ -44,6 +44,14 @@ TEST(TextTest, EnumeratorsAsWords) {
   EXPECT_EQ(StatusCodeName(grpc::StatusCode::UNAUTHENTICATED), "UNAUTHENTICATED");
 }
 
+TEST(TextTest, Schemes) {
+  using v1::Discretization;
+  EXPECT_EQ(SchemeName(Discretization::SCHEME_RADAU2), "Radau IIA, 2 points");
+  EXPECT_EQ(SchemeName(Discretization::SCHEME_LOBATTO5), "Lobatto IIIA, 5 points");
+  EXPECT_EQ(SchemeName(Discretization::SCHEME_HERMITE_SIMPSON), "Hermite–Simpson");
+  EXPECT_EQ(SchemeName(Discretization::SCHEME_SHOOTING_LINEAR), "direct multiple shooting, linear efforts");
+}
+
 TEST(TextTest, SolveNames) {
   EXPECT_EQ(SolveName("1a"), "solves/1a");
   EXPECT_EQ(SolveName("solves/1a"), "solves/1a");

@@ -115,6 +115,16 @@ TEST(ReportDataTest, AnOlderServersResultHasNoEvents) {
   EXPECT_TRUE(stride["scene"]["feet"].empty());
 }
 
+// Trajectories of direct multiple shooting are those of Hermite–Simpson.
+TEST(ReportDataTest, TheSchemeIsTheOneThatWasAskedFor) {
+  v1::Solve solve = SampleSolve("solves/a", 0);
+  solve.mutable_spec()->mutable_discretization()->set_scheme(v1::Discretization::SCHEME_UNSPECIFIED);
+  solve.mutable_result()->mutable_trajectory()->set_scheme(v1::Discretization::SCHEME_HERMITE_SIMPSON);
+  EXPECT_EQ(ReportData({solve}, "")["solves"][0]["scheme"], "Hermite–Simpson");
+  solve.mutable_spec()->mutable_discretization()->set_scheme(v1::Discretization::SCHEME_SHOOTING_CONSTANT);
+  EXPECT_EQ(ReportData({solve}, "")["solves"][0]["scheme"], "direct multiple shooting, constant efforts");
+}
+
 TEST(ReportDataTest, LabelsTellSolvesApart) {
   const json data = ReportData({SampleSolve("solves/a", -0.17453292519943295), SampleSolve("solves/b", 0)}, "");
   EXPECT_EQ(data["solves"][0]["label"], "−10°");
