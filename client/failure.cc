@@ -47,6 +47,19 @@ std::string Details(const grpc::Status& status) {
   return text;
 }
 
+// Whether the message says no more than the first of the violations that Details lists.
+bool RepeatsAViolation(const grpc::Status& status) {
+  google::rpc::Status rich;
+  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return false;
+  for (const google::protobuf::Any& detail : rich.details()) {
+    google::rpc::BadRequest bad_request;
+    if (!detail.UnpackTo(&bad_request) || bad_request.field_violations().empty()) continue;
+    const auto& first = bad_request.field_violations(0);
+    if (status.error_message().rfind(first.field() + " " + first.description(), 0) == 0) return true;
+  }
+  return false;
+}
+
 std::string SceneAdvice(grpc::StatusCode code) {
   if (code == grpc::StatusCode::INVALID_ARGUMENT) {
     return "Correct the fields of the scene named above; rollgait.v1.SimulationScene "
@@ -205,7 +218,7 @@ std::optional<double> RetryDelay(const grpc::Status& status) {
 
 std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {
   std::string text = "cannot " + action + ": " + StatusCodeName(status.error_code());
-  if (!status.error_message().empty()) text += ": " + status.error_message();
+  if (!status.error_message().empty() && !RepeatsAViolation(status)) text += ": " + status.error_message();
   text += Details(status);
   std::string advice = TlsAdvice(status.error_code() == grpc::StatusCode::UNAVAILABLE ? status.error_message() : "");
   if (advice.empty()) advice = Advice(status.error_code(), status.error_message(), server, kind);

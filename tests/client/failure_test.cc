@@ -98,6 +98,26 @@ TEST(DescribeTest, ARefusedAngleNamesTheUnitInWhichItWasGiven) {
   EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 2 is outside its range\n"));
 }
 
+// The server's message is its first violation, and how many more there are.
+TEST(DescribeTest, ARefusalIsSaidOnce) {
+  google::rpc::BadRequest refused;
+  refused.add_field_violations()->set_field("spec.starts");
+  refused.mutable_field_violations(0)->set_description("2 is outside its range");
+  refused.add_field_violations()->set_field("spec.slope");
+  refused.mutable_field_violations(1)->set_description("is not a number");
+  google::rpc::Status rich;
+  rich.add_details()->PackFrom(refused);
+  const auto text = [&rich](const std::string& message) {
+    return Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, message, rich.SerializeAsString()),
+                    "create the solve", "host:1");
+  };
+  EXPECT_THAT(text("spec.starts 2 is outside its range (and 1 more)"),
+              testing::StartsWith("cannot create the solve: INVALID_ARGUMENT\n  spec.starts: 2 is outside its range\n"
+                                  "  spec.slope: is not a number\n"));
+  EXPECT_THAT(text("the batch has another tenant's solve"),
+              testing::StartsWith("cannot create the solve: INVALID_ARGUMENT: the batch has another tenant's solve\n"));
+}
+
 TEST(DescribeTest, ShowsEveryDetail) {
   google::rpc::RetryInfo retry;
   retry.mutable_retry_delay()->set_seconds(2);
