@@ -4,6 +4,7 @@
 #include <google/rpc/error_details.pb.h>
 #include <google/rpc/status.pb.h>
 
+#include <cstdio>
 #include <utility>
 
 #include "client/text.h"
@@ -19,6 +20,31 @@ double Seconds(const google::rpc::RetryInfo& retry) {
   return static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();
 }
 
+// "1.4 is outside [-0.8, 0.8] rad; …" as "80 is outside [-45, 45] degrees; …"; nothing where the text is another one.
+std::string InDegrees(const std::string& description) {
+  double value, least, most;
+  char open, close;
+  int length = 0;
+  const int read = std::sscanf(description.c_str(), "%lf is outside %c%lf, %lf%c rad%n", &value, &open, &least, &most,
+                               &close, &length);
+  if (read != 5 || length == 0) return "";
+  const auto degrees = [](double radians) { return FormatNumber(radians * 180 / kPi, 6); };
+  return degrees(value) + " is outside " + open + degrees(least) + ", " + degrees(most) + close + " degrees" +
+         description.substr(static_cast<size_t>(length));
+}
+
+// A violation, in the unit that was typed.
+std::string Line(const google::rpc::BadRequest::FieldViolation& violation) {
+  for (const auto& [field, flag] : kDegreeFlags) {
+    if (!violation.field().ends_with(field)) continue;  // in a batch: requests[2].spec.slope_rad
+    const std::string degrees = InDegrees(violation.description());
+    if (!degrees.empty()) return violation.field() + " (" + flag + "): " + degrees;
+    return violation.field() + ": " + violation.description() + " (1 rad = 57.3 degrees, in which " + flag +
+           " is given)";
+  }
+  return violation.field() + ": " + violation.description();
+}
+
 // The lines that the rich error adds to the message, each starting with a line feed.
 std::string Details(const grpc::Status& status) {
   google::rpc::Status rich;
@@ -29,13 +55,7 @@ std::string Details(const grpc::Status& status) {
     google::rpc::RetryInfo retry;
     google::rpc::QuotaFailure quota;
     if (detail.UnpackTo(&bad_request)) {
-      for (const auto& violation : bad_request.field_violations()) {
-        text += "\n  " + violation.field() + ": " + violation.description();
-        for (const auto& [field, flag] : kDegreeFlags) {
-          if (violation.field() == field)
-            text += std::string(" (1 rad = 57.3 degrees, in which ") + flag + " is given)";
-        }
-      }
+      for (const auto& violation : bad_request.field_violations()) text += "\n  " + Line(violation);
     } else if (detail.UnpackTo(&retry)) {
       text += "\n  the server asks to try again in " + FormatNumber(Seconds(retry), 3) + " s";
     } else if (detail.UnpackTo(&quota)) {
