@@ -42,8 +42,12 @@ struct TrajectoryPhase {
 // 1; at the others they differ by O(h^(s+1)), and with them the equations of motion at a point of q(t). Stage positions
 // keep the stability of the scheme (docs/explanation/accuracy.md); the difference is part of the error that
 // AccuracyReport measures.
+//
+// Of direct multiple shooting a trajectory is the dense output of its steps, as one of Hermite–Simpson
+// (transcription/returned_points.h): the nodes are those of the solver, which imposes the equations of motion at the
+// stages of the method.
 struct Trajectory {
-  Scheme scheme = Scheme::kRadau2;
+  Scheme scheme = Scheme::kRadau2;  // a collocation scheme
   int points_per_interval = 2;
   std::vector<double> point_fractions;  // c₁ … c_s of the scheme
   Cycle cycle = Cycle::kHalf;
