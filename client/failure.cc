@@ -4,7 +4,6 @@
 #include <google/rpc/error_details.pb.h>
 #include <google/rpc/status.pb.h>
 
-#include <cstdio>
 #include <utility>
 
 #include "client/text.h"
@@ -12,72 +11,41 @@
 namespace rollgait::client {
 namespace {
 
-// Fields in rad whose flags take degrees.
-constexpr std::pair<const char*, const char*> kDegreeFlags[] = {
-    {"spec.slope_rad", "--slope"}, {"spec.accuracy.max_error.angle_rad", "--max-error angle"}};
-
 double Seconds(const google::rpc::RetryInfo& retry) {
   return static_cast<double>(retry.retry_delay().seconds()) + 1e-9 * retry.retry_delay().nanos();
 }
 
-// "1.4 is outside [-0.8, 0.8] rad; …" as "80 is outside [-45, 45] degrees; …"; nothing where the text is another one.
-std::string InDegrees(const std::string& description) {
-  double value, least, most;
-  char open, close;
-  int length = 0;
-  const int read = std::sscanf(description.c_str(), "%lf is outside %c%lf, %lf%c rad%n", &value, &open, &least, &most,
-                               &close, &length);
-  if (read != 5 || length == 0) return "";
-  const auto degrees = [](double radians) { return FormatNumber(radians * 180 / kPi, 6); };
-  return degrees(value) + " is outside " + open + degrees(least) + ", " + degrees(most) + close + " degrees" +
-         description.substr(static_cast<size_t>(length));
-}
-
-// A violation, in the unit that was typed.
-std::string Line(const google::rpc::BadRequest::FieldViolation& violation) {
-  for (const auto& [field, flag] : kDegreeFlags) {
-    if (!violation.field().ends_with(field)) continue;  // in a batch: requests[2].spec.slope_rad
-    const std::string degrees = InDegrees(violation.description());
-    if (!degrees.empty()) return violation.field() + " (" + flag + "): " + degrees;
-    return violation.field() + ": " + violation.description() + " (1 rad = 57.3 degrees, in which " + flag +
-           " is given)";
-  }
-  return violation.field() + ": " + violation.description();
-}
-
-// The lines that the rich error adds to the message, each starting with a line feed.
-std::string Details(const grpc::Status& status) {
+// The details that the server sent with the status; none where it sent something else.
+std::optional<google::rpc::Status> RichStatus(const grpc::Status& status) {
   google::rpc::Status rich;
-  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return "";
-  std::string text;
-  for (const google::protobuf::Any& detail : rich.details()) {
+  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return std::nullopt;
+  return rich;
+}
+
+// What the server says, with the lines that the details add, each starting with a line feed. A refused request's
+// message is its first violation and how many more there are: where they are listed, it is left out.
+std::string MessageWithDetails(const grpc::Status& status) {
+  std::string message = status.error_message().empty() ? "" : ": " + status.error_message(), lines;
+  const std::optional<google::rpc::Status> rich = RichStatus(status);
+  if (!rich) return message;
+  for (const google::protobuf::Any& detail : rich->details()) {
     google::rpc::BadRequest bad_request;
     google::rpc::RetryInfo retry;
     google::rpc::QuotaFailure quota;
     if (detail.UnpackTo(&bad_request)) {
-      for (const auto& violation : bad_request.field_violations()) text += "\n  " + Line(violation);
+      for (const auto& violation : bad_request.field_violations()) {
+        lines += "\n  " + violation.field() + ": " + violation.description();
+        if (status.error_message().starts_with(violation.field() + " " + violation.description())) message = "";
+      }
     } else if (detail.UnpackTo(&retry)) {
-      text += "\n  the server asks to try again in " + FormatNumber(Seconds(retry), 3) + " s";
+      lines += "\n  the server asks to try again in " + FormatNumber(Seconds(retry), 3) + " s";
     } else if (detail.UnpackTo(&quota)) {
       for (const auto& violation : quota.violations()) {
-        text += "\n  " + violation.subject() + ": " + violation.description();
+        lines += "\n  " + violation.subject() + ": " + violation.description();
       }
     }
   }
-  return text;
-}
-
-// Whether the message says no more than the first of the violations that Details lists.
-bool RepeatsAViolation(const grpc::Status& status) {
-  google::rpc::Status rich;
-  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return false;
-  for (const google::protobuf::Any& detail : rich.details()) {
-    google::rpc::BadRequest bad_request;
-    if (!detail.UnpackTo(&bad_request) || bad_request.field_violations().empty()) continue;
-    const auto& first = bad_request.field_violations(0);
-    if (status.error_message().rfind(first.field() + " " + first.description(), 0) == 0) return true;
-  }
-  return false;
+  return message + lines;
 }
 
 std::string SceneAdvice(grpc::StatusCode code) {
@@ -227,9 +195,9 @@ bool HasSolution(const v1::Solve& solve) {
 }
 
 std::optional<double> RetryDelay(const grpc::Status& status) {
-  google::rpc::Status rich;
-  if (status.error_details().empty() || !rich.ParseFromString(status.error_details())) return std::nullopt;
-  for (const google::protobuf::Any& detail : rich.details()) {
+  const std::optional<google::rpc::Status> rich = RichStatus(status);
+  if (!rich) return std::nullopt;
+  for (const google::protobuf::Any& detail : rich->details()) {
     google::rpc::RetryInfo retry;
     if (detail.UnpackTo(&retry)) return Seconds(retry);
   }
@@ -238,8 +206,7 @@ std::optional<double> RetryDelay(const grpc::Status& status) {
 
 std::string Describe(const grpc::Status& status, const std::string& action, const std::string& server, CallKind kind) {
   std::string text = "cannot " + action + ": " + StatusCodeName(status.error_code());
-  if (!status.error_message().empty() && !RepeatsAViolation(status)) text += ": " + status.error_message();
-  text += Details(status);
+  text += MessageWithDetails(status);
   std::string advice = TlsAdvice(status.error_code() == grpc::StatusCode::UNAVAILABLE ? status.error_message() : "");
   if (advice.empty()) advice = Advice(status.error_code(), status.error_message(), server, kind);
   if (!advice.empty()) text += "\n" + advice;

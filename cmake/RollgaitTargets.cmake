@@ -96,8 +96,8 @@ endfunction()
 set(ROLLGAIT_TEST_TIMEOUT 1800)
 
 # Folders of tests that compute with Eigen themselves: those of core whose slowest tests take 4 to 100 times as long without optimisation
-# (in Debug, seconds alone: 39, 79, 37 and 123 in place of 3, 1, 2 and 29; known_answers in Release 200 in place of 9); others wait
-# for core, and gain a tenth or nothing.
+# (in Debug, seconds alone: 39, 79, 37 and 123 in place of 3, 1, 2 and 29; goddard_test of known_answers in Release 133 in place of
+# 2); others wait for core, and gain a tenth or nothing.
 set(ROLLGAIT_NUMERIC_TESTS "^tests/(core/(contact|known_answers|multibody|nlp|transcription)|paper|reference_check)")
 
 # Options of the sources of tests themselves: what they test is in libraries, with all optimisation. Without it, or with little of it

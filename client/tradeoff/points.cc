@@ -12,6 +12,9 @@
 namespace rollgait::client {
 namespace {
 
+// The order in which a scheme comes to the optimum of efforts that are free: the finest mesh of the scheme of highest
+// order is where the reference starts. Efforts that are constant in every interval come to it with order 2, whatever
+// the steps.
 struct SchemeOrder {
   v1::Discretization::Scheme scheme;
   int order;
@@ -20,7 +23,7 @@ constexpr SchemeOrder kOrders[] = {
     {v1::Discretization::SCHEME_RADAU2, 3},          {v1::Discretization::SCHEME_RADAU3, 5},
     {v1::Discretization::SCHEME_HERMITE_SIMPSON, 4}, {v1::Discretization::SCHEME_RADAU4, 7},
     {v1::Discretization::SCHEME_RADAU5, 9},          {v1::Discretization::SCHEME_LOBATTO4, 6},
-    {v1::Discretization::SCHEME_LOBATTO5, 8},        {v1::Discretization::SCHEME_SHOOTING_CONSTANT, 4},
+    {v1::Discretization::SCHEME_LOBATTO5, 8},        {v1::Discretization::SCHEME_SHOOTING_CONSTANT, 2},
     {v1::Discretization::SCHEME_SHOOTING_LINEAR, 4}};
 
 constexpr double kLeastTolerance = 1e-12, kMostTolerance = 1e-2;  // of the service

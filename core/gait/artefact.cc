@@ -17,11 +17,13 @@ bool SlipsBy(double share, const GaitSpec& spec, const GaitSolution& solution) {
   return solution.accuracy->max_slip > share * speed + rounding;
 }
 
-}  // namespace
-
-// Energy that appears from nothing, or vanishes, over the work of the motion. On coarse meshes of motions that finer
-// ones have it is up to a seventh.
+// Energy that appears from nothing, or vanishes, over the work of the motion. Of 210 motions of bench/gait_table
+// (planar, five slopes, all kinds of schemes, 8 to 32 intervals) those that slip by less than the share below have up
+// to 0.23 on meshes that finer ones confirm, and 0.53 and more where these find another motion: all of the latter are
+// of direct multiple shooting, which lets nodes slip.
 constexpr double kForeignEnergy = 0.5;
+
+}  // namespace
 
 bool IsArtefact(const GaitSpec& spec, const GaitSolution& solution) {
   return SlipsBy(0.2, spec, solution) ||

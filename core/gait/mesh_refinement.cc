@@ -22,9 +22,9 @@ constexpr double kSafety = 0.5;
 constexpr double kGoodEnough = 0.8;
 
 // Order in h of a measure of one interval, for the scheme of two points and for those of three and more. Source: orders
-// of the polynomials (forces: that of the efforts) and of the end of a step, each less one
-// where a joint may meet its limit or a force its bound inside of the interval, since the higher order is lost there.
-// 0: a finer mesh is not what it takes.
+// of the polynomials (forces: that of the efforts) and of the end of a step, each less one where a joint may meet its
+// limit or a force its bound inside of the interval, since the higher order is lost there. Slip and gap are in
+// PartsForContacts.
 struct MeasureOrder {
   Criterion criterion;
   double two_points, more;
@@ -85,13 +85,15 @@ ContactDrift DriftOf(const Scene& scene, const BodyDynamics& dynamics, const Tra
 
 // Parts that an interval needs for what contacts do in it. Collocation holds them at rest at the nodes: slip within an
 // interval is its own. With an explicit method slip at the nodes, and with it the gap, is what all intervals before
-// have added: each may add its share of the slip that neither bound forbids.
+// have added: each may add its share of the slip that neither bound forbids. Orders: a step of order 4 errs by h⁵, its
+// parts together by h⁴; velocities of the dense output err by h⁴ within a step, less one as above.
 int PartsForContacts(const GaitSpec& spec, const ContactDrift& drift, double slip, double duration, size_t intervals,
-                     double orders_less) {
+                     bool has_two_points) {
   const double share = 1.0 / static_cast<double>(intervals);
   const double gap_bound = spec.bounds[Criterion::kGap], slip_bound = spec.bounds[Criterion::kSlip];
   if (TraitsOf(spec.scheme).is_collocation()) {
-    return std::max(Parts(drift.gap / (share * gap_bound), 4 - orders_less), Parts(slip / slip_bound, 3 - orders_less));
+    return std::max(Parts(drift.gap / (share * gap_bound), has_two_points ? 3 : 4),
+                    Parts(slip / slip_bound, has_two_points ? 2 : 3));
   }
   const double allowed = std::min(slip_bound, gap_bound / duration);
   return std::max(Parts(drift.slip / (share * allowed), 4), Parts(drift.bow / allowed, 3));
@@ -124,7 +126,7 @@ Mesh RefineMesh(const Mesh& mesh, const GaitSpec& spec, const Trajectory& trajec
     for (size_t k = 0; k < mesh.fractions[p].size(); ++k, ++interval) {
       const ContactDrift drift = DriftOf(spec.scene, dynamics, trajectory, static_cast<int>(p), static_cast<int>(k));
       int count = PartsForContacts(spec, drift, measure_of(interval, Criterion::kSlip), trajectory.phases[p].duration,
-                                   mesh.fractions[p].size(), has_two_points ? 1 : 0);
+                                   mesh.fractions[p].size(), has_two_points);
       for (const MeasureOrder& order : kOrders) {
         const double measure = measure_of(interval, order.criterion);
         const double excess = ExcessOf(order.criterion, measure, spec.bounds[order.criterion]);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "core/base/nearest_word.h"
@@ -9,11 +11,25 @@
 namespace rollgait {
 namespace {
 
+// Angles are given in degrees by flags and in radians by the API: both are told, as all messages of angles do.
+bool IsAngle(const NumberLimits& limits) { return std::string_view(limits.unit) == "rad"; }
+
+std::string FormatDegrees(double radians) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", radians * 180 / std::numbers::pi);
+  return text;
+}
+
 std::string Describe(const NumberLimits& limits) {
   std::string text(1, limits.above_min ? '(' : '[');
   text += FormatNumber(limits.min) + ", " + FormatNumber(limits.max) + "]";
   if (limits.unit[0] != '\0') text.append(" ").append(limits.unit);
-  return text;
+  if (!IsAngle(limits)) return text;
+  return text + " (" + FormatDegrees(limits.min) + " to " + FormatDegrees(limits.max) + " deg)";
+}
+
+std::string Describe(double value, const NumberLimits& limits) {
+  return FormatNumber(value) + (IsAngle(limits) ? " rad (" + FormatDegrees(value) + " deg)" : "");
 }
 
 // Written so that NaN is not inside.
@@ -52,7 +68,7 @@ double RequestCheck::Number(const std::string& field, std::optional<double> valu
   if (!std::isfinite(*value)) {
     Add(field, FormatNumber(*value) + " is not a finite number; give a value in " + Describe(limits));
   } else if (!Inside(*value, limits)) {
-    Add(field, FormatNumber(*value) + " is outside " + Describe(limits) + "; give a value in that range");
+    Add(field, Describe(*value, limits) + " is outside " + Describe(limits) + "; give a value in that range");
   }
   return *value;
 }

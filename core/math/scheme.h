@@ -14,10 +14,9 @@ namespace rollgait {
 // states at the ends of an interval determine no acceleration (EliminatedScheme); Gauss, whose last point is not the
 // end of the interval, where contacts change.
 //   Direct multiple shooting, as in the paper: every interval is one step of an explicit method of Runge and Kutta,
-//   with
-// controls that are constant or linear in it. The stages stay unknowns ("lifted": Albersmeyer and Diehl, SIAM J. Optim.
-// 20, 2010), so that the NLPs have the same solutions as those in which an integrator hides them, and derivatives are
-// exact.
+// with controls that are constant or linear in it. The stages stay unknowns ("lifted": Albersmeyer and Diehl, SIAM J.
+// Optim. 20, 2010), so that the NLPs have the same solutions as those in which an integrator hides them, and
+// derivatives are exact.
 enum class Scheme {
   kRadau2,
   kRadau3,

@@ -138,7 +138,7 @@ class CollocationNlp : public NlpProblem {
   int rows_ = 0, first_entry_row_ = 0, first_jump_row_ = 0, first_linear_row_ = 0;
   VectorX lower_, upper_, row_lower_, row_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
-  // The scaled objective in walking: the curvature of one node of a fine mesh stays well above what Ipopt adds.
+  // The scaled objective in walking: the curvature of one node of a fine mesh is well above Ipopt's regularisation.
   static constexpr double kTypicalScaled = 100;
   double objective_scale_ = 1;
 

@@ -80,42 +80,6 @@ TEST(ExitCodeTest, OfCalls) {
   EXPECT_EQ(code(grpc::StatusCode::INTERNAL), ExitCode::kInternal);
 }
 
-TEST(DescribeTest, ARefusedAngleNamesTheUnitInWhichItWasGiven) {
-  google::rpc::BadRequest refused;
-  for (const char* field : {"spec.slope_rad", "spec.accuracy.max_error.angle_rad", "spec.starts"}) {
-    refused.add_field_violations()->set_field(field);
-    refused.mutable_field_violations()->rbegin()->set_description("2 is outside its range");
-  }
-  google::rpc::Status rich;
-  rich.add_details()->PackFrom(refused);
-  const std::string text = Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "", rich.SerializeAsString()),
-                                    "create the solve", "host:1");
-  EXPECT_THAT(text,
-              testing::HasSubstr(
-                  "\n  spec.slope_rad: 2 is outside its range (1 rad = 57.3 degrees, in which --slope is given)\n"));
-  EXPECT_THAT(text, testing::HasSubstr("max_error.angle_rad: 2 is outside its range (1 rad = 57.3 degrees, in which "
-                                       "--max-error angle is given)\n"));
-  EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 2 is outside its range\n"));
-}
-
-// In degrees, whether alone or in a batch.
-TEST(DescribeTest, ARefusedAngleIsToldAsItWasTyped) {
-  google::rpc::BadRequest refused;
-  for (const char* field : {"spec.slope_rad", "requests[2].spec.slope_rad", "spec.starts"}) {
-    refused.add_field_violations()->set_field(field);
-    refused.mutable_field_violations()->rbegin()->set_description(
-        "1.3962634 is outside [-0.785398163, 0.785398163] rad; give a value in that range");
-  }
-  google::rpc::Status rich;
-  rich.add_details()->PackFrom(refused);
-  const std::string text = Describe(grpc::Status(grpc::StatusCode::INVALID_ARGUMENT, "", rich.SerializeAsString()),
-                                    "create the solve", "host:1");
-  EXPECT_THAT(text, testing::HasSubstr("\n  spec.slope_rad (--slope): 80 is outside [-45, 45] degrees; give a value in "
-                                       "that range\n"));
-  EXPECT_THAT(text, testing::HasSubstr("\n  requests[2].spec.slope_rad (--slope): 80 is outside [-45, 45] degrees;"));
-  EXPECT_THAT(text, testing::HasSubstr("\n  spec.starts: 1.3962634 is outside [-0.785398163, 0.785398163] rad;"));
-}
-
 // The server's message is its first violation, and how many more there are.
 TEST(DescribeTest, ARefusalIsSaidOnce) {
   google::rpc::BadRequest refused;

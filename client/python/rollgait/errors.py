@@ -43,7 +43,11 @@ class InvalidRequest(RollgaitError):
     """The server refuses the request. `violations` names each field with its value and limit."""
 
     def __init__(self, message: str, violations: List[Violation]):
-        super().__init__("\n".join([message] + [f"  {v.field}: {v.description}" for v in violations]))
+        # The server's message is its first violation, and how many more there are: each is said once.
+        listed = violations
+        if violations and message.startswith(f"{violations[0].field} {violations[0].description}"):
+            message, listed = f"{violations[0].field} {violations[0].description}", violations[1:]
+        super().__init__("\n".join([message] + [f"  {v.field}: {v.description}" for v in listed]))
         self.violations = violations
 
 

@@ -277,6 +277,8 @@ class Refusals(unittest.TestCase):
         fields = {v.field for v in caught.exception.violations}
         self.assertTrue(any("slope" in f for f in fields) and any("speed" in f for f in fields), fields)
         self.assertIn("speed", str(caught.exception))
+        for violation in caught.exception.violations:
+            self.assertEqual(str(caught.exception).count(violation.description), 1, "each is said once")
 
     def test_words_are_checked_before_anything_is_sent(self):
         with self.assertRaisesRegex(ValueError, "preset='humna'.*Did you mean 'human'"):

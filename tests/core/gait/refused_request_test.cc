@@ -56,7 +56,7 @@ const BadCase kBadCases[] = {
     {"Giant", [](GaitRequest& r) { r.body.stature = 3; }, "model.stature_m", "3"},
     {"MassNan", [](GaitRequest& r) { r.body.mass = kNan; }, "model.body_mass_kg", "nan"},
     {"TooSteep", [](GaitRequest& r) { r.slope = 0.79; }, "slope_rad",
-     "0.79 is outside [-0.785398163, 0.785398163] rad"},
+     "0.79 rad (45.2637 deg) is outside [-0.785398163, 0.785398163] rad (-45 to 45 deg); give a value in that range"},
     {"SlopeNan", [](GaitRequest& r) { r.slope = kNan; }, "slope_rad", "not a finite number"},
     {"GravityInfinite", [](GaitRequest& r) { r.gravity = kInfinity; }, "gravity_m_s2", "not a finite number"},
     {"NoGravity", [](GaitRequest& r) { r.gravity = 0; }, "gravity_m_s2", "[0.1, 100]"},

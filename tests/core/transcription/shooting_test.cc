@@ -103,6 +103,10 @@ TEST(Shooting, RatesOfConstantEffortsAreRefused) {
     EXPECT_NE(checked.violations()[0].message.find("take shooting-linear"), std::string::npos)
         << checked.violations()[0].message;
   }
+  // A weight of 0 takes a term out.
+  request.discretization.scheme = Scheme::kShootingConstant;
+  request.costs[1].weight = 0;
+  EXPECT_TRUE(CheckRequest(request).ok());
 }
 
 }  // namespace
