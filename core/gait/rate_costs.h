@@ -5,8 +5,8 @@
 
 namespace rollgait {
 
-// Whether rates of efforts or forces have a price: a term with the weight 0 has none. Efforts change fastest where feet come down and lift off, and how
-// fast, only short intervals tell.
+// Whether rates of efforts or forces have a price: a term with the weight 0 has none. Efforts change fastest where feet
+// come down and lift off, and how fast, only short intervals tell.
 bool HasRates(const std::vector<GaitSpec::CostTerm>& costs);
 inline bool HasRates(const GaitSpec& spec) { return HasRates(spec.costs); }
 

@@ -3,7 +3,8 @@
 //    point and, where rates of efforts cost something or efforts do not jump, the efforts of the points beside them;
 //  * the forces of the points but the first, with the rows that hold them;
 //  * the node before the interval with what remains. Rate costs, and efforts that do not jump, tie the efforts of
-//    the first point to the interval before; as leaves they would carry all that the chain of nodes carries, so they then go with the node.
+//    the first point to the interval before; as leaves they would carry all that the chain of nodes carries, so they
+//    then go with the node.
 
 #include <algorithm>
 
