@@ -63,7 +63,8 @@ TEST_F(LocalSolveTest, AMissedBoundHasItsOwnExitCode) {
 TEST_F(LocalSolveTest, EveryViolationIsPrinted) {
   EXPECT_EQ(Solve(R"({"model": {"name": "horse"}, "slopeRad": 3})", Termination::kOptimal), kLocalBadRequest);
   EXPECT_THAT(progress_.str(), HasSubstr("model.name: "));
-  EXPECT_THAT(progress_.str(), HasSubstr("slope_rad: 3 is outside"));
+  EXPECT_THAT(progress_.str(),
+              HasSubstr("slope_rad: 3 rad (171.887 deg) is outside [-0.785398163, 0.785398163] rad (-45 to 45 deg)"));
   EXPECT_EQ(out_.str(), "");
 }
 
