@@ -87,6 +87,7 @@ Agent::Agent(const Options& options, const Surroundings& surroundings, std::stri
                .lease = options.lease,
                .max_event_bytes = options.max_event_bytes,
                .cpu_limit_s = static_cast<double>(options.solver.cpu_limit_s),
+               .journals = options.all_agents_here ? RunJournal::Elsewhere::kNowhere : RunJournal::Elsewhere::kInStore,
                .solver_fingerprint = options.solver_fingerprint},
       start_solver_(surroundings.start_solver ? surroundings.start_solver
                                               : [solver = options.solver] { return StartProcess(solver); }) {}

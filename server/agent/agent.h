@@ -28,7 +28,8 @@ class Agent {
  public:
   struct Options {
     std::string work_dir;  // locks and spool; rollgaitd's data directory when the store is SQLite
-    // Every agent of the store has its lock in work_dir: an owner without one is dead. False: it may live elsewhere.
+    // Every agent of the store has its lock in work_dir: an owner without one is dead. False: it may live elsewhere,
+    // and journals are in the store, too.
     bool all_agents_here = true;
     int slots = 1;  // solves at once, those of agents that drain in this directory included
     SolverProcess::Options solver;

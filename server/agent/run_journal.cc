@@ -31,15 +31,34 @@ void Left(const std::string& reason) {
 
 }  // namespace
 
-RunJournal::RunJournal(const Spool& spool, const Lease& lease, const std::string& solver_fingerprint)
-    : spool_(spool), lease_(lease) {
+RunJournal::RunJournal(const Spool& spool, SolveStore& store, Elsewhere elsewhere, const Lease& lease,
+                       const std::string& solver_fingerprint)
+    : spool_(spool), store_(store), elsewhere_(elsewhere), lease_(lease) {
   journal_.set_solve_id(lease_.solve_id);
   journal_.set_solver_fingerprint(solver_fingerprint);
 }
 
-void RunJournal::TakeUp(SolveStore& store, const SolveRecord& claimed) {
+// Of one attempt the spool's, which is saved more often.
+std::optional<KeptJournal> RunJournal::Newest() const {
+  std::optional<KeptJournal> newest = spool_.NewestJournal(lease_.solve_id);
+  if (elsewhere_ == Elsewhere::kNowhere) return newest;
+  const Outcome<std::optional<StoredJournal>> stored = store_.ReadJournal(lease_.solve_id);
+  if (!stored.ok()) {
+    LogEvent(spdlog::level::warn, "solve.journal_unread", {{"reason", stored.error().message}});
+    return newest;
+  }
+  if (!stored.value() || (newest && newest->epoch >= stored.value()->epoch)) return newest;
+  KeptJournal journal{stored.value()->epoch, {}};
+  if (!journal.content.ParseFromString(stored.value()->content) || journal.content.solve_id() != lease_.solve_id) {
+    LogEvent(spdlog::level::warn, "solve.journal_damaged", {{"path", "the store"}});
+    return newest;
+  }
+  return journal;
+}
+
+void RunJournal::TakeUp(const SolveRecord& claimed) {
   if (claimed.attempts <= 1) return;
-  std::optional<KeptJournal> kept = spool_.NewestJournal(lease_.solve_id);
+  std::optional<KeptJournal> kept = Newest();
   if (!kept) return;
   if (kept->content.solver_fingerprint() != journal_.solver_fingerprint()) return Left("another solver wrote it");
   if (kept->epoch + 1 < lease_.epoch && claimed.crashes + 1 >= kMaxCrashes) {
@@ -47,7 +66,7 @@ void RunJournal::TakeUp(SolveStore& store, const SolveRecord& claimed) {
   }
   *journal_.mutable_journal() = std::move(*kept->content.mutable_journal());
   for (const std::string& record : records().finished()) finished_bytes_ += record.size();
-  reported_ = LastIteration(store, claimed);
+  reported_ = LastIteration(store_, claimed);
 }
 
 bool RunJournal::IsTooLarge(size_t more) {
@@ -106,6 +125,19 @@ void RunJournal::Save() {
     LogEvent(spdlog::level::warn, "solve.journal_failed", {{"reason", put.error().message}});
   }
   failed_ = !put.ok();
+  to_share_ = elsewhere_ == Elsewhere::kInStore;
+}
+
+std::chrono::milliseconds RunJournal::Share() {
+  if (!to_share_) return kSharePause;
+  to_share_ = false;
+  const std::string content = journal_.SerializeAsString();
+  const Outcome<Done> put = store_.PutJournal(lease_, content);
+  if (!put.ok() && !share_failed_) {
+    LogEvent(spdlog::level::warn, "solve.journal_not_shared", {{"reason", put.error().message}});
+  }
+  share_failed_ = !put.ok();
+  return std::max(kSharePause, std::chrono::milliseconds(1000 * content.size() / kBytesPerSecond));
 }
 
 }  // namespace rollgait::server

@@ -1,6 +1,7 @@
 #ifndef ROLLGAIT_SERVER_AGENT_RUN_JOURNAL_H_
 #define ROLLGAIT_SERVER_AGENT_RUN_JOURNAL_H_
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,16 +14,20 @@
 
 namespace rollgait::server {
 
-// What one run leaves to the next attempt at its solve: the records that its solver sends, in the spool; and what it
-// takes up from the attempts before it. Lines of the log need a LogScope with the solve. One thread.
+// What one run leaves to the next attempt at its solve: the records that its solver sends, in the spool and, for agents
+// with another spool, in the store; and what it takes up from the attempts before it. Lines of the log need a LogScope
+// with the solve. One thread.
 class RunJournal {
  public:
-  // solver_fingerprint: SHA-256 of the program; it reads only what it wrote itself.
-  RunJournal(const Spool& spool, const Lease& lease, const std::string& solver_fingerprint);
+  // Where journals of a solve are besides the spool.
+  enum class Elsewhere { kNowhere, kInStore };
+  // solver_fingerprint: SHA-256 of the program; it reads only what it wrote itself. `spool` and `store` outlive it.
+  RunJournal(const Spool& spool, SolveStore& store, Elsewhere elsewhere, const Lease& lease,
+             const std::string& solver_fingerprint);
 
   // Takes up what earlier attempts have left of the solve that was claimed. Left alone is a journal from which the
   // attempt before went on and crashed without a record of its own, if another crash would be the last.
-  void TakeUp(SolveStore& store, const SolveRecord& claimed);
+  void TakeUp(const SolveRecord& claimed);
 
   // For the solver. The next attempt is to go on from there, too, until this one has come further.
   const wire::Journal& records() const { return journal_.journal(); }
@@ -39,19 +44,29 @@ class RunJournal {
   // out. A failure costs the next attempt time and is logged once.
   bool changed() const { return changed_; }
   void Save();
+  // Puts into the store what was saved, unless it is there; nothing if the spool is all there is. A failure is like one
+  // of Save. Returns how long to wait before the next time, so that a store gets no more than kBytesPerSecond of a
+  // solve.
+  std::chrono::milliseconds Share();
+  static constexpr size_t kBytesPerSecond = size_t{1} << 20;
+  static constexpr std::chrono::milliseconds kSharePause{2000};  // the least; before the first, too
   // The solve has ended.
   void Remove() const { spool_.RemoveJournals(lease_.solve_id); }
 
  private:
+  std::optional<KeptJournal> Newest() const;
   bool IsTooLarge(size_t more);
 
   const Spool& spool_;
+  SolveStore& store_;
+  const Elsewhere elsewhere_;
   const Lease lease_;
   wire::SpooledJournal journal_;
   size_t finished_bytes_ = 0;
   // Mesh and index of the newest iteration that the store has from earlier attempts.
   std::optional<std::pair<int, int>> reported_;
   bool changed_ = false, full_ = false, failed_ = false;
+  bool to_share_ = false, share_failed_ = false;
 };
 
 }  // namespace rollgait::server

@@ -56,17 +56,18 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, std::unique_ptr
           {"solve", lease_.solve_id}, {"traceparent", claimed.record.traceparent}, {"tenant", claimed.record.tenant}},
       other_solver_(!context.solver_fingerprint.empty() && !claimed.record.solver_fingerprint.empty() &&
                     claimed.record.solver_fingerprint != context.solver_fingerprint),
-      journal_(context.spool, lease_, context.solver_fingerprint),
+      journal_(context.spool, context.store, context.journals, lease_, context.solver_fingerprint),
       process_(std::move(process)),
       next_sequence_(claimed.record.last_sequence + 1) {
   renew_at_ = now + context_.lease / 3;
+  share_at_ = now + RunJournal::kSharePause;
   v1::SolveSpec spec;  // one that cannot be read is the solver's to refuse
   if (!spec.ParseFromString(claimed.record.spec)) spec.Clear();
   wall_end_ = now + WallTime(spec) + context_.wall_grace;
   process_->Send(claimed.record.spec);
   if (!spec.warm_start().empty()) process_->Send(claimed.warm_start);
   const LogScope scope(fields_);
-  journal_.TakeUp(context_.store, claimed.record);
+  journal_.TakeUp(claimed.record);
   process_->Send(journal_.records().SerializeAsString());
   LogEvent(spdlog::level::info, "solve.claimed", {{"attempt", claimed.record.attempts}, {"pid", process_->pid()}});
   if (claimed.record.cancel_requested) Cancel();
@@ -215,7 +216,12 @@ void SolveRun::NoEvents(SteadyTime now) {
   if (!events_due(now) || state_ != State::kSolving) return;
   const LogScope scope(fields_);
   flush_at_.reset();
+  KeepJournal(now);
+}
+
+void SolveRun::KeepJournal(SteadyTime now) {
   journal_.Save();
+  if (now >= share_at_) share_at_ = now + journal_.Share();
 }
 
 void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now) {
@@ -231,7 +237,7 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
   pending_.clear();
   solution_.clear();
   next_sequence_ = appended.value().last_sequence + 1;
-  journal_.Save();
+  KeepJournal(now);
   context_.poke(id());
   if (appended.value().cancel_requested) Cancel();
 }
@@ -313,6 +319,7 @@ Outcome<SolveState> SolveRun::GiveBack(GiveBackReason reason, const std::string&
     pending_.clear();
   }
   journal_.Save();
+  journal_.Share();
   Outcome<SolveState> given = context_.store.GiveBack(lease_, reason, detail);
   if (given.ok() && IsTerminal(given.value())) journal_.Remove();
   return given;

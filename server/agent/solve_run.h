@@ -41,6 +41,7 @@ class SolveRun {
     // is not right; what is beyond is dropped.
     size_t max_event_bytes = size_t{16} << 20;
     double cpu_limit_s = 86400;
+    RunJournal::Elsewhere journals = RunJournal::Elsewhere::kNowhere;
     std::string solver_fingerprint = {};  // results for keys of another solver are not reused; empty: unknown
   };
 
@@ -94,6 +95,7 @@ class SolveRun {
   void KillBy(SteadyTime deadline);
   void LoseLease(const std::string& reason);
 
+  void KeepJournal(SteadyTime now);
   void PutIntoSpool();
   Outcome<SolveState> GiveBack(GiveBackReason reason, const std::string& detail);
 
@@ -123,7 +125,7 @@ class SolveRun {
   bool out_of_time_ = false;
   bool grace_begins_ = false;  // it has been asked to stop; its time to do so counts from the next Service
   std::optional<SteadyTime> flush_at_, kill_at_;
-  SteadyTime renew_at_, wall_end_, commit_at_;
+  SteadyTime renew_at_, wall_end_, commit_at_, share_at_;
   std::variant<SolveEnd, Crash> outcome_;  // while committing
 };
 

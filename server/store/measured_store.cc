@@ -7,10 +7,10 @@ namespace {
 
 const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                               0.025,  0.05,    0.1,    0.25,  0.5,    1,     5};
-constexpr const char* kOperations[] = {"create",         "create_all",    "get",    "list",       "delete",
-                                       "request_cancel", "read_events",   "counts", "read_audit", "claim",
-                                       "renew_lease",    "append_events", "finish", "give_back",  "cancel_requests",
-                                       "lease_owners",   "reclaim",       "retain"};
+constexpr const char* kOperations[] = {"create",         "create_all",    "get",    "list",        "delete",
+                                       "request_cancel", "read_events",   "counts", "read_audit",  "claim",
+                                       "renew_lease",    "append_events", "finish", "give_back",   "cancel_requests",
+                                       "lease_owners",   "reclaim",       "retain", "put_journal", "read_journal"};
 
 }  // namespace
 
@@ -147,6 +147,14 @@ Outcome<Done> MeasuredStore::Finish(const Lease& lease, const std::vector<Stored
   auto outcome = MeasureLeased("finish", lease, [&] { return store_.Finish(lease, events, end); });
   if (outcome.ok()) solves_.Finished(lease, end);
   return outcome;
+}
+
+Outcome<Done> MeasuredStore::PutJournal(const Lease& lease, const std::string& journal) {
+  return MeasureLeased("put_journal", lease, [&] { return store_.PutJournal(lease, journal); });
+}
+
+Outcome<std::optional<StoredJournal>> MeasuredStore::ReadJournal(const std::string& id) {
+  return Measure("read_journal", [&] { return store_.ReadJournal(id); });
 }
 
 Outcome<SolveState> MeasuredStore::GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) {

@@ -40,6 +40,8 @@ class MeasuredStore : public SolveStore {
   Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) override;
   Outcome<std::vector<Outcome<LeaseState>>> AppendAll(const std::vector<EventBatch>& batches) override;
   Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) override;
+  Outcome<Done> PutJournal(const Lease& lease, const std::string& journal) override;
+  Outcome<std::optional<StoredJournal>> ReadJournal(const std::string& id) override;
   Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) override;
   Outcome<std::vector<std::string>> CancelRequests(const std::string& owner) override;
   Outcome<std::vector<LeaseOwner>> LeaseOwners() override;

@@ -278,9 +278,20 @@ CREATE INDEX shares_by_start ON shares (start_tag);
 
 void From7To8(SqlConnection& connection) { connection.Execute(kFairOrder); }
 
+// What an attempt has come to, for agents that do not share its spool; goes with the end of the solve. `epoch` is that
+// of the attempt's lease.
+constexpr char kJournals[] = R"(
+CREATE TABLE journals (
+  solve BIGINT PRIMARY KEY REFERENCES solves (number) ON DELETE CASCADE,
+  epoch BIGINT NOT NULL,
+  payload {blob} NOT NULL);
+)";
+
+void From8To9(SqlConnection& connection) { connection.Execute(kJournals); }
+
 using Step = void (*)(SqlConnection&);
 // kSteps[i] leads from version i + 1 to i + 2.
-constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6, From6To7, From7To8};
+constexpr Step kSteps[] = {From1To2, From2To3, From3To4, From4To5, From5To6, From6To7, From7To8, From8To9};
 static_assert(std::size(kSteps) == kSchemaVersion - 1);
 
 // An empty database gets version 2, where the steps of both engines begin.

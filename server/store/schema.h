@@ -5,7 +5,7 @@
 
 namespace rollgait::server {
 
-inline constexpr int kSchemaVersion = 8;
+inline constexpr int kSchemaVersion = 9;
 
 // Makes the tables in an empty database and brings those of an older version up to this one, in one transaction; leaves
 // tables of this version alone. Throws SqlFailure, also for tables of a newer version. Processes may call it at the

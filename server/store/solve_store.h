@@ -20,6 +20,12 @@ struct SolveExtent {
   int64_t bytes = 0;  // of spec, result and error together
 };
 
+// What the newest attempt that kept something had come to; the bytes are the agents'.
+struct StoredJournal {
+  int64_t epoch = 0;  // of its lease
+  std::string content;
+};
+
 // Where solves live. Every call is one transaction and durable when it returns; any number of threads and processes may
 // call. Every call may also fail with kUnavailable (also: it may have happened), kResourceExhausted (no room on the
 // disk) or kInternal. What a person or an agent changes leaves a row in `audit` with it.
@@ -86,6 +92,11 @@ class SolveStore {
   virtual Outcome<std::vector<Outcome<LeaseState>>> AppendAll(const std::vector<EventBatch>& batches) = 0;
   // Appends `events`, then writes result or error, state and the terminal event, all in one transaction. kLeaseLost.
   virtual Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) = 0;
+  // Keeps what an attempt has come to, in place of what there was, until the solve ends: for the next attempt, wherever
+  // that runs. kLeaseLost: nothing was written.
+  virtual Outcome<Done> PutJournal(const Lease& lease, const std::string& journal) = 0;
+  // nullopt: none is kept, or there is no such solve.
+  virtual Outcome<std::optional<StoredJournal>> ReadJournal(const std::string& id) = 0;
   // Gives a solve up. Returns the state it is in now: kQueued, kFailed (too many crashes), kCancelled (that was asked
   // for). kLeaseLost.
   virtual Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) = 0;

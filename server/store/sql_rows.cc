@@ -77,6 +77,11 @@ std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& 
   return ReadSolve(query);
 }
 
+Error LeaseLost(const Lease& lease) {
+  return {ErrorCode::kLeaseLost, "the lease of " + lease.owner + " on solves/" + lease.solve_id + ", epoch " +
+                                     std::to_string(lease.epoch) + ", is lost; stop working on it"};
+}
+
 void SaveSolve(SqlConnection& connection, const SolveRow& row) {
   const SolveRecord& record = row.record;
   Query::Do(connection,
@@ -129,6 +134,7 @@ void EndSolve(SqlConnection& connection, SolveRow& row, SolveState state, const 
   row.record.verdict = result.verdict;
   row.owner.clear();
   Query::Do(connection, "DELETE FROM warm_starts WHERE solve = ?", row.number);
+  Query::Do(connection, "DELETE FROM journals WHERE solve = ?", row.number);
   AppendEvent(connection, row, EventKind::kFinished, EventAt(now_us).SerializeAsString());
   SaveSolve(connection, row);
   if (solution != row.result_id) {

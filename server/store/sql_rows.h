@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "server/base/outcome.h"
 #include "server/store/solve_record.h"
 #include "server/store/sql_connection.h"
 
@@ -37,6 +38,10 @@ SolveRow ReadSolve(const Query& query);
 
 // Nobody else changes the row until the end of the transaction.
 std::optional<SolveRow> FindSolve(SqlConnection& connection, const std::string& id);
+
+// The solve of a lease that is still held: id, owner and epoch are the lease's.
+#define ROLLGAIT_IS_LEASED "WHERE id = ? AND state = 2 AND owner = ? AND epoch = ? "
+Error LeaseLost(const Lease& lease);
 
 // Writes everything that can change. Nothing here that writes waits for the answer (Query::Do).
 void SaveSolve(SqlConnection& connection, const SolveRow& row);

@@ -10,14 +10,7 @@
 namespace rollgait::server {
 namespace {
 
-#define ROLLGAIT_IS_LEASED "WHERE id = ? AND state = 2 AND owner = ? AND epoch = ? "
-
 int64_t Nanos(std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); }
-
-Error LeaseLost(const Lease& lease) {
-  return {ErrorCode::kLeaseLost, "the lease of " + lease.owner + " on solves/" + lease.solve_id + ", epoch " +
-                                     std::to_string(lease.epoch) + ", is lost; stop working on it"};
-}
 
 // Asks for the solve of a lease, if that is still held.
 Query AskLeased(SqlConnection& connection, const Lease& lease) {

@@ -33,6 +33,7 @@ struct StoreCall {
     kRenew,
     kAppend,
     kFinish,
+    kPutJournal,
     kGiveBack,
     kReclaimExpired,
     kReclaimOwner
@@ -41,7 +42,7 @@ struct StoreCall {
   std::vector<std::string> tags = {};               // kCreate: of the solves
   std::string id = {};                              // kCancel, kSetPriority, kDelete
   std::string owner = {};                           // kClaim, kReclaimOwner
-  std::vector<SeenLease> leases = {};               // kRenew, kAppend, kFinish, kGiveBack
+  std::vector<SeenLease> leases = {};               // kRenew, kAppend, kFinish, kPutJournal, kGiveBack
   std::vector<std::vector<SeenEvent>> events = {};  // of each lease, as they are handed over
   std::string result = {};                          // kFinish: what a solve that succeeded has
   int64_t lease_us = 0;                             // kClaim, kRenew: how long the lease is to last

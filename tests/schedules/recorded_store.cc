@@ -135,6 +135,11 @@ Outcome<Done> RecordedStore::Finish(const Lease& lease, const std::vector<Stored
                       [&](const Lease& used) { return store_.Finish(used, events, end); });
 }
 
+Outcome<Done> RecordedStore::PutJournal(const Lease& lease, const std::string& journal) {
+  return RecordLeased({.kind = CallKind::kPutJournal}, lease,
+                      [&](const Lease& used) { return store_.PutJournal(used, journal); });
+}
+
 Outcome<SolveState> RecordedStore::GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) {
   return RecordLeased({.kind = CallKind::kGiveBack}, lease,
                       [&](const Lease& used) { return store_.GiveBack(used, reason, detail); });

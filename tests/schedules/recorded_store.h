@@ -41,6 +41,7 @@ class RecordedStore : public SolveStore {
   Outcome<LeaseState> AppendEvents(const Lease& lease, const std::vector<StoredEvent>& events) override;
   Outcome<std::vector<Outcome<LeaseState>>> AppendAll(const std::vector<EventBatch>& batches) override;
   Outcome<Done> Finish(const Lease& lease, const std::vector<StoredEvent>& events, const SolveEnd& end) override;
+  Outcome<Done> PutJournal(const Lease& lease, const std::string& journal) override;
   Outcome<SolveState> GiveBack(const Lease& lease, GiveBackReason reason, const std::string& detail) override;
   Outcome<std::vector<std::string>> ReclaimExpired() override;
   Outcome<std::vector<std::string>> ReclaimOwner(const std::string& owner) override;
@@ -67,6 +68,7 @@ class RecordedStore : public SolveStore {
     return store_.CancelRequests(owner);
   }
   Outcome<std::vector<LeaseOwner>> LeaseOwners() override { return store_.LeaseOwners(); }
+  Outcome<std::optional<StoredJournal>> ReadJournal(const std::string& id) override { return store_.ReadJournal(id); }
 
  private:
   // Makes the call with the model told of it.

@@ -40,9 +40,17 @@ class RunJournalTest : public AgentFixture {
   }
   // The journal of a run that has taken up what there is.
   RunJournal Journal(const ClaimedSolve& claimed, const std::string& fingerprint = "ours") {
-    RunJournal journal(spool_, claimed.lease, fingerprint);
-    journal.TakeUp(*store_, claimed.record);
+    return Journal(spool_, RunJournal::Elsewhere::kNowhere, claimed, fingerprint);
+  }
+  RunJournal Journal(const Spool& spool, RunJournal::Elsewhere elsewhere, const ClaimedSolve& claimed,
+                     const std::string& fingerprint = "ours") {
+    RunJournal journal(spool, *store_, elsewhere, claimed.lease, fingerprint);
+    journal.TakeUp(claimed.record);
     return journal;
+  }
+  // The same on a machine with a spool of its own.
+  RunJournal JournalElsewhere(const ClaimedSolve& claimed) {
+    return Journal(other_spool_, RunJournal::Elsewhere::kInStore, claimed);
   }
   std::string PathOf(const ClaimedSolve& claimed) const {
     return directory_ + "/spool/" + claimed.lease.solve_id + "-" + std::to_string(claimed.lease.epoch) + ".journal";
@@ -69,8 +77,9 @@ class RunJournalTest : public AgentFixture {
   void SetUp() override {
     AgentFixture::SetUp();
     spool_ = Spool::Open(directory_ + "/spool").value();
+    other_spool_ = Spool::Open(directory_ + "/other").value();
   }
-  Spool spool_ = Spool::Open(std::filesystem::temp_directory_path().string()).value();
+  Spool spool_ = Spool::Open(std::filesystem::temp_directory_path().string()).value(), other_spool_ = spool_;
 };
 
 TEST_F(RunJournalTest, TheNextAttemptTakesUpTheRecordsAndKnowsWhatWasReported) {
@@ -136,6 +145,65 @@ TEST_F(RunJournalTest, TheLastAttemptTakesUpWhatTheSecondCameTo) {
   EXPECT_EQ(third.records().started(), "");
   third.Remove();
   EXPECT_TRUE(spool_.JournalOwners().empty());
+}
+
+TEST_F(RunJournalTest, AnotherMachineTakesUpWhatIsInTheStore) {
+  const ClaimedSolve first = FirstAttempt();
+  {
+    RunJournal journal = Journal(spool_, RunJournal::Elsewhere::kInStore, first);
+    EXPECT_EQ(journal.Share(), RunJournal::kSharePause);
+    EXPECT_FALSE(store_->ReadJournal(first.lease.solve_id).value()) << "there is nothing yet";
+    EXPECT_TRUE(journal.Take(Started(0, "shared")));
+    journal.Save();
+    EXPECT_EQ(journal.Share(), RunJournal::kSharePause);
+    EXPECT_TRUE(journal.Take(Started(0, "in the spool alone")));
+    journal.Save();
+  }
+  GiveBack(first, GiveBackReason::kStopping);
+  const ClaimedSolve second = Claim();
+  RunJournal elsewhere = JournalElsewhere(second);
+  EXPECT_EQ(elsewhere.records().started(), "shared");
+  EXPECT_TRUE(elsewhere.HasReported(At(1, 4)));
+  // Where the first ran, its own is as new: it is saved more often.
+  RunJournal at_home = Journal(spool_, RunJournal::Elsewhere::kInStore, second);
+  EXPECT_EQ(at_home.records().started(), "in the spool alone");
+  // Not once the second has shared more.
+  EXPECT_TRUE(elsewhere.Take(Started(0, "of the second")));
+  elsewhere.Save();
+  elsewhere.Share();
+  GiveBack(second, GiveBackReason::kStopping);
+  EXPECT_EQ(Journal(spool_, RunJournal::Elsewhere::kInStore, Claim()).records().started(), "of the second");
+}
+
+TEST_F(RunJournalTest, AgentsThatShareTheSpoolPutNothingIntoTheStore) {
+  const ClaimedSolve first = FirstAttempt();
+  RunJournal journal = Journal(first);
+  EXPECT_TRUE(journal.Take(Started(0, "here")));
+  journal.Save();
+  journal.Share();
+  EXPECT_FALSE(store_->ReadJournal(first.lease.solve_id).value());
+}
+
+TEST_F(RunJournalTest, WhatIsLongIsSharedSeldom) {
+  const ClaimedSolve first = FirstAttempt();
+  RunJournal journal = Journal(spool_, RunJournal::Elsewhere::kInStore, first);
+  EXPECT_TRUE(journal.Take(Started(0, std::string(10 * RunJournal::kBytesPerSecond, 'x'))));
+  journal.Save();
+  EXPECT_GE(journal.Share(), std::chrono::seconds(10));
+  EXPECT_EQ(journal.Share(), RunJournal::kSharePause) << "it is there";
+}
+
+// Whatever it is, the solve starts from nothing.
+TEST_F(RunJournalTest, WhatIsNoJournalInTheStoreIsLeft) {
+  for (const char* content : {"what is this?", ""}) {
+    const ClaimedSolve first = FirstAttempt();
+    ASSERT_TRUE(store_->PutJournal(first.lease, content).ok());
+    GiveBack(first, GiveBackReason::kStopping);
+    const ClaimedSolve second = Claim();
+    EXPECT_EQ(JournalElsewhere(second).records().finished_size(), 0);
+    EXPECT_EQ(Journal(spool_, RunJournal::Elsewhere::kInStore, second).records().finished_size(), 1) << "its own stays";
+    ASSERT_TRUE(store_->Finish(second.lease, {}, {SolveState::kCancelled, "", "", false}).ok());
+  }
 }
 
 TEST_F(RunJournalTest, WhatASolverSendsIsBounded) {

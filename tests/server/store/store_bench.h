@@ -116,9 +116,10 @@ inline void ExpectFiltersFindThem(SolveStore& store) {
   EXPECT_EQ(Listed(store, {.labels = {{"sweep", "hills"}}}), Ids{"labelled"});
 }
 
-// Undoes what version 8 has beyond version 7; SQL of both engines.
+// Undoes what versions 8 and 9 have beyond version 7; SQL of both engines.
 inline constexpr char kBackToVersion7[] =
-    "DROP INDEX solves_queued; ALTER TABLE solves DROP COLUMN priority; ALTER TABLE tenants DROP COLUMN weight; "
+    "DROP TABLE journals; DROP INDEX solves_queued; ALTER TABLE solves DROP COLUMN priority; ALTER TABLE tenants DROP "
+    "COLUMN weight; "
     "DROP TABLE shares; UPDATE schema_version SET version = 7;";
 
 // As version 7 left it: two of red wait, then one of blue.
