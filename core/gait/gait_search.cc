@@ -1,6 +1,7 @@
 #include "core/gait/gait_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -166,7 +167,8 @@ std::optional<GaitSolution> SearchFromSymmetric(const GaitSpec& spec, SolveBudge
   }
   solution.note += " It was started from the gait of the body with both sides alike.";
   if (spec.starts == 1 && solution.objective > kDear * step.objective) {
-    solution.note += " It costs " + FormatNumber(solution.objective / step.objective) +
+    const double hundredths = std::round(100 * solution.objective / step.objective);
+    solution.note += " It costs " + FormatNumber(hundredths / 100) +
                      " times as much as with both sides alike; with 2 or more `starts` there may be a cheaper one.";
   }
   std::vector<GaitSolution> candidates;
