@@ -89,12 +89,12 @@ function trends() {
   const grid = el("div", { class: "grid three" }),
     free = el("div", { class: "grid one" });
   const small = [
-    "objective",
     "step length",
     "cadence",
     "double support",
     "largest vertical force",
     "largest knee moment",
+    "largest ankle moment",
   ].filter((n) => known(figureNamed(figures, n)[2](MOVING[0])));
   const menu = (label, value, change) => {
     const select = el(
@@ -106,7 +106,7 @@ function trends() {
     return el("label", {}, `${label} `, select);
   };
   let xName = against,
-    yName = figures.at(-1)[0];
+    yName = "objective";
   const draw = () => free.replaceChildren(trendPlot(figures, xName, yName, 260));
   const drawGrid = () => grid.replaceChildren(...small.map((name) => trendPlot(figures, xName, name)));
   draw();
