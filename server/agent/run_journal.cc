@@ -57,12 +57,15 @@ std::optional<KeptJournal> RunJournal::Newest() const {
 }
 
 void RunJournal::TakeUp(const SolveRecord& claimed) {
+  journal_.set_crashes(claimed.crashes);
   if (claimed.attempts <= 1) return;
   std::optional<KeptJournal> kept = Newest();
   if (!kept) return;
   if (kept->content.solver_fingerprint() != journal_.solver_fingerprint()) return Left("another solver wrote it");
-  if (kept->epoch + 1 < lease_.epoch && claimed.crashes + 1 >= kMaxCrashes) {
-    return Left("the attempt that went on from it crashed without getting any further");
+  // Whoever wrote it may have crashed, and nobody else.
+  const bool led_no_further = claimed.crashes > kept->content.crashes() + 1;
+  if (led_no_further && claimed.crashes + 1 >= kMaxCrashes) {
+    return Left("an attempt that went on from it crashed without getting any further");
   }
   *journal_.mutable_journal() = std::move(*kept->content.mutable_journal());
   for (const std::string& record : records().finished()) finished_bytes_ += record.size();

@@ -25,8 +25,8 @@ class RunJournal {
   RunJournal(const Spool& spool, SolveStore& store, Elsewhere elsewhere, const Lease& lease,
              const std::string& solver_fingerprint);
 
-  // Takes up what earlier attempts have left of the solve that was claimed. Left alone is a journal from which the
-  // attempt before went on and crashed without a record of its own, if another crash would be the last.
+  // Takes up what earlier attempts have left of the solve that was claimed. Left alone is a journal from which an
+  // attempt went on and crashed without a record of its own, if another crash would be the last.
   void TakeUp(const SolveRecord& claimed);
 
   // For the solver. The next attempt is to go on from there, too, until this one has come further.

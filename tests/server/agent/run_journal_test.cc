@@ -147,6 +147,23 @@ TEST_F(RunJournalTest, TheLastAttemptTakesUpWhatTheSecondCameTo) {
   EXPECT_TRUE(spool_.JournalOwners().empty());
 }
 
+// A solver that was killed before its request arrived has not failed on the records.
+TEST_F(RunJournalTest, AnAttemptThatNeverBeganIsNoReasonToLeaveThem) {
+  GiveBack(FirstAttempt(), GiveBackReason::kCrashed);
+  const ClaimedSolve second = Claim();
+  RunJournal journal = Journal(second);
+  EXPECT_TRUE(journal.Take(Finished(1, "program 1, finished")));
+  journal.Save();
+  GiveBack(second, GiveBackReason::kCrashed);
+  const ClaimedSolve third = Claim();
+  EXPECT_EQ(Journal(third).records().finished_size(), 2);
+  GiveBack(third, GiveBackReason::kNeverBegan);
+  const ClaimedSolve fourth = Claim();
+  EXPECT_EQ(Journal(fourth).records().finished_size(), 2);
+  GiveBack(fourth, GiveBackReason::kStopping);
+  EXPECT_EQ(Journal(Claim()).records().finished_size(), 2);
+}
+
 TEST_F(RunJournalTest, AnotherMachineTakesUpWhatIsInTheStore) {
   const ClaimedSolve first = FirstAttempt();
   {
