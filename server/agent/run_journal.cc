@@ -131,6 +131,12 @@ void RunJournal::Save() {
   to_share_ = elsewhere_ == Elsewhere::kInStore;
 }
 
+void RunJournal::Keep(std::chrono::steady_clock::time_point now) {
+  Save();
+  if (!share_at_) share_at_ = now + kSharePause;
+  if (now >= *share_at_) share_at_ = now + Share();
+}
+
 std::chrono::milliseconds RunJournal::Share() {
   if (!to_share_) return kSharePause;
   to_share_ = false;

@@ -44,6 +44,8 @@ class RunJournal {
   // out. A failure costs the next attempt time and is logged once.
   bool changed() const { return changed_; }
   void Save();
+  // Saves, and shares if it is time. `now` never goes back.
+  void Keep(std::chrono::steady_clock::time_point now);
   // Puts into the store what was saved, unless it is there; nothing if the spool is all there is. A failure is like one
   // of Save. Returns how long to wait before the next time, so that a store gets no more than kBytesPerSecond of a
   // solve.
@@ -67,6 +69,7 @@ class RunJournal {
   std::optional<std::pair<int, int>> reported_;
   bool changed_ = false, full_ = false, failed_ = false;
   bool to_share_ = false, share_failed_ = false;
+  std::optional<std::chrono::steady_clock::time_point> share_at_;
 };
 
 }  // namespace rollgait::server

@@ -60,7 +60,6 @@ SolveRun::SolveRun(const Context& context, ClaimedSolve claimed, std::unique_ptr
       process_(std::move(process)),
       next_sequence_(claimed.record.last_sequence + 1) {
   renew_at_ = now + context_.lease / 3;
-  share_at_ = now + RunJournal::kSharePause;
   v1::SolveSpec spec;  // one that cannot be read is the solver's to refuse
   if (!spec.ParseFromString(claimed.record.spec)) spec.Clear();
   wall_end_ = now + WallTime(spec) + context_.wall_grace;
@@ -216,12 +215,7 @@ void SolveRun::NoEvents(SteadyTime now) {
   if (!events_due(now) || state_ != State::kSolving) return;
   const LogScope scope(fields_);
   flush_at_.reset();
-  KeepJournal(now);
-}
-
-void SolveRun::KeepJournal(SteadyTime now) {
-  journal_.Save();
-  if (now >= share_at_) share_at_ = now + journal_.Share();
+  journal_.Keep(now);
 }
 
 void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now) {
@@ -237,7 +231,7 @@ void SolveRun::EventsStored(const Outcome<LeaseState>& appended, SteadyTime now)
   pending_.clear();
   solution_.clear();
   next_sequence_ = appended.value().last_sequence + 1;
-  KeepJournal(now);
+  journal_.Keep(now);
   context_.poke(id());
   if (appended.value().cancel_requested) Cancel();
 }

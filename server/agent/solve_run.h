@@ -95,7 +95,6 @@ class SolveRun {
   void KillBy(SteadyTime deadline);
   void LoseLease(const std::string& reason);
 
-  void KeepJournal(SteadyTime now);
   void PutIntoSpool();
   Outcome<SolveState> GiveBack(GiveBackReason reason, const std::string& detail);
 
@@ -125,7 +124,7 @@ class SolveRun {
   bool out_of_time_ = false;
   bool grace_begins_ = false;  // it has been asked to stop; its time to do so counts from the next Service
   std::optional<SteadyTime> flush_at_, kill_at_;
-  SteadyTime renew_at_, wall_end_, commit_at_, share_at_;
+  SteadyTime renew_at_, wall_end_, commit_at_;
   std::variant<SolveEnd, Crash> outcome_;  // while committing
 };
 
