@@ -21,7 +21,9 @@ import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 WORST = 1.2
-SIZES = {"creates": ["--max-queued", "1000000"], "overload": ["--max-queued", "100"]}  # as service_load gives its own server
+# As service_load gives its own server. Slots: a core each where nothing is said.
+SIZES = {"creates": ["--max-queued", "1000000"], "overload": ["--max-queued", "100"]}
+SLOTS = {"watch": 20, "first-iteration": os.cpu_count() + 1}
 # Of one address, which all clients of this program have: connections, and calls a second.
 DOOR = {"ROLLGAIT_DOOR_PER_SOURCE": "64"}
 # The door lets an address make 3000 calls a second; overload asks for as many, drawn at random.
@@ -58,7 +60,7 @@ def identity(directory):
 
 
 @contextlib.contextmanager
-def serve(build, directory, flags, with_door):
+def serve(build, directory, flags, slots, with_door):
     """The address of a new server, and the file of a token."""
     os.mkdir(f"{directory}/run")
     port, own, started = free_port(), f"{directory}/run", []
@@ -68,7 +70,7 @@ def serve(build, directory, flags, with_door):
         try:
             started.append(subprocess.Popen(
                 [f"{build}/bin/rollgaitd", "--data-dir", f"{own}/data", "--require-token", "--log-level", "warning", "--solver-slots",
-                 str(os.cpu_count()), *listen, *flags], stdout=subprocess.PIPE, stderr=log))
+                 str(slots), *listen, *flags], stdout=subprocess.PIPE, stderr=log))
             started[0].stdout.readline()
             if with_door:
                 started.append(subprocess.Popen(
@@ -90,7 +92,7 @@ def serve(build, directory, flags, with_door):
 
 def measure(build, directory, scenario, seconds, with_door):
     """The figures of one run."""
-    with serve(build, directory, SIZES.get(scenario, []), with_door) as (address, token):
+    with serve(build, directory, SIZES.get(scenario, []), SLOTS.get(scenario, os.cpu_count()), with_door) as (address, token):
         said = subprocess.run([f"{build}/bin/service_load", scenario, "--json", "--seconds", str(seconds), "--target", address, "--tls-ca",
                                f"{directory}/ca.crt", "--token-file", token, *RATES.get(scenario, [])],
                               capture_output=True, text=True, check=False)
