@@ -43,6 +43,7 @@ Outcome<bool> SolveFeed::Refresh() {
     position = last_sequence_;
   }
   Outcome<std::vector<EventPtr>> read = Read(position, static_cast<int>(kHeld));
+  if (!read.ok() && read.error().code == ErrorCode::kOutOfRange) return SkipRemoved(read.error());
   if (!read.ok() && read.error().code != ErrorCode::kNotFound) return read.error();
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!read.ok()) {
@@ -60,6 +61,23 @@ Outcome<bool> SolveFeed::Refresh() {
     if (held_.size() > kHeld) held_.pop_front();
   }
   return !read.value().empty();
+}
+
+Outcome<bool> SolveFeed::SkipRemoved(const Error& refusal) {
+  const Outcome<std::map<std::string, int64_t>> newest = store_.LastSequences({id_});
+  if (!newest.ok()) return newest.error();
+  const auto number = newest.value().find(id_);
+  const int64_t last = number == newest.value().end() ? 0 : number->second;
+  const Outcome<EventPage> page = store_.ReadEvents(id_, last, 0);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  held_.clear();
+  if (!page.ok() || last < last_sequence_) {
+    gone_ = page.ok() ? refusal : page.error();
+    return true;
+  }
+  last_sequence_ = last;
+  terminal_ = IsTerminal(page.value().state);
+  return true;
 }
 
 bool SolveFeed::RefreshIterate() {

@@ -34,7 +34,7 @@ class SolveFeed {
   std::shared_ptr<const v1::Iterate> iterate() const;
   int64_t iterate_number() const { return iterate_number_; }
   // At most max_events events after `position`, from memory if they are all there. May read the store. kNotFound: the
-  // solve was deleted, and all that is held was delivered.
+  // solve was deleted, and all that is held was delivered. kOutOfRange: retention has removed some of them.
   Outcome<std::vector<EventPtr>> After(int64_t position, int max_events);
   // Number of the newest event known here.
   int64_t last_sequence() const;
@@ -48,6 +48,9 @@ class SolveFeed {
   static constexpr size_t kLongestHeld = 64 << 10;
 
   Outcome<std::vector<EventPtr>> Read(int64_t position, int max_events);
+  // After the store has refused what is new with kOutOfRange: retention has removed it, and readers who have not got as
+  // far are refused by After. Where the store has fewer events than this feed (it is an older one), After refuses all.
+  Outcome<bool> SkipRemoved(const Error& refusal);
   Outcome<EventPtr> Decode(const StoredEvent& event);
 
   SolveStore& store_;

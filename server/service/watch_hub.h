@@ -55,7 +55,7 @@ class Watch : public EventSource {
 
   // Events that follow those taken before, at most kMaxBatch, and the newest iterate if the reader wants one now; none
   // if there is nothing new, or a heartbeat if nothing was taken for the heartbeat interval. May read the store.
-  // kUnavailable: the server is stopping. kNotFound: it was deleted.
+  // kUnavailable: the server is stopping. kNotFound: it was deleted. kOutOfRange: retention has removed what follows.
   Outcome<WatchBatch> Take() override;
 
   static constexpr int kMaxBatch = 64;
