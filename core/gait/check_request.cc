@@ -186,9 +186,9 @@ Result<GaitSpec> Check(const GaitRequest& given, Symmetric with) {
   std::vector<GaitSpec::CostTerm> costs = CheckCosts(request, known, similarity, check);
   if (HasRates(costs) && !HasRatesOfEfforts(request.discretization.scheme)) {
     check.Add("discretization.scheme",
-              std::string("has efforts that are constant in every interval, and the cost has a term of rates, which "
-                          "would keep them from ever changing; take ") +
-                  TraitsOf(Scheme::kShootingLinear).word + ", or leave the term out");
+              "has efforts that are constant in every interval, and the cost has " + NamesOfRates(costs) +
+                  ", which would keep them from ever changing; take " + TraitsOf(Scheme::kShootingLinear).word +
+                  ", or give a weight of 0 to what comes from the preset and leave out the rest");
   }
 
   const CheckedGround ground = CheckGround(request.ground_contact, check);

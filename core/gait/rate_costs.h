@@ -1,6 +1,9 @@
 #ifndef ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
 #define ROLLGAIT_CORE_GAIT_RATE_COSTS_H_
 
+#include <string>
+#include <vector>
+
 #include "core/gait/gait_spec.h"
 
 namespace rollgait {
@@ -9,6 +12,9 @@ namespace rollgait {
 // come down and lift off, and how fast, only short intervals tell.
 bool HasRates(const std::vector<GaitSpec::CostTerm>& costs);
 inline bool HasRates(const GaitSpec& spec) { return HasRates(spec.costs); }
+
+// The fields of the terms of rates that have a price, "squared_torque_rate and squared_force_rate"; empty: none has.
+std::string NamesOfRates(const std::vector<GaitSpec::CostTerm>& costs);
 
 }  // namespace rollgait
 
