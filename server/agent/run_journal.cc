@@ -139,13 +139,12 @@ void RunJournal::Keep(std::chrono::steady_clock::time_point now) {
 
 std::chrono::milliseconds RunJournal::Share() {
   if (!to_share_) return kSharePause;
-  to_share_ = false;
   const std::string content = journal_.SerializeAsString();
   const Outcome<Done> put = store_.PutJournal(lease_, content);
   if (!put.ok() && !share_failed_) {
     LogEvent(spdlog::level::warn, "solve.journal_not_shared", {{"reason", put.error().message}});
   }
-  share_failed_ = !put.ok();
+  share_failed_ = to_share_ = !put.ok();
   return std::max(kSharePause, std::chrono::milliseconds(1000 * content.size() / kBytesPerSecond));
 }
 

@@ -69,6 +69,7 @@ Outcome<bool> SolveFeed::SkipRemoved(const Error& refusal) {
   const auto number = newest.value().find(id_);
   const int64_t last = number == newest.value().end() ? 0 : number->second;
   const Outcome<EventPage> page = store_.ReadEvents(id_, last, 0);
+  if (!page.ok() && page.error().code != ErrorCode::kNotFound) return page.error();
   const std::lock_guard<std::mutex> lock(mutex_);
   held_.clear();
   if (!page.ok() || last < last_sequence_) {

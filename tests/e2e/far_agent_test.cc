@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "tests/e2e/daemon.h"
+#include "tests/e2e/watching.h"
 #include "tests/server/store/temporary_directory.h"
 #include "tests/support/postgres_cluster.h"
 
@@ -26,9 +27,9 @@ TEST(FarAgentTest, ASolveThatIsGivenBackGoesOnElsewhere) {
   FarAgent first(cluster.Url(), directory.path() + "/first", REAL_SOLVER);
   v1::SolveSpec spec;
   spec.mutable_model()->set_name("human29");
-  const std::string name = CreateSolve(*server.NewStub(), spec);
+  const std::string name = CreateSolve(*server.NewStub(), spec).name();
   Seen seen;
-  WatchOn(*server.NewStub(), name, seen, 30);
+  WatchOn(*server.NewStub(), name, seen, Iterations(30));
   EXPECT_EQ(first.End(SIGTERM), 0);
   ASSERT_EQ(cluster.Execute("SELECT COUNT(*) FROM journals"), "1") << "the solve was over before its agent";
   FarAgent second(cluster.Url(), directory.path() + "/second", REAL_SOLVER);

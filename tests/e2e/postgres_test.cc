@@ -6,6 +6,7 @@
 
 #include "tests/e2e/daemon.h"
 #include "tests/e2e/far_agent.h"
+#include "tests/e2e/watching.h"
 #include "tests/server/store/temporary_directory.h"
 #include "tests/support/postgres_cluster.h"
 
@@ -18,7 +19,7 @@ std::string Create(Stub& stub, int iterations) {
   v1::SolveSpec spec;
   spec.mutable_model()->set_name("planar");
   spec.mutable_solver_limits()->set_max_iterations(iterations);
-  return CreateSolve(stub, spec);
+  return CreateSolve(stub, spec).name();
 }
 
 class PostgresTest : public testing::Test {
@@ -56,7 +57,7 @@ TEST_F(PostgresTest, SeveralServersServeTheSameSolves) {
   // A cancellation by the other server reaches the solver.
   const std::string endless = Create(*one->NewStub(), 100'000);
   Seen cancelled;
-  WatchOn(*one->NewStub(), endless, cancelled, 3);
+  WatchOn(*one->NewStub(), endless, cancelled, Iterations(3));
   grpc::ClientContext context;
   v1::CancelSolveRequest request;
   request.set_name(endless);
@@ -72,7 +73,7 @@ TEST_F(PostgresTest, TheSolvesOfADeadAgentRunElsewhereWhenTheirLeaseIsOver) {
   auto first = std::make_unique<FarAgent>(cluster_.Url(), Directory("first"), SLOW_SOLVER);
   const std::string name = Create(*server->NewStub(), 100);
   Seen seen;
-  WatchOn(*server->NewStub(), name, seen, 10);
+  WatchOn(*server->NewStub(), name, seen, Iterations(10));
   first->End(SIGKILL);
   FarAgent second(cluster_.Url(), Directory("second"), SLOW_SOLVER);
   EXPECT_TRUE(WatchOn(*server->NewStub(), name, seen).ok());
@@ -87,11 +88,11 @@ TEST_F(PostgresTest, AnAgentThatStoodStillBeyondItsLeaseWritesNothingMore) {
   FarAgent first(cluster_.Url(), Directory("first"), SLOW_SOLVER);
   const std::string name = Create(*server->NewStub(), 500);
   Seen seen;
-  WatchOn(*server->NewStub(), name, seen, 10);
+  WatchOn(*server->NewStub(), name, seen, Iterations(10));
   first.Signal(SIGSTOP);
   FarAgent second(cluster_.Url(), Directory("second"), SLOW_SOLVER);
   // The second attempt has begun: the watcher sees more than the first one can have sent.
-  WatchOn(*server->NewStub(), name, seen, seen.iterations + 30);
+  WatchOn(*server->NewStub(), name, seen, Iterations(seen.iterations + 30));
   first.Signal(SIGCONT);
   EXPECT_TRUE(WatchOn(*server->NewStub(), name, seen).ok());
   EXPECT_TRUE(seen.dense);
@@ -106,7 +107,7 @@ TEST_F(PostgresTest, SigtermGivesTheSolvesOfAnAgentBackAtOnce) {
   FarAgent first(cluster_.Url(), Directory("first"), SLOW_SOLVER);
   const std::string name = Create(*server->NewStub(), 60);
   Seen seen;
-  WatchOn(*server->NewStub(), name, seen, 10);
+  WatchOn(*server->NewStub(), name, seen, Iterations(10));
   EXPECT_EQ(first.End(SIGTERM), 0);
   EXPECT_EQ(cluster_.Execute("SELECT COUNT(*) FROM solves WHERE state = 1"), "1");
   FarAgent second(cluster_.Url(), Directory("second"), SLOW_SOLVER);

@@ -9,6 +9,7 @@
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "tests/e2e/daemon.h"
+#include "tests/e2e/watching.h"
 #include "tests/server/store/temporary_directory.h"
 
 namespace rollgait::server {
@@ -25,16 +26,6 @@ v1::SolveSpec Spec(int iterations, double slope = 0) {
   return spec;
 }
 
-v1::Solve Create(Stub& stub, const v1::SolveSpec& spec) {
-  grpc::ClientContext context;
-  v1::CreateSolveRequest request;
-  *request.mutable_spec() = spec;
-  v1::Solve solve;
-  const grpc::Status status = stub.CreateSolve(&context, request, &solve);
-  EXPECT_TRUE(status.ok()) << status.error_message();
-  return solve;
-}
-
 v1::Solve Get(Stub& stub, const std::string& name) {
   grpc::ClientContext context;
   v1::GetSolveRequest request;
@@ -42,46 +33,6 @@ v1::Solve Get(Stub& stub, const std::string& name) {
   v1::Solve solve;
   EXPECT_TRUE(stub.GetSolve(&context, request, &solve).ok());
   return solve;
-}
-
-// What a client has seen of a solve, over any number of connections.
-struct Seen {
-  int64_t last = 0;
-  bool dense = true;
-  int iterations = 0;
-  std::vector<std::pair<v1::SolveState, int>> states;  // with attempt
-  v1::Solve finished;
-  bool has_finished = false;
-
-  void Add(const v1::SolveEvent& event) {
-    if (event.has_heartbeat()) {
-      dense = dense && event.sequence() == last;
-      return;
-    }
-    dense = dense && event.sequence() == last + event.skipped_count() + 1;
-    last = event.sequence();
-    if (event.has_iteration()) iterations += 1 + event.skipped_count();
-    if (event.has_state_change()) states.emplace_back(event.state_change().state(), event.state_change().attempt());
-    if (event.has_finished()) {
-      finished = event.finished();
-      has_finished = true;
-    }
-  }
-};
-
-// Watches on from what was seen until the stream ends or `enough` holds. Returns how the stream ended.
-grpc::Status WatchOn(
-    Stub& stub, const std::string& name, Seen& seen,
-    const std::function<bool(const Seen&)>& enough = [](const Seen&) { return false; }) {
-  grpc::ClientContext context;
-  v1::WatchSolveRequest request;
-  request.set_name(name);
-  request.set_after_sequence(seen.last);
-  const auto stream = stub.WatchSolve(&context, request);
-  v1::SolveEvent event;
-  while (!enough(seen) && stream->Read(&event)) seen.Add(event);
-  if (enough(seen)) context.TryCancel();
-  return stream->Finish();
 }
 
 // Waits until the condition holds; the bound only ends a hung test.
@@ -115,7 +66,7 @@ TEST_F(ServerTest, ASolveRunsAndAnEqualOneIsAnsweredFromTheStoreAlsoAfterARestar
     address = daemon.address();
     const auto stub = daemon.NewStub();
     Seen seen;
-    const v1::Solve solve = Create(*stub, Spec(5));
+    const v1::Solve solve = CreateSolve(*stub, Spec(5));
     ASSERT_TRUE(WatchOn(*stub, solve.name(), seen).ok());
     EXPECT_TRUE(seen.dense);
     EXPECT_EQ(seen.iterations, 5);
@@ -128,17 +79,17 @@ TEST_F(ServerTest, ASolveRunsAndAnEqualOneIsAnsweredFromTheStoreAlsoAfterARestar
   Daemon daemon(Options(address));
   ASSERT_EQ(daemon.address(), address);
   const auto stub = daemon.NewStub();
-  const v1::Solve again = Create(*stub, Spec(5));
+  const v1::Solve again = CreateSolve(*stub, Spec(5));
   EXPECT_TRUE(again.from_cache());
   EXPECT_EQ(again.result().message(), "from the test's solver");
-  EXPECT_FALSE(Create(*stub, Spec(6)).from_cache());
+  EXPECT_FALSE(CreateSolve(*stub, Spec(6)).from_cache());
 }
 
 TEST_F(ServerTest, KillOfTheServerInAStreamLosesNothing) {
   auto daemon = std::make_unique<Daemon>(Options());
   ASSERT_NE(daemon->address(), "");
   const std::string address = daemon->address();
-  const std::string name = Create(*daemon->NewStub(), Spec(200)).name();
+  const std::string name = CreateSolve(*daemon->NewStub(), Spec(200)).name();
   Seen seen;
   std::thread killer;
   const grpc::Status broken = WatchOn(*daemon->NewStub(), name, seen, [&](const Seen& all) {
@@ -162,7 +113,7 @@ TEST_F(ServerTest, KillOfTheServerInAStreamLosesNothing) {
 TEST_F(ServerTest, DeathOfEverythingRunsTheSolveAgainAndNumbersGoOn) {
   auto daemon = std::make_unique<Daemon>(Options());
   ASSERT_NE(daemon->address(), "");
-  const std::string name = Create(*daemon->NewStub(), Spec(50)).name();
+  const std::string name = CreateSolve(*daemon->NewStub(), Spec(50)).name();
   Seen seen;
   WatchOn(*daemon->NewStub(), name, seen, [](const Seen& all) { return all.iterations >= 10; });
   daemon->Kill();
@@ -180,7 +131,7 @@ TEST_F(ServerTest, ADeadAgentIsReplacedAndItsSolveRunsAgain) {
   const Daemon daemon(Options());
   ASSERT_NE(daemon.address(), "");
   const auto stub = daemon.NewStub();
-  const std::string name = Create(*stub, Spec(50)).name();
+  const std::string name = CreateSolve(*stub, Spec(50)).name();
   Seen seen;
   WatchOn(*stub, name, seen, [](const Seen& all) { return all.iterations >= 10; });
   KillAgents(data_dir());
@@ -194,7 +145,7 @@ TEST_F(ServerTest, AnAgentWithoutAServerFinishesItsSolveAndGoes) {
   auto daemon = std::make_unique<Daemon>(Options());
   ASSERT_NE(daemon->address(), "");
   const auto stub = daemon->NewStub();
-  const std::string running = Create(*stub, Spec(60)).name();
+  const std::string running = CreateSolve(*stub, Spec(60)).name();
   Seen seen;
   WatchOn(*stub, running, seen, [](const Seen& all) { return all.iterations >= 5; });
   ASSERT_EQ(AgentsOf(data_dir()).size(), 1u);
@@ -210,7 +161,7 @@ TEST_F(ServerTest, ARunningSolveIsCancelled) {
   const Daemon daemon(Options());
   ASSERT_NE(daemon.address(), "");
   const auto stub = daemon.NewStub();
-  const std::string name = Create(*stub, Spec(100'000)).name();
+  const std::string name = CreateSolve(*stub, Spec(100'000)).name();
   Seen seen;
   WatchOn(*stub, name, seen, [](const Seen& all) { return all.iterations >= 3; });
   grpc::ClientContext context;
@@ -227,7 +178,7 @@ TEST_F(ServerTest, ARunningSolveIsCancelled) {
 TEST_F(ServerTest, SigtermGivesRunningSolvesBack) {
   auto daemon = std::make_unique<Daemon>(Options());
   ASSERT_NE(daemon->address(), "");
-  const std::string name = Create(*daemon->NewStub(), Spec(100)).name();
+  const std::string name = CreateSolve(*daemon->NewStub(), Spec(100)).name();
   Seen seen;
   WatchOn(*daemon->NewStub(), name, seen, [](const Seen& all) { return all.iterations >= 5; });
   std::thread stopper;

@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "server/base/journal_limits.h"
+#include "server/base/metrics.h"
+#include "server/store/measured_store.h"
 #include "tests/server/agent/agent_fixture.h"
 
 namespace rollgait::server {
@@ -190,6 +192,50 @@ TEST_F(RunJournalTest, AnotherMachineTakesUpWhatIsInTheStore) {
   elsewhere.Share();
   GiveBack(second, GiveBackReason::kStopping);
   EXPECT_EQ(Journal(spool_, RunJournal::Elsewhere::kInStore, Claim()).records().started(), "of the second");
+}
+
+TEST_F(RunJournalTest, ARunningSolveIsSharedFromTimeToTime) {
+  using std::chrono::milliseconds;
+  const ClaimedSolve first = FirstAttempt();
+  RunJournal journal = Journal(spool_, RunJournal::Elsewhere::kInStore, first);
+  const std::chrono::steady_clock::time_point start{};
+  const auto shared_at = [&](milliseconds time, const std::string& state) {
+    EXPECT_TRUE(journal.Take(Started(0, state)));
+    journal.Keep(start + time);
+    const std::optional<StoredJournal> stored = store_->ReadJournal(first.lease.solve_id).value();
+    return stored && stored->content.find(state) != std::string::npos;
+  };
+  constexpr milliseconds kPause = RunJournal::kSharePause, kInstant(1);
+  EXPECT_FALSE(shared_at(milliseconds(0), "a solve that is soon over costs the store nothing"));
+  EXPECT_FALSE(shared_at(kPause - kInstant, "not yet"));
+  EXPECT_TRUE(shared_at(kPause, "now"));
+  EXPECT_FALSE(shared_at(2 * kPause - kInstant, "not again"));
+  EXPECT_TRUE(shared_at(2 * kPause, "again"));
+}
+
+// The solve is given back until the store takes it; what it has come to must not have got lost before.
+TEST_F(RunJournalTest, WhatTheStoreDidNotTakeIsSharedNextTime) {
+  class Away : public MeasuredStore {
+   public:
+    using MeasuredStore::MeasuredStore;
+    Outcome<Done> PutJournal(const Lease& lease, const std::string& journal) override {
+      if (away) return ::rollgait::server::Error{ErrorCode::kUnavailable, "away"};
+      return MeasuredStore::PutJournal(lease, journal);
+    }
+    bool away = true;
+  };
+  const ClaimedSolve first = FirstAttempt();
+  Metrics metrics("test", "0", "build");
+  Away store(*store_, metrics);
+  RunJournal journal(spool_, store, RunJournal::Elsewhere::kInStore, first.lease, "ours");
+  EXPECT_TRUE(journal.Take(Started(0, "kept")));
+  journal.Save();
+  journal.Share();
+  EXPECT_FALSE(store_->ReadJournal(first.lease.solve_id).value());
+  store.away = false;
+  journal.Save();
+  journal.Share();
+  EXPECT_TRUE(store_->ReadJournal(first.lease.solve_id).value());
 }
 
 TEST_F(RunJournalTest, AgentsThatShareTheSpoolPutNothingIntoTheStore) {

@@ -59,6 +59,8 @@ class PageTest(unittest.TestCase):
 
     def test_views_and_arrangement(self):
         self.open(reports.several(3))
+        vertical = "document.querySelector('select[aria-label=vertical]').value"
+        self.assertEqual(browser.evaluate(vertical), "objective")
         pictures = set()
         for view in ("3D", "Side", "Front", "Top", "Below"):
             browser.evaluate(f"press('{view}')")
